@@ -1,0 +1,1 @@
+"""fingerpad: predicts how rough a distributed haptic device feels."""

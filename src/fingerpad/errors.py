@@ -1,0 +1,25 @@
+"""Named errors: one class for each way in which a user or a computation can fail."""
+
+
+class FingerpadError(Exception):
+    """Base of every error that fingerpad raises on purpose."""
+
+
+class SceneError(FingerpadError):
+    """A scene file or a scene is not valid; the message names file, key, found and allowed."""
+
+
+class RatingError(FingerpadError):
+    """A table of ratings does not fit the devices it rates."""
+
+
+class MeshError(FingerpadError):
+    """The section cannot be meshed, or a mesh came out inverted."""
+
+
+class CondensationError(FingerpadError):
+    """The factorised stiffness failed its own residual check."""
+
+
+class ContactError(FingerpadError):
+    """A frictional contact path could not be followed, or a solution failed its certificate."""
