@@ -342,14 +342,15 @@ class ReadoutRule:
 class Numerics:
     """Mesh sizes [mm], load increments and tolerances.
 
-    edge_size: element size on the skin at an actuator's edge. face_size: largest on the skin under an actuator.
-    growth: growth of element size with distance [1]. receptor_size: largest on the receptor line. largest_size:
-    anywhere. indentation_increments, stimulus_increments: load increments (per segment of a stimulus).
+    edge_size: element size on the skin within edge_zone of an actuator's edge. face_size: largest on the skin under an
+    actuator. growth: growth of element size with distance [1]. receptor_size: largest on the receptor line.
+    largest_size: anywhere. indentation_increments, stimulus_increments: load increments (per segment of a stimulus).
     newton_tolerance: on forces relative to the largest and on gaps relative to the load. max_cuts: how often an
     increment may be halved.
     """
 
     edge_size: float
+    edge_zone: float
     face_size: float
     growth: float
     receptor_size: float
@@ -363,6 +364,7 @@ class Numerics:
         _require_positive(
             "numerics",
             edge_size=self.edge_size,
+            edge_zone=self.edge_zone,
             face_size=self.face_size,
             growth=self.growth,
             receptor_size=self.receptor_size,

@@ -37,15 +37,37 @@ CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; 
 
 
 def read_yaml(path: Path) -> dict[str, Any]:
-    """The mapping in a YAML file. Raises SceneError if the file is missing, empty, or not YAML."""
+    """The mapping in a YAML file. Raises SceneError if the file is missing, empty, not YAML, or has a key twice."""
+
+    class Loader(yaml.SafeLoader):
+        """Refuses a mapping that has a key twice; PyYAML alone would take the last."""
+
+        def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
+            node = super().compose_mapping_node(anchor)
+            seen: dict[str, int] = {}
+            for key, _ in node.value:
+                if not isinstance(key, yaml.ScalarNode):
+                    continue
+                if key.value in seen:
+                    problem = f"found the key {key.value!r} twice (first in line {seen[key.value]}), allowed once"
+                    raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
+                seen[key.value] = key.start_mark.line + 1
+            return node
+
     try:
-        document = yaml.safe_load(path.read_text(encoding="utf-8"))
+        document = yaml.load(path.read_text(encoding="utf-8"), Loader)  # Loader is a SafeLoader
     except OSError as error:
-        raise SceneError(f"{path}: cannot be read: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise SceneError(f"{path}: is not valid YAML: {error}") from error
+        raise SceneError(f"{path}: cannot be read as a YAML file: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{path}: must be UTF-8 text, found byte 0x{error.object[error.start]:02x}") from error
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        where = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+        raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}") from error
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise SceneError(f"{path}: is not valid YAML: {' '.join(str(error).split())}") from error
     if not isinstance(document, dict):
-        found = "an empty file" if document is None else f"a {type(document).__name__}"
+        found = "an empty file" if document is None else f"the {type(document).__name__} {document!r:.40}"
         raise SceneError(f"{path}: must hold a mapping of keys to values, found {found}")
     return document
 

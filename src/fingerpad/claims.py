@@ -1,0 +1,280 @@
+"""The paper's statements, each checked against computed scores and correlations.
+
+Nothing here knows how a check will end: a claim is a test together with the numbers it looked at.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import pandas as pd
+
+from .perception import CONSTANT, KEY, NO_PREDICTION
+from .scene import Interface, Readout
+
+COLUMNS = ["claim", "source", "holds", "evidence"]
+DISPERSIONS = ("low", "medium", "high")
+PHASES = (0.0, 90.0, 180.0)
+
+Key = tuple[str, str, str]  # device, interface, readout
+Chain = Sequence[tuple[str, float]]  # (label, score), in the order in which the scores should rise
+Verdict = tuple[bool, str]  # whether it holds, evidence
+
+
+class _AbsentError(Exception):
+    """A claim needs a number which the tables do not hold."""
+
+
+@dataclass(frozen=True)
+class _Scores:
+    """The scores of one key [in `unit`] by (dispersion, phase [deg]), and what is noted beside them."""
+
+    values: Mapping[tuple[str, float], float]
+    unit: str
+    notes: tuple[str, ...]
+
+    def __getitem__(self, condition: tuple[str, float]) -> float:
+        value = self.values.get(condition, math.nan)
+        if math.isnan(value):
+            raise _AbsentError
+        return value
+
+
+@dataclass(frozen=True)
+class _Tables:
+    by_key: Mapping[Key, _Scores]
+    correlations: Mapping[Key, Mapping[str, Any]]
+
+    def scores(self, *key: str) -> _Scores:
+        device, interface, readout = key
+        if (device, interface, readout) not in self.by_key:
+            raise _AbsentError
+        return self.by_key[device, interface, readout]
+
+    def correlation(self, *key: str) -> Mapping[str, Any]:
+        device, interface, readout = key
+        row = self.correlations.get((device, interface, readout), {"n": 0})
+        if row["n"] == 0:
+            raise _AbsentError
+        return row
+
+
+@dataclass(frozen=True)
+class _Claim:
+    text: str
+    source: str
+    check: Callable[[_Tables], Verdict]
+
+
+def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFrame:
+    """Which of the paper's statements hold.
+
+    scores: columns device, condition, dispersion, phase_deg, interface, readout, score [in `unit`, NaN without a
+    prediction], unit, note. correlations: from `perception.correlation_table`, or its CSV read back.
+
+    Returns the columns claim, source, holds (True or False) and evidence (a sentence with the numbers). To rise
+    means by more than the solver's tolerance. A claim which needs a score or a rating that is not there has no row:
+    it is neither confirmed nor refuted.
+    """
+    tables = _tables(scores, correlations)
+    rows = []
+    for claim in _CLAIMS:
+        try:
+            holds, evidence = claim.check(tables)
+        except _AbsentError:
+            continue
+        rows.append((claim.text, claim.source, holds, evidence))
+    return pd.DataFrame(rows, columns=COLUMNS).astype({"holds": bool})
+
+
+def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:
+    by_key = {}
+    for (device, interface, readout), group in scores.groupby(KEY, sort=False):
+        rows = group[["dispersion", "phase_deg", "score"]].itertuples(index=False)
+        by_key[device, interface, readout] = _Scores(
+            {(dispersion, float(phase)): float(score) for dispersion, phase, score in rows},
+            group["unit"].iloc[0],
+            tuple(group["note"].fillna("").unique()),
+        )
+    records = {(row["device"], row["interface"], row["readout"]): row for row in correlations.to_dict("records")}
+    return _Tables(by_key, records)
+
+
+# --- orders --------------------------------------------------------------------------------------------------------
+
+
+def _step(low: float, high: float) -> str:
+    """How two scores compare: `<`, `=` (within the solver's tolerance) or `>`."""
+    if abs(high - low) <= CONSTANT * max(abs(low), abs(high)):
+        return "="
+    return "<" if low < high else ">"
+
+
+def _steps(chain: Chain) -> list[str]:
+    return [_step(low, high) for (_, low), (_, high) in pairwise(chain)]
+
+
+def _rises(chain: Chain) -> bool:
+    return all(step == "<" for step in _steps(chain))
+
+
+def _shown(chain: Chain) -> str:
+    """The chain as it is, right or wrong: `0°: 1.2 < 90°: 1.5 > 180°: 1.3`."""
+    texts = [f"{label}: {score:.4g}" for label, score in chain]
+    return " ".join([texts[0], *(f"{step} {text}" for step, text in zip(_steps(chain), texts[1:], strict=True))])
+
+
+def _by_phase(scores: _Scores, dispersion: str, phases: Sequence[float] = PHASES) -> Chain:
+    return [(f"{phase:g}°", scores[dispersion, phase]) for phase in phases]
+
+
+def _by_dispersion(scores: _Scores, phase: float) -> Chain:
+    return [(dispersion, scores[dispersion, phase]) for dispersion in DISPERSIONS]
+
+
+def _change_rises(device: str, phases: Sequence[float]) -> Callable[[_Tables], Verdict]:
+    """With shear, the change-of-strain score rises along these phases."""
+
+    def check(tables: _Tables) -> Verdict:
+        scores = tables.scores(device, Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
+        chain = _by_phase(scores, "alternate", phases)
+        return _rises(chain), f"Scores [{scores.unit}]: {_shown(chain)}."
+
+    return check
+
+
+def _device1_phase(tables: _Tables) -> Verdict:
+    scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
+    chains = {dispersion: _by_phase(scores, dispersion) for dispersion in DISPERSIONS}
+    shown = "; ".join(f"{dispersion} dispersion {_shown(chain)}" for dispersion, chain in chains.items())
+    return all(map(_rises, chains.values())), f"Scores [{scores.unit}]: {shown}."
+
+
+def _device1_dispersion(tables: _Tables) -> Verdict:
+    scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
+    chain = _by_dispersion(scores, 180.0)
+    return _rises(chain), f"Scores at 180° [{scores.unit}]: {_shown(chain)}."
+
+
+def _device1_strain(tables: _Tables) -> Verdict:
+    """The strain score misses a step of those which the two claims above make about the change of strain."""
+    scores = tables.scores("device1", Interface.SHEAR, Readout.STRAIN)
+    chains = {f"{dispersion} dispersion": _by_phase(scores, dispersion) for dispersion in DISPERSIONS}
+    chains["180°"] = _by_dispersion(scores, 180.0)
+    steps = [step for chain in chains.values() for step in _steps(chain)]
+    shown = "; ".join(f"{name} {_shown(chain)}" for name, chain in chains.items())
+    rising = steps.count("<")
+    return rising < len(steps), f"{rising} of {len(steps)} steps rise. Scores [{scores.unit}]: {shown}."
+
+
+# --- correlations --------------------------------------------------------------------------------------------------
+
+
+def _slope(row: Mapping[str, Any]) -> int:
+    """Sign of the slope; 0 also where there is none, as for a constant score."""
+    return 0 if pd.isna(row["slope_sign"]) else int(row["slope_sign"])
+
+
+def _described(row: Mapping[str, Any]) -> str:
+    numbers = f"R² {row['r2']:.4g}, Kendall's tau {row['kendall_tau']:.3g}, p {row['p']:.2g}, "
+    reason = f"({row['note']}) " if isinstance(row["note"], str) and row["note"] else ""
+    sign = "positive" if _slope(row) > 0 else "negative"
+    what = f"{sign} slope, {numbers}" if _slope(row) else f"no slope {reason}with "
+    return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']})"
+
+
+def _strain_falls(device: str, interface: Interface) -> Callable[[_Tables], Verdict]:
+    """The strain score's slope is negative."""
+
+    def check(tables: _Tables) -> Verdict:
+        row = tables.correlation(device, interface, Readout.STRAIN)
+        return _slope(row) < 0, f"Strain, {_described(row)}."
+
+    return check
+
+
+def _device2_weaker(tables: _Tables) -> Verdict:
+    """R², taken negative where the slope is and 0 where there is none, is lower without shear."""
+    off, on = (
+        tables.correlation("device2", interface, Readout.CHANGE_OF_STRAIN)
+        for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
+    )
+    strength = [_slope(row) * row["r2"] if _slope(row) else 0.0 for row in (off, on)]
+    return _step(*strength) == "<", f"Change of strain, {_described(off)}; {_described(on)}."
+
+
+# --- shear off -----------------------------------------------------------------------------------------------------
+
+
+def _device2_spread(tables: _Tables) -> Verdict:
+    """Largest less smallest score over the phases is smaller without shear."""
+    off, on = (
+        tables.scores("device2", interface, Readout.CHANGE_OF_STRAIN)
+        for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
+    )
+    spreads = [max(values) - min(values) for values in ([s["alternate", phase] for phase in PHASES] for s in (off, on))]
+    return _step(*spreads) == "<", (
+        f"Largest less smallest change-of-strain score [{on.unit}]: {spreads[0]:.4g} without shear,"
+        f" {spreads[1]:.4g} with it."
+    )
+
+
+def _effect_of_shear(tables: _Tables, device: str, dispersions: Sequence[str]) -> float:
+    """Mean |score without shear - score with it| over the mean score with it [1]; change of strain."""
+    off, on = (
+        tables.scores(device, interface, Readout.CHANGE_OF_STRAIN)
+        for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
+    )
+    conditions = [(dispersion, phase) for dispersion in dispersions for phase in PHASES]
+    total = sum(on[c] for c in conditions)
+    if total == 0.0:
+        raise _AbsentError
+    return sum(abs(off[c] - on[c]) for c in conditions) / total
+
+
+def _device1_insensitive(tables: _Tables) -> Verdict:
+    """The device that moves normally depends less on shear than the one that moves laterally."""
+    one = _effect_of_shear(tables, "device1", DISPERSIONS)
+    two = _effect_of_shear(tables, "device2", ["alternate"])
+    return _step(one, two) == "<", (
+        "Leaving out shear changes the change-of-strain scores, relative to their mean, on average by"
+        f" {one:.3g} for Device 1 and {two:.3g} for Device 2."
+    )
+
+
+def _device3_silent(tables: _Tables) -> Verdict:
+    """No score is a number, and each says that there is no prediction."""
+    parts = [tables.scores("device3", Interface.FRICTIONLESS, readout) for readout in Readout]
+    values = [value for part in parts for value in part.values.values()]
+    notes = {note for part in parts for note in part.notes}
+    numbers = sum(not math.isnan(value) for value in values)
+    noted = ", ".join(f"'{note}'" for note in sorted(notes))
+    return numbers == 0 and notes == {NO_PREDICTION}, f"{numbers} of {len(values)} scores are numbers; noted: {noted}."
+
+
+_ORDER = "paper: Introduction; Results"
+_RESULTS = "paper: Results"
+_SHEAR = "paper: Role of shear forces in roughness perception"
+_CLAIMS: tuple[_Claim, ...] = (
+    _Claim("Device 2: the change of strain rises 0° < 90° < 180°.", _ORDER, _change_rises("device2", PHASES)),
+    _Claim(
+        "Device 3: the change of strain rises 180° < 0° < 90°.", _ORDER, _change_rises("device3", (180.0, 0.0, 90.0))
+    ),
+    _Claim("Device 1: the change of strain rises with phase at every dispersion.", _ORDER, _device1_phase),
+    _Claim("Device 1: the change of strain rises with dispersion at 180°.", _ORDER, _device1_dispersion),
+    _Claim("Device 1: the strain misses the order of roughness.", _RESULTS, _device1_strain),
+    _Claim("Device 3: the strain correlates negatively.", _RESULTS, _strain_falls("device3", Interface.SHEAR)),
+    _Claim(
+        "Device 2 without shear: the strain correlates negatively.",
+        _SHEAR,
+        _strain_falls("device2", Interface.FRICTIONLESS),
+    ),
+    _Claim("Device 2 without shear: the change of strain correlates more weakly.", _SHEAR, _device2_weaker),
+    _Claim("Device 2 without shear: the change of strain varies less with phase.", _SHEAR, _device2_spread),
+    _Claim("Device 1: leaving out shear matters less than for Device 2.", _SHEAR, _device1_insensitive),
+    _Claim("Device 3 without shear: there is no prediction.", _SHEAR, _device3_silent),
+)

@@ -1,0 +1,90 @@
+"""Plane-strain linear elasticity: assembly of the stiffness, and the linear map from displacement to strain."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.sparse import csc_matrix, csr_matrix
+from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, FacetBasis, MeshTri2
+from skfem.helpers import ddot, eye, sym_grad, trace
+
+from .compliance import VOIGT
+from .scene import FloatArray, Material
+
+QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
+
+
+def lame(material: Material) -> tuple[float, float]:
+    """Lamé constants (lambda, mu) [MPa] of plane strain: E nu / ((1 + nu)(1 - 2 nu)) and E / (2 (1 + nu)).
+
+    >>> lame(Material(1.0, 0.0))
+    (0.0, 0.5)
+    """
+    modulus, nu = material.modulus, material.poisson
+    return modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), modulus / (2.0 * (1.0 + nu))
+
+
+def displacement_basis(mesh: MeshTri2, elements: np.ndarray | None = None) -> Basis:
+    """Basis of second-order displacements on a second-order mesh (isoparametric), or on some of its elements."""
+    return Basis(mesh, ElementVector(ElementTriP2()), intorder=QUADRATURE_ORDER, elements=elements)
+
+
+def node_dofs(basis: Basis) -> np.ndarray:
+    """Unknowns (2, n_nodes) of the nodes in the order of `mesh.doflocs`: vertices, then edge midpoints."""
+    return np.hstack([basis.nodal_dofs, basis.facet_dofs])
+
+
+@BilinearForm
+def _elastic_energy(u, v, w):  # type: ignore[no-untyped-def]  # skfem's forms are untyped
+    strain = sym_grad(u)
+    stress = w.lam * eye(trace(strain), 2) + 2.0 * w.mu * strain
+    return ddot(stress, sym_grad(v))
+
+
+def stiffness(basis: Basis, materials: Sequence[Material], element_material: np.ndarray) -> csc_matrix:
+    """Stiffness matrix (n_unknowns, n_unknowns) [N/mm per mm of thickness].
+
+    K_ij = ∫ sigma(phi_j) : eps(phi_i) dA with sigma = lambda tr(eps) I + 2 mu eps. element_material: (n_elements,)
+    index into `materials`, over the basis's elements.
+    """
+    constants = np.array([lame(material) for material in materials])[element_material]
+    points = basis.X.shape[-1]
+    lam, mu = (np.repeat(constants[:, [k]], points, axis=1) for k in (0, 1))
+    return csc_matrix(_elastic_energy.assemble(basis, lam=lam, mu=mu))
+
+
+def facet_strain(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarray) -> tuple[FloatArray, csr_matrix]:
+    """Strain on facets, as a linear map of the displacement.
+
+    The strain is read at the two Gauss points of every facet, in the given adjacent element (facets carry two: this
+    chooses the side). Gauss points are where the gradients of second-order elements are most accurate.
+
+    Returns positions (2, n_points) [mm], n_points = 2 n_facets ordered by facet, and the map
+    (3 n_points, n_unknowns) to exx, eyy and engineering shear gxy = 2 exy [1], point by point.
+    """
+    element = ElementVector(ElementTriP2())
+    side = (mesh.f2t[1, facets] == element_of_facet).astype(int)
+    rows, columns, entries = [], [], []
+    positions = np.empty((2, facets.size, 2))
+    for which in (0, 1):
+        chosen = np.flatnonzero(side == which)
+        if chosen.size == 0:
+            continue
+        basis = FacetBasis(mesh, element, facets=facets[chosen], intorder=3, side=which)
+        here = np.asarray(basis.global_coordinates())
+        positions[:, chosen, :] = here
+        point = 2 * chosen[:, None] + np.arange(2)
+        for local in range(basis.Nbfun):
+            gradient = np.asarray(basis.basis[local][0].grad)
+            for component, value in enumerate((gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0])):
+                rows.append((VOIGT * point + component).ravel())
+                columns.append(np.broadcast_to(basis.element_dofs[local][:, None], point.shape).ravel())
+                entries.append(value.ravel())
+    size = VOIGT * 2 * facets.size
+    unknowns = displacement_basis(mesh).N
+    strain = csr_matrix(
+        (np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(size, unknowns)
+    )
+    strain.eliminate_zeros()
+    return positions.reshape(2, -1), strain

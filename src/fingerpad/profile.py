@@ -1,0 +1,34 @@
+"""Profile of an actuator: flat face with rounded edges, as gap and slope above a skin point.
+
+In the actuator's frame the face lies on y = 0, the actuator below it. The profile is a drop d(x) >= 0: zero on the flat
+face, a circle of the edge radius beyond, and from WALL_ANGLE on a straight wall.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .scene import ActuatorRow, FloatArray
+
+WALL_ANGLE = np.deg2rad(75.0)  # rad; beyond it the circle goes on as its tangent; source: skin wraps by less (measured)
+# ASSUME: actuators.edge_radius = 0 is regularised to this radius, so that a node at the edge has one slope
+SHARP_RADIUS = 0.005  # mm; source: a quarter of the finest node spacing
+
+
+def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Drop d (n,) [mm] of the profile below its face, and its slope dd/dx (n,) [1], at x (n,) [mm] from its centre.
+
+    d = r - sqrt(r^2 - b^2) with b the distance beyond the flat face and r the edge radius.
+
+    >>> drop, slope = profile(ActuatorRow((0.0,), width=1.0, edge_radius=0.1), np.array([0.3, 0.5]))
+    >>> float(drop[0]), bool(drop[1] > 0.09)
+    (0.0, True)
+    """
+    radius = max(row.edge_radius, SHARP_RADIUS)
+    beyond = np.maximum(np.abs(x) - (row.width / 2.0 - radius), 0.0)
+    wall = radius * np.sin(WALL_ANGLE)
+    on_circle = np.minimum(beyond, wall)
+    root = np.sqrt(radius**2 - on_circle**2)
+    steepness = on_circle / root
+    drop = radius - root + (beyond - on_circle) * steepness
+    return drop, np.sign(x) * steepness

@@ -1,0 +1,71 @@
+"""Roughness score: area under the rectified, filtered read-out over the actuator row."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .scene import ActuatorRow, Condition, FloatArray, Interface, Readout, Scene
+from .strain import FilteredReadouts
+
+SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
+
+
+def score_span(row: ActuatorRow, margin: float) -> tuple[float, float]:
+    """Arc-length span (start, stop) [mm] of the score: the row's outer edges and a margin on each side."""
+    return row.positions[0] - row.width / 2.0 - margin, row.positions[-1] + row.width / 2.0 + margin
+
+
+def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, float]) -> float:
+    """Area [mm2] of |g * s| over the span: the trapezoidal integral of |filtered| ds.
+
+    Rectified, as the signed area of the RA-1 filter's output vanishes. grid: (k,) [mm], filtered: (k,) [mm].
+
+    >>> grid = np.linspace(-2.0, 2.0, 401)
+    >>> round(roughness_score(grid, -np.ones(401), (-1.0, 1.0)), 12)
+    2.0
+    """
+    start, stop = span
+    inside = grid[(grid > start) & (grid < stop)]
+    points = np.concatenate([[start], inside, [stop]])
+    return float(np.trapezoid(np.abs(np.interp(points, grid, filtered)), points))
+
+
+def score_rows(
+    scene: Scene, condition: Condition, interface: Interface, readouts: FilteredReadouts
+) -> list[dict[str, Any]]:
+    """Rows of the score table for one condition and interface: one a read-out."""
+    span = score_span(scene.device.actuators, scene.model.readout.span_margin)
+    return [
+        _row(scene, condition, interface, readout, roughness_score(readouts.arc, readouts.filtered(readout), span), "")
+        for readout in Readout
+    ]
+
+
+def unpredicted_rows(scene: Scene, note: str) -> list[dict[str, Any]]:
+    """Rows, with no score and the note, for the interfaces at which the device prescribes no motion."""
+    silent = [interface for interface in Interface if interface not in scene.device.interfaces()]
+    return [
+        _row(scene, condition, interface, readout, None, note)
+        for condition in scene.device.conditions
+        for interface in silent
+        for readout in Readout
+    ]
+
+
+def _row(
+    scene: Scene, condition: Condition, interface: Interface, readout: Readout, score: float | None, note: str
+) -> dict[str, Any]:
+    """One row of the score table."""
+    return {
+        "device": scene.device.name,
+        "condition": condition.name,
+        "dispersion": condition.dispersion,
+        "phase_deg": condition.phase_deg,
+        "interface": str(interface),
+        "readout": str(readout),
+        "score": score,
+        "unit": SCORE_UNIT,
+        "note": note,
+    }

@@ -1,0 +1,165 @@
+"""One condition solved: pre-indentation, stimulus, certificate and receptor read-outs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .compliance import CondensedBody, CondensedSection
+from .contact import ContactProblem, ContactState, Status, follow, indent, reevaluated_gap
+from .errors import ContactError
+from .scene import Condition, FloatArray, Interface, Readout, Scene
+from .strain import receptor_readouts
+
+# What a certificate may not exceed; source: each lies two orders below the score error that is aimed at (0.5 %)
+PENETRATION_LIMIT = 1e-4  # of the indentation [1]
+TENSION_LIMIT = 1e-6  # of the largest pressure [1]
+CONE_LIMIT = 1e-6  # of the largest shear that friction allows [1]
+DISSIPATION_LIMIT = 1e-9  # of the work of friction's largest force along the indentation [1]
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What a solution found when it checked itself.
+
+    equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
+    penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
+    Coulomb's limit, over the largest limit [1]. dissipation: frictional work [N mm per mm].
+    """
+
+    equilibrium: float
+    contact: float
+    penetration: float
+    smallest_pressure: float
+    cone_excess: float
+    dissipation: float
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solved condition.
+
+    indentation: [mm] from first touch. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2)
+    [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the end. place: (n,) x of the skin nodes from their
+    actuator's centre at the end [mm]. status: (n,) at the end. arc: (m,) receptors [mm]. strain, change_of_strain: (m,)
+    [1]. iterations, cuts: of the whole path. certificate.
+    """
+
+    indentation: float
+    indented_force: FloatArray
+    force: FloatArray
+    pressure: FloatArray
+    shear: FloatArray
+    place: FloatArray
+    status: np.ndarray
+    arc: FloatArray
+    strain: FloatArray
+    change_of_strain: FloatArray
+    iterations: int
+    cuts: int
+    certificate: Certificate
+
+
+def contact_problem(
+    scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
+) -> ContactProblem:
+    """The contact problem of a scene and an interface."""
+    numerics = scene.model.numerics
+    return ContactProblem(
+        section.position,
+        section.compliance,
+        scene.device.actuators,
+        body,
+        scene.model.contact.coefficient(interface),
+        numerics.newton_tolerance,
+        numerics.max_cuts,
+    )
+
+
+def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
+    """State after pre-indentation: the same for all conditions of a device and interface. Raises ContactError."""
+    limit = scene.model.finger.pad_thickness
+    return indent(problem, scene.model.contact.criterion, scene.model.numerics.indentation_increments, limit)
+
+
+def solve_condition(
+    scene: Scene,
+    section: CondensedSection,
+    body: CondensedBody | None,
+    condition: Condition,
+    interface: Interface,
+) -> Solution:
+    """Solve the whole path of one condition.
+
+    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if its certificate
+    exceeds a limit, or if contact reaches beyond the candidate nodes.
+    """
+    problem = contact_problem(scene, section, body, interface)
+    try:
+        before = indented_state(scene, problem)
+        states = [before]
+        for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
+            target = before.actuator + np.stack([tangential, normal], axis=1)
+            states.append(follow(problem, states[-1], target, scene.model.numerics.stimulus_increments))
+        last = states[-1]
+        certificate = certify(problem, section, last)
+    except ContactError as error:
+        raise ContactError(
+            f"device={scene.device.name}, condition={condition.name}, interface={interface}: {error}"
+        ) from error
+    forces = np.array([state.force for state in states[1:]])
+    readouts = receptor_readouts(section.strain, before.force, forces)
+    return Solution(
+        float(before.actuator[0, 1]),
+        before.force,
+        forces,
+        last.force[:, 1] / section.weight,
+        last.force[:, 0] / section.weight,
+        last.place,
+        last.status,
+        section.arc,
+        readouts[Readout.STRAIN],
+        readouts[Readout.CHANGE_OF_STRAIN],
+        last.iterations,
+        last.cuts,
+        certificate,
+    )
+
+
+def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
+    """Check a state against the laws it was solved for. Raises ContactError, with the figures, beyond a limit."""
+    active = state.status != Status.OPEN
+    pressure = state.force[:, 1] / section.weight
+    largest = float(pressure.max(initial=0.0))
+    friction_limit = problem.friction * float(state.force[:, 1].max(initial=0.0))
+    excess = np.abs(state.force[:, 0]) - problem.friction * state.force[:, 1]
+    certificate = Certificate(
+        section.residual,
+        state.residual,
+        max(float(-reevaluated_gap(problem, state).min()), 0.0),
+        float(pressure[active].min()) if active.any() else 0.0,
+        max(float(excess.max()), 0.0) / friction_limit if friction_limit > 0.0 else 0.0,
+        state.dissipation,
+    )
+    indentation = float(np.abs(state.actuator).max())
+    work = friction_limit * indentation
+    checks = {
+        "contact residual": (certificate.contact, problem.tolerance),
+        "penetration [mm]": (certificate.penetration, PENETRATION_LIMIT * indentation),
+        "tension [MPa]": (-certificate.smallest_pressure, TENSION_LIMIT * largest),
+        "excess over the friction cone": (certificate.cone_excess, CONE_LIMIT),
+        "negative dissipation [N mm/mm]": (-certificate.dissipation, DISSIPATION_LIMIT * work),
+    }
+    for name, (found, allowed) in checks.items():
+        if not found <= allowed:
+            raise ContactError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
+    index = problem.actuator_of()
+    for number, centre in enumerate(problem.row.positions):
+        own = np.flatnonzero(index == number)
+        if active[own[0]] or active[own[-1]]:
+            raise ContactError(
+                f"certificate: contact at the actuator at x = {centre:g} mm reaches the last skin node that was"
+                " considered; the stimulus moves it too far sideways"
+            )
+    return certificate

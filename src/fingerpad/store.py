@@ -1,0 +1,49 @@
+"""Results on disk: frozen dataclasses of arrays and numbers as npz archives, without pickles, byte-stable."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints
+
+import numpy as np
+
+from .scene import FloatArray
+
+Record = TypeVar("Record")
+SEPARATOR = "/"  # between the name of a nested dataclass and its field
+
+
+def save(path: Path, record: Any) -> None:
+    """Write a dataclass of arrays, numbers and such dataclasses. npz has fixed time stamps: same record, same bytes."""
+    np.savez(path, **_flattened(record, ""))
+
+
+def load(path: Path, kind: type[Record]) -> Record:
+    """Read a dataclass that `save` wrote."""
+    with np.load(path, allow_pickle=False) as archive:
+        return _built(kind, archive, "")
+
+
+def _flattened(record: Any, prefix: str) -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for field in dataclasses.fields(record):
+        value = getattr(record, field.name)
+        if dataclasses.is_dataclass(value):
+            flat |= _flattened(value, prefix + field.name + SEPARATOR)
+        else:
+            flat[prefix + field.name] = value
+    return flat
+
+
+def _built(kind: type[Record], archive: Any, prefix: str) -> Record:
+    values: dict[str, Any] = {}
+    for name, hint in get_type_hints(kind).items():
+        if dataclasses.is_dataclass(hint):
+            values[name] = _built(hint, archive, prefix + name + SEPARATOR)  # type: ignore[arg-type]
+        elif hint in {int, float}:
+            values[name] = hint(archive[prefix + name])
+        else:
+            stored: FloatArray = archive[prefix + name]
+            values[name] = stored
+    return kind(**values)

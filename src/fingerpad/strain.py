@@ -1,0 +1,55 @@
+"""Receptor read-outs: maximum principal strain (SA-1 proxy) and its change from pre-indentation (RA-1 proxy)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .compliance import VOIGT
+from .scene import FloatArray, Readout
+
+
+def maximum_principal(components: FloatArray) -> FloatArray:
+    """Largest of the three principal strains (m,) [1] in plane strain, from (3m,) exx, eyy, gxy point by point.
+
+    The in-plane pair is (exx + eyy)/2 +- sqrt(((exx - eyy)/2)^2 + (gxy/2)^2); the third, out of the plane, is zero.
+
+    >>> maximum_principal(np.array([0.01, -0.02, 0.0, -0.01, -0.01, 0.0])).tolist()
+    [0.01, 0.0]
+    """
+    exx, eyy, gxy = components.reshape(-1, VOIGT).T
+    in_plane = (exx + eyy) / 2.0 + np.hypot((exx - eyy) / 2.0, gxy / 2.0)
+    return np.maximum(in_plane, 0.0)
+
+
+def receptor_readouts(strain_map: FloatArray, indented: FloatArray, actuated: FloatArray) -> dict[Readout, FloatArray]:
+    """Both read-outs (m,) [1] at the receptors.
+
+    strain_map: (3m, 2n) from contact forces. indented: (n, 2) forces after pre-indentation [N/mm]. actuated:
+    (n_times, n, 2) forces along the stimulus. Of several times the one is read at which the strain has changed most
+    (largest root mean square): the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
+    """
+    before = maximum_principal(strain_map @ indented.ravel())
+    strains = np.array([maximum_principal(strain_map @ force.ravel()) for force in actuated])
+    changes = strains - before
+    peak = int(np.argmax(np.linalg.norm(changes, axis=1)))
+    return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
+
+
+@dataclass(frozen=True)
+class FilteredReadouts:
+    """Read-outs of one condition on the uniform grid, before and after the filter.
+
+    arc: (k,) [mm]. strain, change_of_strain: (k,) [1]. filtered_strain, filtered_change_of_strain: (k,) [mm].
+    """
+
+    arc: FloatArray
+    strain: FloatArray
+    change_of_strain: FloatArray
+    filtered_strain: FloatArray
+    filtered_change_of_strain: FloatArray
+
+    def filtered(self, readout: Readout) -> FloatArray:
+        """The filtered read-out (k,) [mm]."""
+        return self.filtered_strain if readout is Readout.STRAIN else self.filtered_change_of_strain

@@ -1,0 +1,219 @@
+"""Claims follow the numbers: each is made to hold, and each is broken."""
+
+import io
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from fingerpad.claims import COLUMNS, claims_table
+from fingerpad.perception import correlation_table, read_published, read_ratings, read_stated_order
+
+ROOT = Path(__file__).parents[1]
+PHASES = (0, 90, 180)
+CONDITIONS = {
+    "device1": [f"{dispersion}_{phase:03d}" for dispersion in ("low", "medium", "high") for phase in PHASES],
+    "device2": [f"alternate_{phase:03d}" for phase in PHASES],
+    "device3": [f"alternate_{phase:03d}" for phase in PHASES],
+}
+NOTHING = [math.nan] * 3
+AS_IN_THE_PAPER: dict[tuple[str, str, str], list[float]] = {
+    ("device1", "shear", "strain"): [5, 4, 6, 5, 3, 2, 5, 6, 1],
+    ("device1", "shear", "change_of_strain"): [1, 2, 3, 1, 3, 4, 1, 4, 5],
+    ("device1", "frictionless", "strain"): [5, 4, 6, 5, 3, 2, 5, 6, 1],
+    ("device1", "frictionless", "change_of_strain"): [1, 2, 3, 1, 3, 4, 1, 4, 5.5],
+    ("device2", "shear", "strain"): [1, 2, 3],
+    ("device2", "shear", "change_of_strain"): [1, 2, 3],
+    ("device2", "frictionless", "strain"): [3, 2, 1],
+    ("device2", "frictionless", "change_of_strain"): [1, 1.3, 1.1],
+    ("device3", "shear", "strain"): [2, 1, 3],
+    ("device3", "shear", "change_of_strain"): [2, 3, 1],
+    ("device3", "frictionless", "strain"): NOTHING,
+    ("device3", "frictionless", "change_of_strain"): NOTHING,
+}
+
+
+def make_scores(change: dict[tuple[str, str, str], list[float]] | None = None) -> pd.DataFrame:
+    rows = []
+    for (device, interface, readout), values in (AS_IN_THE_PAPER | (change or {})).items():
+        for name, value in zip(CONDITIONS[device], values, strict=True):
+            dispersion, phase = name.split("_")
+            note = "no prediction" if math.isnan(value) else ""
+            rows.append((device, name, dispersion, float(phase), interface, readout, float(value), "mm", note))
+    columns = ["device", "condition", "dispersion", "phase_deg", "interface", "readout", "score", "unit", "note"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def correlate(scores: pd.DataFrame) -> pd.DataFrame:
+    return correlation_table(
+        scores,
+        read_ratings(ROOT / "data/ratings.csv", CONDITIONS),
+        read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS),
+        read_published(ROOT / "data/published_r2.csv"),
+    )
+
+
+def claims_of(change: dict[tuple[str, str, str], list[float]] | None = None) -> pd.DataFrame:
+    scores = make_scores(change)
+    return claims_table(scores, correlate(scores))
+
+
+def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
+    table = claims_of()
+    assert list(table.columns) == COLUMNS
+    assert len(table) == 11
+    assert table["claim"].is_unique
+    assert table["holds"].dtype == bool
+    assert table["holds"].all(), table.loc[~table["holds"], ["claim", "evidence"]].to_string()
+    assert table["source"].str.startswith("paper").all()
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "broken"),
+    [
+        (("device2", "shear", "change_of_strain"), [1, 3, 2], {"Device 2: the change of strain rises"}),
+        (("device2", "shear", "change_of_strain"), [1, 2, 2 + 1e-12], {"Device 2: the change of strain rises"}),
+        (("device3", "shear", "change_of_strain"), [1, 2, 3], {"Device 3: the change of strain rises"}),
+        (
+            ("device1", "shear", "change_of_strain"),
+            [1, 2, 3, 1, 4, 3.5, 1, 4, 5],
+            {"Device 1: the change of strain rises with phase"},
+        ),
+        (
+            ("device1", "shear", "change_of_strain"),
+            [1, 2, 4, 1, 3, 4, 1, 4, 5],
+            {"Device 1: the change of strain rises with dispersion"},
+        ),
+        (("device1", "shear", "strain"), [1, 2, 3, 1, 3, 4, 1, 4, 5], {"Device 1: the strain misses"}),
+        (("device3", "shear", "strain"), [2, 3, 1], {"Device 3: the strain correlates"}),
+        (("device3", "shear", "strain"), [2, 2, 2], {"Device 3: the strain correlates"}),
+        (("device2", "frictionless", "strain"), [1, 2, 3], {"Device 2 without shear: the strain correlates"}),
+        (
+            ("device2", "frictionless", "change_of_strain"),
+            [1, 2.1, 3.2],
+            {
+                "Device 2 without shear: the change of strain correlates",
+                "Device 2 without shear: the change of strain varies",
+            },
+        ),
+        (
+            ("device2", "frictionless", "change_of_strain"),
+            [2, 2.3, 2.6],
+            {"Device 2 without shear: the change of strain correlates"},
+        ),
+        (
+            ("device2", "frictionless", "change_of_strain"),
+            [5, 9, 1],
+            {"Device 2 without shear: the change of strain varies"},
+        ),
+        (
+            ("device1", "frictionless", "change_of_strain"),
+            [10, 20, 30, 10, 30, 40, 10, 40, 50],
+            {"Device 1: leaving out shear"},
+        ),
+        (("device3", "frictionless", "strain"), [0, 0, 0], {"Device 3 without shear"}),
+        (("device3", "frictionless", "strain"), [math.nan, 1, math.nan], {"Device 3 without shear"}),
+    ],
+)
+def test_each_claim_can_be_broken_and_no_other_breaks_with_it(
+    key: tuple[str, str, str], values: list[float], broken: set[str]
+) -> None:
+    table = claims_of({key: values})
+    failed = list(table.loc[~table["holds"], "claim"])
+    assert len(failed) == len(broken)
+    assert all(any(claim.startswith(start) for claim in failed) for start in broken)
+
+
+def test_a_missing_prediction_must_be_called_so() -> None:
+    scores = make_scores()
+    scores["note"] = scores["note"].replace("no prediction", "lost")
+    row = claims_table(scores, correlate(scores)).iloc[-1]
+    assert not row["holds"]
+    assert "'lost'" in row["evidence"]
+
+
+def evidence_of(table: pd.DataFrame, start: str) -> str:
+    return str(table.loc[table["claim"].str.startswith(start), "evidence"].item())
+
+
+def test_evidence_shows_the_numbers_as_they_are() -> None:
+    table = claims_of({("device2", "shear", "change_of_strain"): [1.25, 3, 2]})
+    assert evidence_of(table, "Device 2: the change") == "Scores [mm]: 0°: 1.25 < 90°: 3 > 180°: 2."
+    assert evidence_of(table, "Device 3: the change") == "Scores [mm]: 180°: 1 < 0°: 2 < 90°: 3."
+    assert "1.75 with it" in evidence_of(table, "Device 2 without shear: the change of strain varies")
+    assert evidence_of(table, "Device 3 without") == "0 of 6 scores are numbers; noted: 'no prediction'."
+
+
+def test_evidence_from_ratings_says_ordinal_surrogate() -> None:
+    table = claims_of()
+    for start in ("Device 3: the strain", "Device 2 without shear: the strain", "Device 2 without shear: the change"):
+        evidence = table.loc[table["claim"].str.startswith(start), "evidence"].iloc[0]
+        assert "ordinal surrogate" in evidence
+        assert "R²" in evidence
+    assert "negative slope, R² 1," in evidence_of(table, "Device 3: the strain")
+
+
+def test_a_constant_score_is_evidence_without_a_slope() -> None:
+    table = claims_of({("device2", "frictionless", "change_of_strain"): [1, 1, 1]})
+    start = "Device 2 without shear: the change of strain correlates"
+    assert "no slope (constant score)" in evidence_of(table, start)
+    assert table.loc[table["claim"].str.startswith(start), "holds"].item()
+
+
+@pytest.mark.parametrize(
+    ("drop", "left"),
+    [
+        (lambda scores: scores["device"] == "device1", 7),
+        (lambda scores: scores["device"] == "device2", 6),
+        (lambda scores: scores["device"] == "device3", 8),
+        (lambda scores: scores["interface"] == "frictionless", 6),
+        (lambda scores: scores["device"].str.startswith("device"), 0),
+    ],
+)
+def test_a_claim_about_scores_that_are_not_there_has_no_row(
+    drop: Callable[[pd.DataFrame], "pd.Series[bool]"], left: int
+) -> None:
+    scores = make_scores()
+    kept = scores[~drop(scores)]
+    assert len(claims_table(kept, correlate(kept))) == left
+
+
+@pytest.mark.parametrize("value", [math.nan, None])
+def test_one_score_that_is_not_there_is_enough_for_no_row(value: float | None) -> None:
+    """Whether its row says NaN or is missing, nothing is held or refuted without it."""
+    scores = make_scores()
+    correlations = correlate(scores)
+    one = (scores["device"] == "device1") & (scores["condition"] == "medium_180") & (scores["interface"] == "shear")
+    changed = scores[~one] if value is None else scores.assign(score=scores["score"].mask(one, value))
+    table = claims_table(changed, correlations)
+    assert len(table) == 7
+    assert not table["claim"].str.startswith("Device 1").any()
+
+
+def test_a_negative_correlation_counts_as_weaker_than_a_positive_one() -> None:
+    table = claims_of(
+        {
+            ("device2", "frictionless", "change_of_strain"): [2, 1.5, 1],
+            ("device2", "shear", "change_of_strain"): [1, 2, 4],
+        }
+    )
+    evidence = evidence_of(table, "Device 2 without shear: the change of strain correlates")
+    assert "frictionless: negative slope, R² 1," in evidence
+    assert table["holds"].all()
+
+
+def test_a_claim_about_ratings_that_are_not_there_has_no_row() -> None:
+    scores = make_scores()
+    correlations = correlate(scores)
+    without = claims_table(scores, correlations.assign(n=0, note="no ratings"))
+    assert not without["claim"].str.contains("correlates").any()
+    assert len(without) == 8
+
+
+def test_tables_read_back_from_csv_give_the_same_claims() -> None:
+    scores = make_scores()
+    correlations = correlate(scores)
+    again = [pd.read_csv(io.StringIO(table.to_csv(index=False))) for table in (scores, correlations)]
+    pd.testing.assert_frame_equal(claims_table(*again), claims_table(scores, correlations))

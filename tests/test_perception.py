@@ -1,0 +1,509 @@
+"""Ratings are checked, and the correlation and its range over all ordered ratings are what mathematics says."""
+
+import itertools
+import math
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from numpy.typing import NDArray
+
+from fingerpad import perception
+from fingerpad.errors import RatingError
+from fingerpad.perception import (
+    correlation_table,
+    extreme_ratings,
+    order_matrix,
+    r2_range,
+    read_published,
+    read_ratings,
+    read_stated_order,
+    up_sets,
+)
+
+Array = NDArray[np.float64]
+Matrix = NDArray[np.bool_]
+
+ROOT = Path(__file__).parents[1]
+PHASES = ("000", "090", "180")
+CONDITIONS = {
+    "device1": [f"{dispersion}_{phase}" for dispersion in ("low", "medium", "high") for phase in PHASES],
+    "device2": [f"alternate_{phase}" for phase in PHASES],
+    "device3": [f"alternate_{phase}" for phase in PHASES],
+}
+CHAIN = np.triu(np.ones((3, 3), dtype=bool))
+NO_ORDER = np.eye
+
+
+def stated_order() -> pd.DataFrame:
+    return read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS)
+
+
+def stated_matrix(device: str) -> Matrix:
+    order = stated_order()
+    return order_matrix(CONDITIONS[device], order[order["device"] == device])
+
+
+def squared_correlation(x: Array, y: Array) -> float:
+    return float(np.corrcoef(x, y)[0, 1] ** 2)
+
+
+def random_order(rng: np.random.Generator, n: int) -> Matrix:
+    """A random preorder: some pairs of a random ranking, some of them equal, closed under transitivity."""
+    rank = rng.permutation(n)
+    pairs = [(i, j) for i, j in itertools.permutations(range(n), 2) if rank[i] < rank[j] and rng.random() < 0.4]
+    rows = [(str(i), "=" if rng.random() < 0.1 else "<", str(j)) for i, j in pairs]
+    try:
+        return order_matrix([str(i) for i in range(n)], frame(rows))
+    except RatingError:  # an equality contradicts a strict pair
+        return random_order(rng, n)
+
+
+def random_rating(rng: np.random.Generator, at_most: Matrix) -> Array:
+    """Ratings with this order: ascending random numbers, dealt out along a random linear extension."""
+    n = len(at_most)
+    values = np.sort(rng.random(n) ** rng.choice([0.02, 0.2, 1.0, 5.0, 50.0]))
+    rating, left = np.full(n, np.nan), set(range(n))
+    for value in values:
+        least = [i for i in left if all(at_most[i, j] or not at_most[j, i] for j in left)]
+        if not least:
+            break
+        chosen = rng.choice(least)
+        same = [i for i in left if at_most[i, chosen] and at_most[chosen, i]]
+        rating[same] = value
+        left -= set(same)
+    return rating
+
+
+def frame(rows: list[tuple[str, str, str]]) -> pd.DataFrame:
+    return pd.DataFrame(rows, columns=["lower", "relation", "higher"])
+
+
+# --- reading -------------------------------------------------------------------------------------------------------
+
+HEADER = "device,condition,rating,kind,source"
+DEVICE2 = [f"device2,{name},{i},surrogate,ordinal surrogate" for i, name in enumerate(CONDITIONS["device2"])]
+
+
+def test_ratings_are_read_whatever_the_order_of_rows_and_columns(tmp_path: Path) -> None:
+    path = tmp_path / "ratings.csv"
+    path.write_text(
+        "source,rating,device,kind,condition\n"
+        "me,2.5,device2,measured,alternate_180\n\nme, 0 ,device2,measured,alternate_000\n"
+        "me,1e0,device2,measured,alternate_090\n"
+    )
+    table = read_ratings(path, CONDITIONS)
+    assert dict(zip(table["condition"], table["rating"], strict=True)) == {
+        "alternate_180": 2.5,
+        "alternate_000": 0.0,
+        "alternate_090": 1.0,
+    }
+    assert list(table.columns) == HEADER.split(",")
+
+
+@pytest.mark.parametrize("line_end", ["\r\n", "\n"])
+def test_ratings_saved_by_a_spreadsheet_are_read(tmp_path: Path, line_end: str) -> None:
+    path = tmp_path / "ratings.csv"
+    path.write_bytes(("\ufeff" + line_end.join([HEADER, *DEVICE2])).encode())
+    assert len(read_ratings(path, CONDITIONS)) == 3
+
+
+@pytest.mark.parametrize(
+    ("lines", "parts"),
+    [
+        ([HEADER, "devise2,alternate_000,1,surrogate,x"], ["line 2", "device", "'devise2'", "did you mean 'device2'"]),
+        (
+            [HEADER, *DEVICE2[:2], "device2,alternate_18,1,surrogate,x"],
+            ["line 4", "column condition", "'alternate_18'", "'alternate_090'", "did you mean 'alternate_180'"],
+        ),
+        ([HEADER, "device2,low_000,1,surrogate,x"], ["line 2", "column condition", "'low_000'", "'alternate_000'"]),
+        ([HEADER, *DEVICE2, DEVICE2[1]], ["line 5", "column condition", "'alternate_090'", "one row", "line 3"]),
+        ([HEADER, "device2,alternate_000,nan,surrogate,x"], ["line 2", "column rating", "'nan'", "0 or more"]),
+        ([HEADER, "device2,alternate_000,inf,surrogate,x"], ["line 2", "column rating", "'inf'", "finite"]),
+        ([HEADER, "device2,alternate_000,-1,surrogate,x"], ["line 2", "column rating", "'-1'", "0 or more"]),
+        ([HEADER, "device2,alternate_000,much,surrogate,x"], ["line 2", "column rating", "'much'", "number"]),
+        ([HEADER, "device2,alternate_000,,surrogate,x"], ["line 2", "column rating", "''", "number"]),
+        (
+            [HEADER, "device2,alternate_000,1,measurd,x"],
+            ["line 2", "column kind", "'measurd'", "'surrogate', 'digitised', 'measured'", "did you mean 'measured'"],
+        ),
+        (
+            [HEADER, *DEVICE2[:2], "device2,alternate_180,1,measured,x"],
+            ["line 4", "column kind", "'measured'", "one kind", "'surrogate' on line 2"],
+        ),
+        ([HEADER, "device2,alternate_000,1,surrogate,"], ["line 2", "column source", "''"]),
+        (["device,condition,rating,kind", "a,b,1,surrogate"], ["line 1", "'source'", "missing"]),
+        ([HEADER.replace("rating", "raiting"), "x"], ["line 1", "'raiting'", "did you mean 'rating'"]),
+        ([HEADER + ",comment", "x"], ["line 1", "'comment'", "allowed: 'device'"]),
+        ([HEADER + ",kind", "x"], ["line 1", "'kind'", "each column once"]),
+        ([HEADER, "device2,alternate_000,1,5,surrogate,x"], ["line 2", "found 6 values", "allowed: 5"]),
+        ([HEADER, 'device2,"alternate_000,1'], ["not a CSV file"]),
+        ([], ["an empty file", "'rating'"]),
+        ([HEADER], ["a header without rows"]),
+        ([HEADER, *DEVICE2[:2]], ["column condition", "device2", "'alternate_180'", "or for none"]),
+    ],
+)
+def test_bad_ratings_are_named(tmp_path: Path, lines: list[str], parts: list[str]) -> None:
+    path = tmp_path / "my_ratings.csv"
+    path.write_text("\n".join(lines))
+    with pytest.raises(RatingError) as caught:
+        read_ratings(path, CONDITIONS)
+    for part in [str(path), *parts]:
+        assert part in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(RatingError, match=r"nowhere\.csv: cannot be read"):
+        read_ratings(tmp_path / "nowhere.csv", CONDITIONS)
+
+
+def test_a_file_that_is_no_text_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "ratings.csv"
+    path.write_bytes(b"\xff\xfe\x00d")
+    with pytest.raises(RatingError, match="not a CSV file in UTF-8"):
+        read_ratings(path, CONDITIONS)
+
+
+@pytest.mark.parametrize(
+    ("rows", "parts"),
+    [
+        (["device2,alternate_00,<,alternate_090,x"], ["line 2", "column lower", "did you mean 'alternate_0"]),
+        (["device2,alternate_000,<=,alternate_090,x"], ["line 2", "column relation", "'<=' ", "'<', '='"]),
+        (
+            ["device2,alternate_000,<,alternate_090,x", "device2,alternate_090,=,alternate_000,x"],
+            ["device2", "contradicts itself", "'alternate_000' < 'alternate_090'"],
+        ),
+    ],
+)
+def test_bad_orders_are_named(tmp_path: Path, rows: list[str], parts: list[str]) -> None:
+    path = tmp_path / "order.csv"
+    path.write_text("\n".join(["device,lower,relation,higher,source", *rows]))
+    with pytest.raises(RatingError) as caught:
+        read_stated_order(path, CONDITIONS)
+    for part in [str(path), *parts]:
+        assert part.strip() in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("row", "part"),
+    [
+        ("device1,sheer,strain,0.5,x,y", "did you mean 'shear'"),
+        ("device1,shear,strains,0.5,x,y", "did you mean 'strain'"),
+        ("device1,shear,strain,1.5,x,y", "a number from 0 to 1"),
+        ("device1,shear,strain,high,x,y", "a number from 0 to 1"),
+    ],
+)
+def test_bad_published_values_are_named(tmp_path: Path, row: str, part: str) -> None:
+    path = tmp_path / "published.csv"
+    path.write_text(f"device,interface,readout,r2,words,source\n{row}\n")
+    with pytest.raises(RatingError, match=part):
+        read_published(path)
+
+
+# --- the stated order ----------------------------------------------------------------------------------------------
+
+
+def test_order_matrix_is_the_transitive_closure() -> None:
+    at_most = order_matrix(list("abcd"), frame([("a", "<", "b"), ("b", "=", "c"), ("c", "<", "d")]))
+    expected = [[1, 1, 1, 1], [0, 1, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]]
+    np.testing.assert_array_equal(at_most, np.array(expected, dtype=bool))
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [("a", "<", "a")],
+        [("a", "<", "b"), ("b", "<", "c"), ("c", "<", "a")],
+        [("a", "=", "b"), ("b", "=", "c"), ("a", "<", "c")],
+    ],
+)
+def test_a_contradictory_order_is_an_error(rows: list[tuple[str, str, str]]) -> None:
+    with pytest.raises(RatingError, match="contradicts itself"):
+        order_matrix(["a", "b", "c"], frame(rows))
+
+
+def test_an_order_of_unknown_conditions_is_an_error() -> None:
+    with pytest.raises(RatingError, match="'z'"):
+        order_matrix(["a", "b"], frame([("a", "<", "z")]))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_up_sets_are_all_those_which_brute_force_finds(seed: int) -> None:
+    at_most = random_order(np.random.default_rng(seed), 7)
+    brute = [
+        subset
+        for subset in itertools.product((False, True), repeat=7)
+        if 0 < sum(subset) < 7 and all(subset[j] for i in range(7) for j in range(7) if subset[i] and at_most[i, j])
+    ]
+    assert sorted(map(tuple, up_sets(at_most).tolist())) == sorted(brute)
+
+
+def test_device1_has_nine_up_sets() -> None:
+    """Six conditions above the common one at 0° form a 2 by 3 grid, which has C(5, 2) = 10 up-sets, one empty."""
+    assert len(up_sets(stated_matrix("device1"))) == math.comb(5, 2) - 1
+
+
+def test_too_many_up_sets_are_an_error_with_a_name() -> None:
+    assert len(up_sets(NO_ORDER(16, dtype=bool))) == 2**16 - 2
+    with pytest.raises(RatingError, match="more than 65536 up-sets among 17 conditions"):
+        up_sets(NO_ORDER(17, dtype=bool))
+
+
+def test_a_long_chain_is_not_too_much() -> None:
+    chain = np.triu(np.ones((60, 60), dtype=bool))
+    assert r2_range(np.arange(60.0), chain)[1] == 1.0
+
+
+# --- the range of R² -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("score", "expected"),
+    [
+        # a chain of three has the extreme ratings 0, 0, 1 and 0, 1, 1
+        ([0.0, 1.0, 2.0], (0.75, 1.0)),
+        ([2.0, 1.0, 0.0], (0.75, 1.0)),  # R² does not see the sign
+        ([0.0, 2.0, 1.0], (0.0, 0.75)),  # the first is uncorrelated; the isotonic fit is 0, 1.5, 1.5
+        ([0.0, 0.0, 1.0], (0.25, 1.0)),
+        ([0.0, 1.0, 0.0], (0.0, 0.25)),  # opposite signs
+    ],
+)
+def test_range_of_a_chain_of_three_in_closed_form(score: list[float], expected: tuple[float, float]) -> None:
+    assert r2_range(np.array(score), CHAIN) == pytest.approx(expected, abs=1e-12)
+
+
+def test_range_without_any_order_is_everything() -> None:
+    assert r2_range(np.array([0.0, 1.0, 5.0]), NO_ORDER(3, dtype=bool)) == (0.0, 1.0)
+
+
+def test_two_conditions_always_lie_on_a_line() -> None:
+    """The one case in which generators of both signs only cancel."""
+    assert r2_range(np.array([3.0, 1.0]), NO_ORDER(2, dtype=bool)) == (1.0, 1.0)
+
+
+def test_a_score_that_varies_only_between_equally_rated_conditions_correlates_with_nothing() -> None:
+    at_most = order_matrix(list("abc"), frame([("a", "=", "b"), ("b", "<", "c")]))
+    assert r2_range(np.array([-1.0, 1.0, 0.0]), at_most) == (0.0, 0.0)
+
+
+def test_range_does_not_depend_on_scale_offset_or_sign_of_the_score() -> None:
+    score = np.random.default_rng(1).random(9)
+    at_most = stated_matrix("device1")
+    expected = r2_range(score, at_most)
+    for other in (1e-6 * score, 1e4 * score, score + 30.0, -score):
+        assert r2_range(other, at_most) == pytest.approx(expected, abs=1e-10)
+
+
+def test_a_constant_score_and_an_order_of_equals_have_no_range() -> None:
+    with pytest.raises(RatingError, match="score is constant"):
+        r2_range(np.ones(3), CHAIN)
+    with pytest.raises(RatingError, match="all ratings equal"):
+        r2_range(np.arange(3.0), np.ones((3, 3), dtype=bool))
+
+
+@pytest.mark.parametrize("device", CONDITIONS)
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_ten_thousand_random_ordered_ratings_lie_in_the_range(device: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    at_most = stated_matrix(device)
+    score = rng.random(len(at_most)) + seed * random_rating(rng, at_most)  # from unrelated to well ordered
+    low, high = r2_range(score, at_most)
+    ratings = [random_rating(rng, at_most) for _ in range(10_000)]
+    found = [squared_correlation(score, rating) for rating in ratings]
+    assert low - 1e-9 <= min(found)
+    assert max(found) <= high + 1e-9
+    assert min(found) < low + 0.1 * (high - low), "sampling should come near the lowest"
+    assert max(found) > high - 0.2 * (high - low), "sampling should come near the highest"
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_extreme_ratings_have_the_order_and_attain_the_range(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(3, 9))
+    at_most = random_order(rng, n)
+    if at_most.all():
+        pytest.skip("all ratings equal")
+    score = rng.random(n)
+    low, high = r2_range(score, at_most)
+    for rating, expected in zip(extreme_ratings(score, at_most), (low, high), strict=True):
+        assert np.all(rating[:, None] - rating[None, :] <= np.where(at_most, 1e-12, np.inf))
+        assert rating.min() == 0.0
+        assert squared_correlation(score, rating) == pytest.approx(expected, abs=1e-9)
+    for rating in (random_rating(rng, at_most) for _ in range(300)):
+        if np.ptp(rating) > 0.0:
+            assert low - 1e-9 <= squared_correlation(score, rating) <= high + 1e-9
+
+
+def test_highest_r2_is_that_of_isotonic_regression() -> None:
+    """On a chain, against pool-adjacent-violators written out for both directions."""
+    rng = np.random.default_rng(5)
+    for _ in range(50):
+        score = rng.random(6)
+        fits = []
+        for x in (score, -score):
+            blocks = [[value] for value in x]
+            while any(np.mean(a) > np.mean(b) for a, b in itertools.pairwise(blocks)):
+                k = next(k for k, (a, b) in enumerate(itertools.pairwise(blocks)) if np.mean(a) > np.mean(b))
+                blocks[k : k + 2] = [blocks[k] + blocks[k + 1]]
+            fits.append(np.concatenate([np.full(len(block), np.mean(block)) for block in blocks]))
+        expected = max(np.var(fit) / np.var(score) for fit in fits)
+        assert r2_range(score, np.triu(np.ones((6, 6), dtype=bool)))[1] == pytest.approx(expected, abs=1e-10)
+
+
+def test_a_bound_on_the_ratio_of_ratings_does_not_narrow_the_range() -> None:
+    """Both extremes can be had with ratings of which the largest is at most twice the smallest."""
+    score = np.random.default_rng(3).random(9)
+    at_most = stated_matrix("device1")
+    for rating, expected in zip(extreme_ratings(score, at_most), r2_range(score, at_most), strict=True):
+        lifted = rating + 2.0 * np.ptp(rating)
+        assert lifted.max() <= 2.0 * lifted.min()
+        assert squared_correlation(score, lifted) == pytest.approx(expected, abs=1e-9)
+
+
+# --- the table -----------------------------------------------------------------------------------------------------
+
+
+def make_scores(device: str, values: list[float], interface: str = "shear", note: object = "") -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "device": device,
+            "condition": CONDITIONS[device] if device in CONDITIONS else [f"c{i}" for i in range(len(values))],
+            "interface": interface,
+            "readout": "strain",
+            "score": values,
+            "note": note,
+        }
+    )
+
+
+def make_table(scores: pd.DataFrame, ratings: pd.DataFrame | None = None) -> pd.DataFrame:
+    """The table with the shipped data; any warning is an error."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        return correlation_table(
+            scores,
+            read_ratings(ROOT / "data/ratings.csv", CONDITIONS) if ratings is None else ratings,
+            stated_order(),
+            read_published(ROOT / "data/published_r2.csv"),
+        )
+
+
+def test_correlation_of_three_points_in_closed_form() -> None:
+    """r of 0, 2, 1 with 1, 2, 3 is 1/2; with one degree of freedom p = 1 - 2/pi arctan(r / sqrt(1 - r²))."""
+    row = make_table(make_scores("device2", [0.0, 2.0, 1.0])).iloc[0]
+    assert row["n"] == 3
+    assert row["slope_sign"] == 1
+    assert row["r2"] == pytest.approx(0.25)
+    assert row["p"] == pytest.approx(1.0 - 2.0 / math.pi * math.atan(0.5 / math.sqrt(0.75)))
+    assert row["kendall_tau"] == pytest.approx(1.0 / 3.0)
+    assert (row["r2_lowest"], row["r2_highest"]) == pytest.approx((0.0, 0.75), abs=1e-12)
+    assert row["published_r2"] == 0.989
+    assert row["rating_kind"] == "ordinal surrogate"
+    assert row["note"] == ""
+
+
+def test_a_falling_score_has_a_negative_slope() -> None:
+    row = make_table(make_scores("device3", [2.0, 1.0, 3.0])).iloc[0]
+    assert row["slope_sign"] == -1
+    assert row["kendall_tau"] == pytest.approx(-1.0)
+    assert math.isnan(row["published_r2"])
+    assert row["published_words"] == "negative correlation"
+
+
+def test_device1_counts_nine_conditions_and_says_that_seven_are_distinct() -> None:
+    row = make_table(make_scores("device1", [1.0, 2.0, 3.0, 1.0, 4.0, 5.0, 1.0, 6.0, 7.0])).iloc[0]
+    assert row["n"] == 9
+    assert row["note"] == "7 of 9 conditions are distinct"
+    assert 0.0 < row["r2_lowest"] <= row["r2"] <= row["r2_highest"] <= 1.0
+    expected = squared_correlation(
+        np.array([1.0, 2.0, 3.0, 1.0, 4.0, 5.0, 1.0, 6.0, 7.0]),
+        1.0 + np.outer([1.0, 2.0, 3.0], [0.0, 0.5, 1.0]).ravel() / 3.0,
+    )
+    assert row["r2"] == pytest.approx(expected, abs=1e-4)
+
+
+def test_columns_and_one_row_for_each_device_interface_and_readout() -> None:
+    scores = pd.concat(
+        [make_scores("device2", [1.0, 2.0, 4.0]), make_scores("device2", [1.0, 2.0, 4.0], interface="frictionless")]
+    )
+    table = make_table(scores)
+    assert list(table.columns) == perception.COLUMNS
+    assert table[["device", "interface", "readout"]].to_numpy().tolist() == [
+        ["device2", "shear", "strain"],
+        ["device2", "frictionless", "strain"],
+    ]
+    assert list(make_table(scores.iloc[:0]).columns) == perception.COLUMNS
+
+
+@pytest.mark.parametrize("note", ["no prediction", "", math.nan])
+def test_no_prediction_gives_no_number(note: object) -> None:
+    row = make_table(make_scores("device3", [math.nan] * 3, "frictionless", note)).iloc[0]
+    assert row["n"] == 0
+    assert row[["slope_sign", "r2", "r2_lowest", "r2_highest", "kendall_tau", "p"]].isna().all()
+    assert row["note"] == "no prediction"
+
+
+def test_one_missing_score_leaves_nothing_to_correlate() -> None:
+    row = make_table(make_scores("device2", [1.0, math.nan, 2.0])).iloc[0]
+    assert row["n"] == 0
+    assert math.isnan(row["r2"])
+
+
+@pytest.mark.parametrize("values", [[0.3, 0.3, 0.3], [0.3, 0.3 * (1 + 1e-12), 0.3], [0.0, 0.0, 0.0]])
+def test_a_constant_score_has_no_r2(values: list[float]) -> None:
+    row = make_table(make_scores("device2", values)).iloc[0]
+    assert row["n"] == 3
+    assert row[["slope_sign", "r2", "r2_lowest", "r2_highest", "kendall_tau", "p"]].isna().all()
+    assert row["note"] == "constant score"
+
+
+def test_a_device_without_ratings_is_said_to_have_none() -> None:
+    row = make_table(make_scores("mine", [1.0, 2.0, 3.0])).iloc[0]
+    assert row["n"] == 0
+    assert math.isnan(row["r2"])
+    assert row["note"] == "no ratings"
+    assert row["rating_kind"] == ""
+    assert row["published_words"] == ""
+
+
+def make_ratings(device: str, values: list[float], kind: str = "measured") -> pd.DataFrame:
+    names = CONDITIONS[device] if device in CONDITIONS else [f"c{i}" for i in range(len(values))]
+    return pd.DataFrame({"device": device, "condition": names, "rating": values, "kind": kind, "source": "test"})
+
+
+def test_a_device_without_stated_order_has_no_range() -> None:
+    row = make_table(make_scores("mine", [1.0, 2.0, 4.0]), make_ratings("mine", [1.0, 2.0, 4.0])).iloc[0]
+    assert row["r2"] == pytest.approx(1.0)
+    assert math.isnan(row["r2_lowest"])
+    assert math.isnan(row["r2_highest"])
+    assert row["rating_kind"] == "measured"
+
+
+def test_measured_ratings_which_contradict_the_stated_order_are_noted() -> None:
+    row = make_table(make_scores("device2", [1.0, 2.0, 4.0]), make_ratings("device2", [3.0, 2.0, 1.0])).iloc[0]
+    assert row["note"] == "ratings contradict the stated order"
+    assert row["slope_sign"] == -1
+
+
+@pytest.mark.parametrize(
+    ("count", "ratings", "note"), [(3, [1.0, 1.0, 1.0], "constant rating"), (2, [1.0, 2.0], "fewer than three")]
+)
+def test_ratings_that_allow_no_correlation_are_noted(count: int, ratings: list[float], note: str) -> None:
+    row = make_table(make_scores("mine", [1.0, 2.0, 4.0][:count]), make_ratings("mine", ratings)).iloc[0]
+    assert math.isnan(row["r2"])
+    assert note in row["note"]
+
+
+def test_rows_are_matched_by_condition_and_not_by_place() -> None:
+    scores = make_scores("device1", [1.0, 2.0, 3.0, 1.0, 4.0, 5.0, 1.0, 6.0, 7.0])
+    table = make_table(scores)
+    shuffled = make_table(scores.sample(frac=1.0, random_state=0))
+    pd.testing.assert_frame_equal(table, shuffled)
+
+
+def test_scores_and_ratings_of_different_conditions_are_an_error() -> None:
+    with pytest.raises(RatingError, match=r"device2, shear, strain.*'alternate_180'"):
+        make_table(make_scores("device2", [1.0, 2.0, 3.0]).iloc[:2])

@@ -1,0 +1,552 @@
+"""Mistakes in scene files: each gets one message that names file, key, found, allowed and what was meant."""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from jsonschema import Draft202012Validator
+
+from fingerpad.errors import SceneError
+from fingerpad.validation import MOST_REPORTED, check_config, check_device, known_devices, require_device
+
+ROOT = Path(__file__).parents[1]
+SCHEMAS = ROOT / "workflow" / "schemas"
+CONFIG = ROOT / "config" / "config.yaml"
+DEVICES = ROOT / "config" / "devices"
+NAN, INF = float("nan"), float("inf")
+DELETED = object()
+
+
+def quantity(value: Any, unit: str) -> dict[str, Any]:
+    return {"value": value, "unit": unit, "source": "assumption: test"}
+
+
+STILL = [[0.0, 0.0, 0.0, 0.0]] * 2
+TAP = {
+    "dispersion": quantity("one", "1"),
+    "phase": quantity(0, "deg"),
+    "time": quantity([0.5, 1.0], "s"),
+    "normal": quantity([[0.01, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.02]], "mm"),
+    "tangential": quantity(STILL, "mm"),
+}
+HISTORY = {"kind": "history", "histories": {"tap": TAP}}
+
+Edits = dict[str, Any]
+
+
+def edited(document: dict[str, Any], edits: Edits) -> dict[str, Any]:
+    """A copy with the values at dotted keys replaced, added or deleted."""
+    document = copy.deepcopy(document)
+    for key, value in edits.items():
+        *way, last = (int(step) if step.isdigit() else step for step in re.split(r"[.\[\]]+", key.rstrip("]")))
+        node: Any = document
+        for step in way:
+            node = node[step]
+        if value is DELETED:
+            del node[last]
+        else:
+            node[last] = copy.deepcopy(value)
+    return document
+
+
+def write(folder: Path, name: str, document: Any) -> Path:
+    path = folder / name
+    path.write_text(yaml.safe_dump(document, sort_keys=False, allow_unicode=True), encoding="utf-8")
+    return path
+
+
+def message_of(path: Path, device: bool = True) -> str:
+    with pytest.raises(SceneError) as caught:
+        check_device(path, SCHEMAS, CONFIG) if device else check_config(path, SCHEMAS)
+    return str(caught.value)
+
+
+def leaves(node: Any, key: str = "") -> Iterator[str]:
+    """Dotted keys of all values that are no mappings, and of all entries of lists."""
+    if isinstance(node, dict | list) and node:
+        children = node.items() if isinstance(node, dict) else enumerate(node)
+        for step, child in children:
+            inner = f"{key}[{step}]" if isinstance(node, list) else f"{key}.{step}".removeprefix(".")
+            yield from leaves(child, inner)
+    else:
+        yield key
+
+
+# what is edited, the key that the message must name, and what else it must say
+CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
+    "misspelled section": (
+        {"finger": DELETED, "fingr": {}},
+        "fingr",
+        ["an unknown key", "finger, contact, readout, filter, numerics", "did you mean finger?", "(transverse section"],
+    ),
+    "missing section": (
+        {"filter": DELETED},
+        "filter",
+        ["found nothing", "a mapping with the keys wavelength_strain", "(Gabor"],
+    ),
+    "misspelled key": (
+        {"finger.width": DELETED, "finger.widht": quantity(16.0, "mm")},
+        "finger.widht",
+        ["an unknown key", "width, height, bone_width", "did you mean width?", "(width of the elliptical outline)"],
+    ),
+    "unknown key": (
+        {"contact.colour": quantity(1.0, "1")},
+        "contact.colour",
+        ["an unknown key", "the keys friction, criterion ("],
+    ),
+    "key that is a number": ({"contact": {1: 2}}, "contact[1]", ["an unknown key", "friction, criterion"]),
+    "missing key": (
+        {"numerics.growth": DELETED},
+        "numerics.growth",
+        ["found nothing", "a mapping with the keys value, unit, source", "(growth of the element size"],
+    ),
+    "bare number": (
+        {"finger.width": 16.0},
+        "finger.width",
+        ["found 16.0", "keys value, unit, source", "did you mean {value: 16.0, unit: mm, source: ...}?"],
+    ),
+    "empty value": ({"finger.width": None}, "finger.width", ["found null", "a mapping with the keys"]),
+    "missing value": ({"finger.width.value": DELETED}, "finger.width.value", ["found nothing", ">= 1, <= 100"]),
+    "missing unit": ({"finger.width.unit": DELETED}, "finger.width.unit", ["found nothing", "allowed: mm ("]),
+    "missing source": ({"finger.width.source": DELETED}, "finger.width.source", ["found nothing", '"paper: ..."']),
+    "short source": ({"finger.width.source": "me"}, "finger.width.source", ["found me", "5 characters or more"]),
+    "source without a reason": (
+        {"finger.width.source": "assumption: "},
+        "finger.width.source",
+        ["found 'assumption: '", '"assumption: why"'],
+    ),
+    "source of no form": (
+        {"finger.width.source": "Paper, Table 2"},
+        "finger.width.source",
+        ["found Paper, Table 2", "(where the value comes from)"],
+    ),
+    "text for a number": ({"finger.width.value": "wide"}, "finger.width.value", ["found wide", "a finite number"]),
+    "number as text": (
+        {"numerics.newton_tolerance.value": "1e-9"},
+        "numerics.newton_tolerance.value",
+        ["found 1e-9", "a finite number", "did you mean 1.0e-09?"],
+    ),
+    "boolean for a number": (
+        {"contact.friction.value": True},
+        "contact.friction.value",
+        ["found true", "finite number"],
+    ),
+    "not a number": ({"contact.friction.value": NAN}, "contact.friction.value", ["found .nan", "finite number, >= 0"]),
+    "infinity": ({"contact.friction.value": INF}, "contact.friction.value", ["found .inf", "finite number, >= 0"]),
+    "minus infinity": ({"contact.friction.value": -INF}, "contact.friction.value", ["found -.inf", "finite number"]),
+    "number beyond floating point": ({"contact.friction.value": 10**400}, "contact.friction.value", ["found 1000"]),
+    "negative number": (
+        {"contact.friction.value": -0.1},
+        "contact.friction.value",
+        ["found -0.1", ">= 0, <= 5", "(Coulomb friction coefficient"],
+    ),
+    "negative thickness": ({"finger.pad[2].thickness.value": -1.4}, "finger.pad[2].thickness.value", ["found -1.4"]),
+    "incompressible": ({"finger.pad[0].poisson.value": 0.5}, "finger.pad[0].poisson.value", ["found 0.5", "< 0.5"]),
+    "fraction for a whole number": (
+        {"numerics.max_cuts.value": 2.5},
+        "numerics.max_cuts.value",
+        ["found 2.5", "a whole number, >= 0, <= 50"],
+    ),
+    "whole number with a point": (
+        {"numerics.max_cuts.value": 3.0},
+        "numerics.max_cuts.value",
+        ["found 3.0", "a whole number", "did you mean 3?"],
+    ),
+    "unit 1 without quotes": ({"contact.friction.unit": 1}, "contact.friction.unit", ["found 1;", "allowed: '1'"]),
+    "misspelled choice": (
+        {"contact.criterion.value": "Ful"},
+        "contact.criterion.value",
+        ["found Ful", "one of full, touch", "did you mean full?", "(when pre-indentation ends"],
+    ),
+    "one layer on the pad": (
+        {"finger.pad": []},
+        "finger.pad",
+        ["found 0 entries", "a list, at least 2 long", "(layers between pad and bone"],
+    ),
+    "layers as a mapping": ({"finger.dorsal": {"nail": 1}}, "finger.dorsal", ["found {nail: 1}", "a list"]),
+    "layer name with a space": (
+        {"finger.pad[0].name": "Stratum corneum"},
+        "finger.pad[0].name",
+        ["found Stratum corneum", "small letters, digits and underscores", "did you mean stratum_corneum?"],
+    ),
+    "layer name with a final newline": ({"finger.pad[0].name": "horn\n"}, "finger.pad[0].name", ["small letters"]),
+    "two layers of one name": (
+        {"finger.dorsal[1].name": "dermis"},
+        "finger.dorsal[1].name",
+        ["found dermis 2 times", "each name once"],
+    ),
+    "unknown layer": (
+        {"readout.layer_above.value": "epidermis"},
+        "readout.layer_above.value",
+        ["found epidermis", "one of stratum_corneum, viable_epidermis, dermis", "did you mean viable_epidermis?"],
+    ),
+    "layer that reaches the bone": (
+        {"readout.layer_above.value": "subcutaneous_tissue"},
+        "readout.layer_above.value",
+        ["found subcutaneous_tissue", "one of stratum_corneum", "not the last one"],
+    ),
+    "no bone left": (
+        {"finger.pad[3].thickness.value": 9.0},
+        "finger",
+        ["leave no bone", "pad 11 mm", "height 13 mm", "(transverse section of the fingertip)"],
+    ),
+    "bone wider than the finger": ({"finger.bone_width.value": 15.9}, "finger", ["bone_width 15.9 mm", "width 16 mm"]),
+}
+
+DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
+    "misspelled section": (
+        {"stimulus": DELETED, "stimuli": {}},
+        "stimuli",
+        ["an unknown key", "title, control, actuators, stimulus", "did you mean stimulus?"],
+    ),
+    "empty title": ({"title.value": ""}, "title.value", ["found ''", "text, at least 1 long", "(what figures"]),
+    "misspelled control": ({"control.value": "froce"}, "control.value", ["one of displacement, force", "mean force?"]),
+    "no actuator": ({"actuators.count.value": 0}, "actuators.count.value", ["found 0", "a whole number, >= 1, <= 64"]),
+    "half an actuator": ({"actuators.count.value": 4.0}, "actuators.count.value", ["found 4.0", "did you mean 4?"]),
+    "overlapping actuators": (
+        {"actuators.pitch.value": 0.5},
+        "actuators",
+        ["overlap", "width 1 mm", "distance 0.5 mm", "(a row of equal actuators"],
+    ),
+    "actuator beyond the finger": (
+        {"actuators.pitch.value": 6.0},
+        "actuators",
+        ["reaches x = 9.5 mm", "the finger's half width 8 mm"],
+    ),
+    "edges rounder than the actuator": (
+        {"actuators.edge_radius.value": 0.6},
+        "actuators",
+        ["edge_radius must lie between 0 and width/2 = 0.5 mm", "found 0.6"],
+    ),
+    "unknown body": ({"actuators.body.kind": "soft"}, "actuators.body.kind", ["one of rigid, deformable"]),
+    "body without its kind": ({"actuators.body": {}}, "actuators.body.kind", ["nothing", "rigid, deformable"]),
+    "rigid body with a modulus": (
+        {"actuators.body.modulus": quantity(1.0, "MPa")},
+        "actuators.body.modulus",
+        ["an unknown key", "the keys kind, source ("],
+    ),
+    "deformable body without a modulus": (
+        {"actuators.body": {"kind": "deformable", "thickness": quantity(1, "mm"), "poisson": quantity(0.4, "1")}},
+        "actuators.body.modulus",
+        ["found nothing", "(Young's modulus)"],
+    ),
+    "stimulus is a number": ({"stimulus": 3}, "stimulus", ["found 3", "a mapping with the keys kind ("]),
+    "misspelled kind": (
+        {"stimulus.kind": "phasd"},
+        "stimulus.kind",
+        ["found phasd", "one of phased, alternating, history", "did you mean phased?", "(how the stimulus is given)"],
+    ),
+    "misspelled key of the kind": (
+        {"stimulus.kind": DELETED, "stimulus.knd": "phased"},
+        "stimulus.knd",
+        ["an unknown key", "did you mean kind?"],
+    ),
+    "key of another kind": (
+        {"stimulus.rows": []},
+        "stimulus.rows",
+        ["an unknown key", "direction, amplitude, playback, phases, dispersions"],
+    ),
+    "unknown direction": (
+        {"stimulus.direction.value": "latral"},
+        "stimulus.direction.value",
+        ["one of normal, lateral", "did you mean lateral?"],
+    ),
+    "no amplitude": ({"stimulus.amplitude.value": 0}, "stimulus.amplitude.value", ["found 0", "> 0, <= 10"]),
+    "negative phase": ({"stimulus.phases.value": [0, -90]}, "stimulus.phases.value[1]", ["found -90", ">= 0, <= 360"]),
+    "hidden not-a-number": (
+        {"stimulus.phases.value": [0, 90, NAN]},
+        "stimulus.phases.value[2]",
+        ["found .nan", "a finite number", "(phase differences"],
+    ),
+    "hidden boolean": ({"stimulus.phases.value": [0, True]}, "stimulus.phases.value[1]", ["found true"]),
+    "repeated phase": ({"stimulus.phases.value": [0, 90, 90.0]}, "stimulus.phases.value", ["without repeats"]),
+    "phases that are written alike": (
+        {"stimulus.phases.value": [90, 90.0000001]},
+        "stimulus",
+        ["condition names must differ", "low_090"],
+    ),
+    "no phase": ({"stimulus.phases.value": []}, "stimulus.phases.value", ["found 0 entries", "at least 1 long"]),
+    "no dispersion": ({"stimulus.dispersions": {}}, "stimulus.dispersions", ["found {}", "at least 1 long"]),
+    "dispersion that is no name": (
+        {"stimulus.dispersions": {"Very High": quantity([0, 1, 0, 1], "1")}},
+        "stimulus.dispersions",
+        ["the name Very High", "small letters", "did you mean very_high?"],
+    ),
+    "dispersion that is a number": (
+        {"stimulus.dispersions": {1: quantity([0, 1, 0, 1], "1")}},
+        "stimulus.dispersions",
+        ["the name 1", "begins with a letter"],
+    ),
+    "dispersion with a reserved name": (
+        {"stimulus.dispersions": {"value": quantity([0, 1, 0, 1], "1")}},
+        "stimulus.dispersions",
+        ["the name value", 'not "value"'],
+    ),
+    "too few group indices": (
+        {"stimulus.dispersions.low.value": [0, 1, 0]},
+        "stimulus.dispersions.low",
+        ["needs 4 group indices", "found 3"],
+    ),
+    "fractional group index": (
+        {"stimulus.dispersions.low.value": [0, 1, 0.5, 1]},
+        "stimulus.dispersions.low.value[2]",
+        ["found 0.5", "a whole number, >= 0"],
+    ),
+    "negative row": (
+        {"stimulus": {**yaml.safe_load((DEVICES / "device3.yaml").read_text())["stimulus"]}}
+        | {"stimulus.rows[1].absolute.value": -0.222},
+        "stimulus.rows[1].absolute.value",
+        ["found -0.222", ">= 0", "(displacement common to all actuators)"],
+    ),
+    "two rows of one phase": (
+        {"stimulus": yaml.safe_load((DEVICES / "device3.yaml").read_text())["stimulus"]}
+        | {"stimulus.rows[1].phase.value": 0},
+        "stimulus",
+        ["condition names must differ", "alternate_000"],
+    ),
+    "history with a hole": (
+        {"stimulus": HISTORY, "stimulus.histories.tap.normal.value": [[0, 0, 0, 0], [0, 0, NAN, 0]]},
+        "stimulus.histories.tap.normal.value[1][2]",
+        ["found .nan", "a finite number, >= -10, <= 10", "(displacement into the skin"],
+    ),
+    "history with a short row": (
+        {"stimulus": HISTORY, "stimulus.histories.tap.tangential.value": [[0, 0, 0, 0], [0, 0, 0]]},
+        "stimulus.histories.tap.tangential",
+        ["every row needs 4 numbers"],
+    ),
+    "history with a missing row": (
+        {"stimulus": HISTORY, "stimulus.histories.tap.normal.value": [[0, 0, 0, 0]]},
+        "stimulus",
+        ["condition tap", "normal must have 2 rows"],
+    ),
+    "history back in time": (
+        {"stimulus": HISTORY, "stimulus.histories.tap.time.value": [1.0, 0.5]},
+        "stimulus",
+        ["condition tap", "time must ascend"],
+    ),
+    "history without a key": (
+        {"stimulus": HISTORY, "stimulus.histories.tap.time": DELETED},
+        "stimulus.histories.tap.time",
+        ["found nothing", "(ascending times of the rows)"],
+    ),
+    "history that is no name": (
+        {"stimulus": {"kind": "history", "histories": {"../tap": TAP}}},
+        "stimulus.histories",
+        ["the name ../tap", "small letters", "did you mean tap?"],
+    ),
+}
+
+UNITS = [  # key, what is found, what was meant
+    ("finger.width", (16000, "um"), (16.0, "mm")),
+    ("finger.width", (16000, "\N{GREEK SMALL LETTER MU}m"), (16.0, "mm")),
+    ("finger.width", (16000, "\N{MICRO SIGN}m"), (16.0, "mm")),
+    ("finger.width", (1.6, "cm"), (16.0, "mm")),
+    ("finger.width", (0.016, "m"), (16.0, "mm")),
+    ("finger.pad[2].modulus", (80, "kPa"), (0.08, "MPa")),
+    ("finger.pad[2].modulus", (8.0e4, "Pa"), (0.08, "MPa")),
+    ("finger.dorsal[0].modulus", (0.17, "GPa"), (170.0, "MPa")),
+]
+
+TEXTS = {  # what the file holds, and what the message must say
+    "nothing": (b"", ["a mapping of keys", "found an empty file"]),
+    "only a comment": (b"# finger\n", ["found an empty file"]),
+    "a list": (b"- finger\n", ["a mapping of keys", "found the list ['finger']"]),
+    "a number": (b"3\n", ["found the int 3"]),
+    "an open bracket": (b"finger: [1,\n", ["not valid YAML", "line 2"]),
+    "a tab": (b"finger:\n\twidth: 3\n", ["not valid YAML", "line 2, column 1", "'\\t'"]),
+    "a key twice": (b"finger: 1\ncontact: 2\nfinger: 3\n", ["line 3", "'finger' twice", "line 1", "allowed once"]),
+    "an inner key twice": (b"finger: {width: 1, 'width': 2}\n", ["line 1, column 20", "'width' twice"]),
+    "two documents": (b"a: 1\n---\nb: 2\n", ["not valid YAML", "another document"]),
+    "an impossible date": (b"a: 2022-13-45\n", ["not valid YAML", "month"]),
+    "Latin-1": ("finger: µm\n".encode("latin-1"), ["UTF-8", "found byte 0xb5"]),
+    "a null byte": (b"finger: \x00\n", ["not valid YAML"]),
+}
+
+
+@pytest.mark.parametrize("name", ["device1", "device2", "device3"])
+def test_shipped_devices_pass(name: str) -> None:
+    scene = check_device(DEVICES / f"{name}.yaml", SCHEMAS, CONFIG)
+    assert scene.device.name == name
+    assert scene.model == check_config(CONFIG, SCHEMAS)
+
+
+def test_history_passes(tmp_path: Path) -> None:
+    document = yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8"))
+    scene = check_device(write(tmp_path, "tapper.yaml", edited(document, {"stimulus": HISTORY})), SCHEMAS, CONFIG)
+    assert [condition.name for condition in scene.device.conditions] == ["tap"]
+    assert scene.device.conditions[0].normal[1, 3] == 0.02
+
+
+@pytest.mark.parametrize(("edits", "key", "parts"), CONFIG_MISTAKES.values(), ids=CONFIG_MISTAKES)
+def test_mistake_in_config(tmp_path: Path, edits: Edits, key: str, parts: list[str]) -> None:
+    document = edited(yaml.safe_load(CONFIG.read_text(encoding="utf-8")), edits)
+    path = write(tmp_path, "config.yaml", document)
+    message = message_of(path, device=False)
+    assert f"{path}: {key}: " in message
+    assert [part for part in parts if part not in message] == []
+    assert all(line.startswith(f"{path}: ") for line in message.splitlines())
+
+
+@pytest.mark.parametrize(("edits", "key", "parts"), DEVICE_MISTAKES.values(), ids=DEVICE_MISTAKES)
+def test_mistake_in_device(tmp_path: Path, edits: Edits, key: str, parts: list[str]) -> None:
+    document = edited(yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8")), edits)
+    path = write(tmp_path, "mine.yaml", document)
+    message = message_of(path)
+    assert message.startswith(f"{path}: {key}: ")
+    assert [part for part in parts if part not in message] == []
+    assert len(message.splitlines()) == 1
+
+
+@pytest.mark.parametrize(("key", "found", "meant"), UNITS)
+def test_wrong_unit_is_converted(tmp_path: Path, key: str, found: tuple[float, str], meant: tuple[float, str]) -> None:
+    document = edited(yaml.safe_load(CONFIG.read_text(encoding="utf-8")), {key: quantity(*found)})
+    message = message_of(write(tmp_path, "config.yaml", document), device=False)
+    hint = f"did you mean {{value: {meant[0]}, unit: {meant[1]}}}?"
+    assert f"{key}.unit: found {found[1]}; allowed: {meant[1]}; {hint} (" in message.splitlines()[0]
+
+
+def test_wrong_unit_of_a_list_is_converted(tmp_path: Path) -> None:
+    document = yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8"))
+    edits = {"stimulus.phases": quantity([0, 3.141592653589793], "rad")}
+    message = message_of(write(tmp_path, "mine.yaml", edited(document, edits)))
+    assert "stimulus.phases.unit: found rad; allowed: deg; did you mean {value: [0.0, 180.0], unit: deg}?" in message
+
+
+@pytest.mark.parametrize("name", ["config", "device1", "device3"])
+def test_not_a_number_is_found_everywhere(tmp_path: Path, name: str) -> None:
+    file = CONFIG if name == "config" else DEVICES / f"{name}.yaml"
+    document = yaml.safe_load(file.read_text(encoding="utf-8"))
+    keys = list(leaves(document))
+    assert len(keys) > 30
+    for key in keys:
+        message = message_of(write(tmp_path, file.name, edited(document, {key: NAN})), device=file is not CONFIG)
+        assert f": {key}: found .nan; allowed: " in message
+
+
+@pytest.mark.parametrize(("text", "parts"), TEXTS.values(), ids=TEXTS)
+@pytest.mark.parametrize("device", [False, True], ids=["config", "device"])
+def test_file_that_is_no_scene_file(tmp_path: Path, text: bytes, parts: list[str], device: bool) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_bytes(text)
+    message = message_of(path, device)
+    assert message.startswith(f"{path}: ")
+    assert [part for part in parts if part not in message] == []
+    assert len(message.splitlines()) == 1
+
+
+def test_file_that_cannot_be_read(tmp_path: Path) -> None:
+    assert "No such file" in message_of(tmp_path / "absent.yaml", device=False)
+    assert f"{tmp_path}: " in message_of(tmp_path, device=False)
+    assert "s a directory" in message_of(tmp_path, device=False)
+
+
+def test_wrong_config_is_reported_for_a_device(tmp_path: Path) -> None:
+    config = tmp_path / "config.yaml"
+    config.write_text("")
+    with pytest.raises(SceneError, match=re.escape(f"{config}: ") + ".*an empty file"):
+        check_device(DEVICES / "device1.yaml", SCHEMAS, config)
+
+
+def test_most_fundamental_mistake_comes_first(tmp_path: Path) -> None:
+    edits = {"contact.friction.value": -1, "filter.sigma.value": "wide", "numerics.max_cuts": DELETED}
+    document = edited(yaml.safe_load(CONFIG.read_text(encoding="utf-8")), edits)
+    lines = message_of(write(tmp_path, "config.yaml", document), device=False).splitlines()
+    keys = [line.split(": ")[1] for line in lines]
+    assert keys == ["numerics.max_cuts", "filter.sigma.value", "contact.friction.value"]
+
+
+def test_many_mistakes_are_cut(tmp_path: Path) -> None:
+    document = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+    edits = {f"numerics.{key}.value": -1 for key in document["numerics"]}
+    lines = message_of(write(tmp_path, "config.yaml", edited(document, edits)), device=False).splitlines()
+    assert len(lines) == MOST_REPORTED + 1
+    assert lines[-1].endswith(f": and {len(edits) - MOST_REPORTED} more")
+
+
+def test_long_values_are_cut(tmp_path: Path) -> None:
+    document = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+    path = write(tmp_path, "config.yaml", edited(document, {"contact": list(range(1000))}))
+    assert f"{path}: contact: found [0, 1, 2" in (message := message_of(path, device=False))
+    assert len(message) - len(str(path)) < 250
+
+
+def test_known_devices() -> None:
+    assert {"device1", "device2", "device3"} <= set(known_devices(DEVICES))
+    assert require_device("device2", DEVICES) == DEVICES / "device2.yaml"
+
+
+def test_unknown_device(tmp_path: Path) -> None:
+    for name in ("rough", "smooth"):
+        (tmp_path / f"{name}.yaml").touch()
+    (tmp_path / ".hidden.yaml").touch()
+    (tmp_path / "notes.txt").touch()
+    assert known_devices(tmp_path) == ["rough", "smooth"]
+    with pytest.raises(SceneError) as caught:
+        require_device("smoth", tmp_path)
+    message = str(caught.value)
+    parts = [f"{tmp_path}: device: ", "found smoth", "allowed: rough, smooth", "did you mean smooth?"]
+    assert [part for part in parts if part not in message] == []
+
+
+def test_no_devices(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="found device1, which has no file; allowed: none"):
+        require_device("device1", tmp_path)
+    with pytest.raises(SceneError, match="is not a folder"):
+        known_devices(tmp_path / "absent")
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("Device-4.yaml", "device_4.yaml"),
+        ("my device.yaml", "my_device.yaml"),
+        ("4pins.yaml", "pins.yaml"),
+        ("a.b.yaml", "a_b.yaml"),
+        ("device4.yml", "device4.yaml"),
+    ],
+)
+def test_file_name_that_is_no_device_name(tmp_path: Path, name: str, meant: str) -> None:
+    path = tmp_path / name
+    path.write_bytes((DEVICES / "device1.yaml").read_bytes())
+    for act in (lambda: known_devices(tmp_path), lambda: check_device(path, SCHEMAS, CONFIG)):
+        with pytest.raises(SceneError) as caught:
+            act()
+        message = str(caught.value)
+        parts = [f"{path}: file name: found {name}", "small letters", f"did you mean {meant}?"]
+        assert [part for part in parts if part not in message] == []
+
+
+def subschemas(node: Any) -> Iterator[dict[str, Any]]:
+    """All mappings in a schema."""
+    if isinstance(node, dict):
+        yield node
+    for child in node.values() if isinstance(node, dict) else node if isinstance(node, list) else ():
+        yield from subschemas(child)
+
+
+@pytest.mark.parametrize("name", ["config", "device"])
+def test_schemas_are_closed_and_described(name: str) -> None:
+    schema = yaml.safe_load((SCHEMAS / f"{name}.schema.yaml").read_text(encoding="utf-8"))
+    Draft202012Validator.check_schema(schema)
+    nodes = list(subschemas(schema))
+    described, units = 0, 0
+    for node in nodes:
+        if node.get("type") == "object" and "allOf" not in node:  # with allOf, the branch of the kind is closed
+            assert "additionalProperties" in node, node
+        if node.get("$ref") == "#/$defs/quantity":
+            assert set(node["properties"]) == {"value", "unit"}, node
+            assert "const" in node["properties"]["unit"], node
+            units += 1
+        for key, child in node.get("properties", {}).items() if isinstance(node.get("properties"), dict) else ():
+            if isinstance(child, dict) and key not in ("value", "unit", "source") and "const" not in child:
+                target = schema["$defs"].get(str(child.get("$ref")).removeprefix("#/$defs/"), {})
+                assert "description" in child or "description" in target, key
+                described += 1
+    assert units > 10
+    assert described > 15

@@ -1,0 +1,17 @@
+# Which of the paper's statements the computed tables bear out.
+# REQUIRED INPUTS: results/scores.csv, results/correlations.csv. OUTPUTS: results/claims.csv
+
+
+rule claims:
+    input:
+        scores="results/scores.csv",
+        correlations="results/correlations.csv",
+        code=code("claims.py"),
+    output:
+        claims="results/claims.csv",
+    log:
+        "results/logs/claims.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/claims.py"

@@ -1,0 +1,75 @@
+# What all rules share: the validated scenes, the targets that follow from them, and how inputs are named.
+# `--config scenes=FOLDER` takes config.yaml and devices/ from another folder than config/.
+
+from difflib import get_close_matches
+
+from fingerpad.errors import FingerpadError
+from fingerpad.scene import Interface
+from fingerpad.scenefile import load_scene
+from fingerpad.validation import check_config, check_device, known_devices
+from snakemake.exceptions import WorkflowError
+
+import support
+
+SCENES = Path(config.get("scenes", BASE / "config"))
+CONFIG = SCENES / "config.yaml"
+DATA = BASE / "data"
+ENVIRONMENT = BASE / "environment.yml"
+
+try:
+    check_config(CONFIG, BASE / "workflow" / "schemas")
+    DEVICES = known_devices(SCENES / "devices")
+    for name in DEVICES:
+        check_device(SCENES / "devices" / f"{name}.yaml", BASE / "workflow" / "schemas", CONFIG)
+    SCENE = {name: load_scene(CONFIG, SCENES / "devices" / f"{name}.yaml") for name in DEVICES}
+except FingerpadError as error:
+    raise WorkflowError(str(error)) from None
+
+
+def scene_of(wildcards):
+    """The scene of the wildcard device; an unknown one is an error that names the known ones."""
+    if wildcards.device not in SCENE:
+        close = get_close_matches(wildcards.device, DEVICES, n=1)
+        hint = f"; did you mean {close[0]!r}?" if close else ""
+        raise WorkflowError(f"unknown device {wildcards.device!r}: known are {', '.join(DEVICES)}{hint}")
+    return SCENE[wildcards.device]
+
+
+def condition_of(wildcards):
+    """The condition of the wildcards; an unknown one is an error that names the known ones."""
+    device = scene_of(wildcards).device
+    names = [condition.name for condition in device.conditions]
+    if wildcards.condition not in names:
+        raise WorkflowError(f"{device.name} has no condition {wildcards.condition!r}: there are {', '.join(names)}")
+    return device.condition(wildcards.condition)
+
+
+def device_file(wildcards):
+    """The scene file of the wildcard device."""
+    return SCENES / "devices" / f"{scene_of(wildcards).device.name}.yaml"
+
+
+def code(script):
+    """The script and the modules that it reaches, as inputs."""
+    return support.reached_modules(BASE / "workflow" / "scripts" / script, SOURCE)
+
+
+def cases(pattern, devices=DEVICES):
+    """The pattern for every device, condition and interface that can be predicted."""
+    return [
+        pattern.format(device=name, condition=condition.name, interface=interface)
+        for name in devices
+        for condition in SCENE[name].device.conditions
+        for interface in SCENE[name].device.interfaces()
+    ]
+
+
+def body_of(wildcards):
+    """The condensed body of a deformable actuator, or nothing."""
+    return f"results/{wildcards.device}/body.npz" if scene_of(wildcards).device.actuators.body else []
+
+
+wildcard_constraints:
+    device="[a-z][a-z0-9_]*",
+    condition="[a-z][a-z0-9_]*",
+    interface="|".join(Interface),

@@ -1,0 +1,41 @@
+# Compliance of contact nodes and strain map of receptors for one device, and the compliance of its actuators' bodies.
+# REQUIRED INPUTS: results/{device}/mesh.npz. OUTPUTS: results/{device}/condensed.npz, results/{device}/body.npz
+
+
+rule condense:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        mesh="results/{device}/mesh.npz",
+        code=code("condense.py"),
+    output:
+        condensed="results/{device}/condensed.npz",
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model.readout, support.stroke(scene_of(w))),
+    log:
+        "results/logs/{device}/condense.log",
+    benchmark:
+        "results/benchmarks/{device}/condense.tsv"
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/condense.py"
+
+
+rule condense_body:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        code=code("condense_body.py"),
+    output:
+        body="results/{device}/body.npz",
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).device.actuators, scene_of(w).model.numerics),
+    log:
+        "results/logs/{device}/condense_body.log",
+    benchmark:
+        "results/benchmarks/{device}/condense_body.tsv"
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/condense_body.py"

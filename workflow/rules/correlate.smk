@@ -1,0 +1,19 @@
+# Correlation of scores with perceived roughness, for every device, interface and read-out.
+# REQUIRED INPUTS: results/scores.csv, data/. OUTPUTS: results/correlations.csv
+
+
+rule correlate:
+    input:
+        scores="results/scores.csv",
+        ratings=DATA / "ratings.csv",
+        order=DATA / "stated_order.csv",
+        published=DATA / "published_r2.csv",
+        code=code("correlate.py"),
+    output:
+        correlations="results/correlations.csv",
+    log:
+        "results/logs/correlate.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/correlate.py"

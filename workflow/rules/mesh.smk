@@ -1,0 +1,26 @@
+# Mesh of the finger's section, graded for one device.
+# REQUIRED INPUTS: scene files. OUTPUTS: results/{device}/mesh.npz
+
+
+rule mesh:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        code=code("mesh.py"),
+    output:
+        mesh="results/{device}/mesh.npz",
+    params:
+        scene=lambda w: support.fingerprint(
+            scene_of(w).model.finger,
+            scene_of(w).model.readout.layer_above,
+            scene_of(w).model.numerics,
+            scene_of(w).device.actuators,
+        ),
+    log:
+        "results/logs/{device}/mesh.log",
+    benchmark:
+        "results/benchmarks/{device}/mesh.tsv"
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/mesh.py"

@@ -1,0 +1,43 @@
+# Roughness scores: of one device, condition and interface, and the tidy table of all.
+# REQUIRED INPUTS: results/{device}/{condition}/{interface}/filtered.npz. OUTPUTS: score.csv beside it, results/scores.csv
+
+
+rule score:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        filtered="results/{device}/{condition}/{interface}/filtered.npz",
+        code=code("score.py"),
+    output:
+        score="results/{device}/{condition}/{interface}/score.csv",
+    params:
+        scene=lambda w: support.fingerprint(
+            scene_of(w).device.actuators,
+            scene_of(w).model.readout.span_margin,
+            condition_of(w).dispersion,
+            condition_of(w).phase_deg,
+        ),
+    log:
+        "results/logs/{device}/{condition}/{interface}/score.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/score.py"
+
+
+rule scores:
+    input:
+        config=ancient(CONFIG),
+        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        scores=cases("results/{device}/{condition}/{interface}/score.csv"),
+        code=code("scores.py"),
+    output:
+        scores="results/scores.csv",
+    params:
+        devices=DEVICES,
+    log:
+        "results/logs/scores.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/scores.py"

@@ -1,0 +1,29 @@
+# Frictional contact path of one device, condition and interface, with its certificate and receptor strains.
+# REQUIRED INPUTS: results/{device}/condensed.npz, body.npz for deformable actuators.
+# OUTPUTS: results/{device}/{condition}/{interface}/solution.npz
+
+
+rule solve:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        condensed="results/{device}/condensed.npz",
+        body=body_of,
+        code=code("solve.py"),
+    output:
+        solution="results/{device}/{condition}/{interface}/solution.npz",
+    params:
+        scene=lambda w: support.fingerprint(
+            scene_of(w).device.actuators,
+            scene_of(w).model.contact,
+            scene_of(w).model.numerics,
+            support.path_of(condition_of(w)),
+        ),
+    log:
+        "results/logs/{device}/{condition}/{interface}/solve.log",
+    benchmark:
+        "results/benchmarks/{device}/{condition}/{interface}/solve.tsv"
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/solve.py"

@@ -1,0 +1,18 @@
+"""Condense the finger to contact nodes and receptors."""
+
+from pathlib import Path
+
+from fingerpad.condensation import condense_section
+from fingerpad.mesh import load_section
+from fingerpad.scenefile import load_scene
+from fingerpad.store import save
+
+
+def main(config: Path, device: Path, mesh: Path, condensed: Path) -> None:
+    """Read scene and mesh, condense, write compliance and strain map."""
+    save(condensed, condense_section(load_section(mesh), load_scene(config, device)))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(Path(job.input.config), Path(job.input.device), Path(job.input.mesh), Path(job.output.condensed))

@@ -1,0 +1,27 @@
+"""Correlate scores with perceived roughness."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.perception import correlation_table, read_published, read_ratings, read_stated_order
+
+
+def main(scores: Path, ratings: Path, order: Path, published: Path, correlations: Path) -> None:
+    """Read scores and literature data, correlate, write the table."""
+    table = pd.read_csv(scores)
+    conditions = {device: list(dict.fromkeys(rows)) for device, rows in table.groupby("device")["condition"]}
+    correlation_table(
+        table, read_ratings(ratings, conditions), read_stated_order(order, conditions), read_published(published)
+    ).to_csv(correlations, index=False, lineterminator="\n")
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.scores),
+        Path(job.input.ratings),
+        Path(job.input.order),
+        Path(job.input.published),
+        Path(job.output.correlations),
+    )

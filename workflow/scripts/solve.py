@@ -1,0 +1,45 @@
+"""Solve one device, condition and interface."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.scene import Interface
+from fingerpad.scenefile import load_scene
+from fingerpad.solution import solve_condition
+from fingerpad.store import load, save
+
+
+def main(
+    config: Path,
+    device: Path,
+    condensed: Path,
+    body: Path | None,
+    condition: str,
+    interface: str,
+    solution: Path,
+) -> None:
+    """Read scene and compliance, follow the condition's path, write the certified solution."""
+    scene = load_scene(config, device)
+    save(
+        solution,
+        solve_condition(
+            scene,
+            load(condensed, CondensedSection),
+            load(body, CondensedBody) if body else None,
+            scene.device.condition(condition),
+            Interface(interface),
+        ),
+    )
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.condensed),
+        Path(job.input.body) if job.input.body else None,
+        job.wildcards.condition,
+        job.wildcards.interface,
+        Path(job.output.solution),
+    )

@@ -1,0 +1,79 @@
+"""What the Snakefile needs to know about scenes and code: pure functions, no rules."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fingerpad.scene import Condition, Scene
+
+PACKAGE = "fingerpad"
+
+
+def reached_modules(script: Path, source: Path) -> list[str]:
+    """The script and every module of the package that it reaches by imports, sorted: edits to these rerun its rule."""
+    reached: set[Path] = set()
+    waiting = [script]
+    while waiting:
+        path = waiting.pop()
+        if path in reached:
+            continue
+        reached.add(path)
+        waiting.extend(_imported(path, source))
+    return sorted(str(path) for path in reached)
+
+
+def _imported(path: Path, source: Path) -> list[Path]:
+    """Files of the package that one file imports."""
+    package = source / PACKAGE
+    found: list[Path] = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            if node.level:
+                here = path.parent.relative_to(source).parts
+                base = ".".join(here[: len(here) - node.level + 1] + ((node.module,) if node.module else ()))
+            else:
+                base = node.module or ""
+            names = [base] + [f"{base}.{alias.name}" for alias in node.names]
+        else:
+            continue
+        for name in names:
+            if name.split(".")[0] != PACKAGE:
+                continue
+            stem = source.joinpath(*name.split("."))
+            found.extend(file for file in (stem.with_suffix(".py"), stem / "__init__.py") if file.is_file())
+        if any(name.split(".")[0] == PACKAGE for name in names):
+            found.append(package / "__init__.py")
+    return found
+
+
+def fingerprint(*parts: Any) -> str:
+    """The values (not the sources) of parts of a scene, as text: a job reruns when what it depends on changes."""
+    return json.dumps([_plain(part) for part in parts], sort_keys=True)
+
+
+def stroke(scene: Scene) -> float:
+    """Largest tangential displacement of any condition [mm]: it decides which skin nodes are condensed."""
+    return max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
+
+
+def path_of(condition: Condition) -> tuple[Any, ...]:
+    """What a condition prescribes, without its names."""
+    return condition.time, condition.normal, condition.tangential
+
+
+def _plain(part: Any) -> Any:
+    if dataclasses.is_dataclass(part):
+        return {field.name: _plain(getattr(part, field.name)) for field in dataclasses.fields(part)}
+    if isinstance(part, np.ndarray):
+        return part.tolist()
+    if isinstance(part, (list, tuple)):
+        return [_plain(child) for child in part]
+    return part
