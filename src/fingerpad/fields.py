@@ -57,6 +57,4 @@ def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fi
         gradient = np.asarray(at_corners.interpolate(column).grad)
         components = np.stack([gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]], axis=-1)
         strains.append(maximum_principal(components.ravel()))
-    return Fields(
-        corner, section.layer, np.array([column[nodes] for column in displacement.T]), np.array(strains)
-    )
+    return Fields(corner, section.layer, np.array([column[nodes] for column in displacement.T]), np.array(strains))

@@ -12,7 +12,7 @@ from .scene import ActuatorRow, FloatArray
 
 WALL_ANGLE = np.deg2rad(75.0)  # rad; beyond it the circle goes on as its tangent; source: skin wraps by less (measured)
 # ASSUME: actuators.edge_radius = 0 is regularised to this radius, so that a node at the edge has one slope
-SHARP_RADIUS = 0.005  # mm; source: a quarter of the finest node spacing
+SHARP_RADIUS = 0.001  # mm; source: a tenth of the node spacing at an edge
 
 
 def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -1,0 +1,108 @@
+"""Scores with and without shear, for every device and both read-outs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from ..scene import Interface, Readout
+from .style import (
+    BLUE,
+    GREY,
+    INTERFACE_NAME,
+    ORANGE,
+    SCORE_SCALE,
+    WIDE,
+    legend_below,
+    letter,
+    new_figure,
+    score_label,
+    styled,
+)
+
+ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
+BAR = 0.38  # width of a bar, of the distance between conditions [1]
+GROUP_OFFSET = -18.0  # of a dispersion's name below the axis [pt]
+LOOK: dict[Interface, dict[str, Any]] = {
+    Interface.SHEAR: {"facecolor": BLUE, "edgecolor": BLUE},
+    Interface.FRICTIONLESS: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
+}
+
+
+@styled
+def ablation_figure(scores: pd.DataFrame, correlations: pd.DataFrame, titles: Mapping[str, str]) -> Figure:
+    """Strain (A) and change-of-strain scores (B) of every condition with and without shear, one row a device.
+
+    scores, correlations: the tables of that name. titles: by device.
+    """
+    figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
+    grid = figure.subplots(len(titles), len(Readout), squeeze=False)
+    for row, (device, title) in zip(grid, titles.items(), strict=True):
+        for axes, readout in zip(row, Readout, strict=True):
+            chosen = [t[(t["device"] == device) & (t["readout"] == readout)] for t in (scores, correlations)]
+            _panel(axes, readout, *chosen)
+        row[0].annotate(
+            title, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 26.0), textcoords="offset points",
+            fontweight="bold", fontsize="large",
+        )  # fmt: skip
+    for axes, text in zip(grid[0], "AB", strict=True):
+        letter(axes, text)
+    legend_below(figure, [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface])
+    return figure
+
+
+def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.DataFrame) -> None:
+    """Bars of one device and read-out, a pair for each condition."""
+    factor = SCORE_SCALE[readout][0]
+    wide = scores.pivot(index="condition", columns="interface", values="score")
+    conditions = scores.drop_duplicates("condition")
+    places = np.arange(len(conditions))
+    for interface, side in zip(Interface, (-0.5, 0.5), strict=True):
+        heights = factor * wide.reindex(conditions["condition"])[interface].to_numpy(float)
+        if np.isfinite(heights).any():
+            axes.bar(places + side * BAR, heights, BAR, **LOOK[interface])
+        else:
+            note = str(scores.loc[scores["interface"] == interface, "note"].iloc[0])
+            for place in places:
+                axes.annotate(
+                    note, (place + side * BAR, 0.0), xytext=(0.0, 3.0), textcoords="offset points", rotation=90.0,
+                    ha="center", va="bottom", color=GREY,
+                )  # fmt: skip
+    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" (", "\n("))
+    _name_conditions(axes, conditions)
+    lines = [_statistics(correlations, interface) for interface in Interface]
+    axes.set_title("\n".join(lines), loc="left", fontsize="medium", fontweight="normal")
+
+
+def _name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
+    """Phases under the bars, and under them the dispersions; or the conditions' names where these say too little."""
+    places = np.arange(len(conditions))
+    if conditions.duplicated(["dispersion", "phase_deg"]).any():
+        axes.set_xticks(places, list(conditions["condition"]), rotation=20.0, ha="right")
+        return
+    axes.set_xticks(places, [f"{phase:g}°" for phase in conditions["phase_deg"]])
+    if conditions["dispersion"].nunique() == 1:
+        axes.set_xlabel("Phase difference")
+        return
+    for name in conditions["dispersion"].unique():
+        centre = float(places[(conditions["dispersion"] == name).to_numpy()].mean())
+        axes.annotate(
+            f"{name} dispersion" if len(conditions) <= 6 else name, (centre, 0.0),
+            xycoords=axes.get_xaxis_transform(), xytext=(0.0, GROUP_OFFSET), textcoords="offset points",
+            ha="center", va="top",
+        )  # fmt: skip
+
+
+def _statistics(correlations: pd.DataFrame, interface: Interface) -> str:
+    """One line on how scores at an interface correlate with the ratings."""
+    row = correlations[correlations["interface"] == interface].iloc[0]
+    if pd.isna(row["r2"]):
+        return f"{INTERFACE_NAME[interface]}: {row['note']}"
+    sign = {-1: "falling", 1: "rising"}.get(int(row["slope_sign"]), "level")
+    return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f} ({row['rating_kind']}), {sign}, n = {row['n']}"

@@ -1,0 +1,133 @@
+"""Score against perceived roughness, for every device and both read-outs (mirrors the paper's figure 5)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..scene import Interface, Readout
+from .style import (
+    GREY,
+    READOUT_NAME,
+    SCORE_SCALE,
+    WIDE,
+    Styles,
+    condition_styles,
+    draw_point,
+    legend_below,
+    letter,
+    new_figure,
+    note_in,
+    score_label,
+    styled,
+)
+
+ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
+SMALLEST_P = 0.001  # below it p is given as a bound
+PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
+CAPTION = (
+    "n: conditions. range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R².\n"
+    "spread: of the scores, relative to their mean. Line: least squares. Ratings: {kinds}."
+)
+
+
+@styled
+def correlation_figure(
+    scores: pd.DataFrame, ratings: pd.DataFrame, correlations: pd.DataFrame, titles: Mapping[str, str]
+) -> Figure:
+    """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row a device.
+
+    scores, correlations: the tables of that name. ratings: device, condition, rating. titles: by device.
+    """
+    figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
+    styles = condition_styles(scores)
+    grid = figure.subplots(len(titles), len(Readout), squeeze=False)
+    for row, (device, title) in zip(grid, titles.items(), strict=True):
+        for axes, readout in zip(row, Readout, strict=True):
+            correlation_panel(axes, scores, ratings, correlations, (device, Interface.SHEAR, readout), styles)
+        row[0].set_title(title, loc="left")
+    for axes, text in zip(grid[0], "AB", strict=True):
+        letter(axes, text)
+    legend_below(figure, styles.legend)
+    add_caption(figure, correlations)
+    return figure
+
+
+def correlation_panel(
+    axes: Axes,
+    scores: pd.DataFrame,
+    ratings: pd.DataFrame,
+    correlations: pd.DataFrame,
+    key: tuple[str, Interface, Readout],
+    styles: Styles,
+) -> None:
+    """Ratings over scores of one device, interface and read-out, with their statistics beside; or why there are none."""
+    device, _, readout = key
+    row = _only(correlations, key)
+    points = _rows(scores, key).merge(ratings[["device", "condition", "rating"]], on=["device", "condition"])
+    points = points.dropna(subset=["score", "rating"])
+    if points.empty:
+        note_in(axes, str(row["note"]))
+        return
+    factor = SCORE_SCALE[readout][0]
+    x, y = factor * points["score"].to_numpy(), points["rating"].to_numpy()
+    if pd.notna(row["r2"]):
+        slope, intercept = np.polyfit(x, y, 1)
+        ends = np.array([x.min(), x.max()])
+        axes.plot(ends, intercept + slope * ends, color=GREY, zorder=1)
+    for name, one, other in zip(points["condition"], x, y, strict=True):
+        draw_point(axes, one, other, styles.series[device, name])
+    axes.margins(PADDING)
+    axes.set_xlabel(score_label(readout, str(points["unit"].iloc[0])))
+    axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
+    axes.annotate(
+        statistics(row, x), (1.0, 1.0), xycoords="axes fraction", xytext=(6.0, 0.0), textcoords="offset points",
+        va="top", linespacing=1.35,
+    )  # fmt: skip
+
+
+def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
+    """What the correlation table says of one panel, and how far the scores (n,) spread, line by line."""
+    lines = [f"n = {row['n']}"]
+    if pd.notna(row["r2"]):
+        sign = {-1: ", falling", 1: ", rising"}.get(int(row["slope_sign"]), "")
+        lines.append(f"R² = {row['r2']:.3f}{sign}")
+    if pd.notna(row["r2_lowest"]):
+        lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
+    if pd.notna(row["r2"]):
+        p = f"= {row['p']:.2g}" if row["p"] >= SMALLEST_P else f"< {SMALLEST_P:g}"
+        lines.append(f"τ = {row['kendall_tau']:.2f}, p {p}".replace("-", "−"))
+    if pd.notna(row["published_r2"]):
+        lines.append(f"published R² {row['published_r2']:g}")
+    elif isinstance(row["published_words"], str) and row["published_words"]:
+        lines.append(f"published: {row['published_words']}")
+    lines.append(f"spread {np.ptp(score) / np.abs(score).mean():.2%}".replace("%", " %"))
+    if isinstance(row["note"], str) and row["note"]:
+        lines.append(row["note"])
+    return "\n".join(lines)
+
+
+def add_caption(figure: Figure, correlations: pd.DataFrame) -> None:
+    """Say under a figure what its statistics mean and what the ratings are."""
+    kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
+    figure.supxlabel(CAPTION.format(kinds=kinds), fontsize="medium", color=GREY)
+
+
+def readout_heading(readout: Readout) -> str:
+    """Heading of a row or column of one read-out."""
+    return READOUT_NAME[readout]
+
+
+def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:
+    device, interface, readout = key
+    found = (table["device"] == device) & (table["interface"] == interface) & (table["readout"] == readout)
+    return table[found]
+
+
+def _only(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.Series[Any]:
+    return _rows(table, key).iloc[0]

@@ -1,0 +1,95 @@
+"""Strain and change of strain at the receptors, one row a device (mirrors the paper's figure 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..compliance import CondensedSection
+from ..scene import Device, FloatArray, Readout
+from ..strain import FilteredReadouts
+from .style import (
+    GREY,
+    PERCENT,
+    READOUT_NAME,
+    SHADE,
+    THIN,
+    WIDE,
+    Series,
+    condition_styles,
+    conditions_of,
+    face_handle,
+    legend_below,
+    letter,
+    new_figure,
+    styled,
+)
+
+ROW_HEIGHT, LEGEND_HEIGHT = 44.0, 16.0  # mm
+MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces
+MARKER_SPACING = 1.3  # mm between markers on a curve
+
+
+@dataclass(frozen=True)
+class DeviceReadouts:
+    """What one device does at the receptors, with shear.
+
+    readouts: by condition. faces: (n_actuators, 2) arc lengths [mm] at which the actuators' faces begin and end.
+    """
+
+    device: Device
+    readouts: Mapping[str, FilteredReadouts]
+    faces: FloatArray
+
+
+def face_arcs(device: Device, section: CondensedSection) -> FloatArray:
+    """Where the faces (n_actuators, 2) begin and end along the receptor line [mm], straight above each."""
+    half = device.actuators.width / 2.0
+    edges = np.asarray(device.actuators.positions)[:, None] + np.array([-half, half])
+    return np.asarray(np.interp(edges, section.receptor[:, 0], section.arc))
+
+
+@styled
+def receptor_figure(devices: Sequence[DeviceReadouts]) -> Figure:
+    """Strain (A) and change of strain (B) along the receptor line for all conditions of all devices, with shear."""
+    figure = new_figure(WIDE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
+    styles = condition_styles(conditions_of(entry.device for entry in devices))
+    grid = figure.subplots(len(devices), len(Readout), squeeze=False)
+    for row, entry in zip(grid, devices, strict=True):
+        for axes, readout in zip(row, Readout, strict=True):
+            draw_faces(axes, entry.faces)
+            distinct = [c for c in entry.device.conditions if entry.device.first_with_stimulus_of(c.name) is c]
+            for number, condition in enumerate(distinct):
+                found = entry.readouts[condition.name]
+                values = PERCENT * (found.strain if readout is Readout.STRAIN else found.change_of_strain)
+                series = styles.series[entry.device.name, condition.name]
+                draw_curve(axes, found.arc, values, series, number / len(distinct))
+            axes.set_xlim(entry.faces.min() - MARGIN, entry.faces.max() + MARGIN)
+            axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
+        row[0].set_title(entry.device.title, loc="left")
+    for axes, text in zip(grid[0], "AB", strict=True):
+        letter(axes, text)
+    for axes in grid[-1]:
+        axes.set_xlabel("Arc length along the receptor line, s (mm)")
+    legend_below(figure, [*styles.legend, face_handle()])
+    return figure
+
+
+def draw_faces(axes: Axes, faces: FloatArray) -> None:
+    """Shade where the actuators' faces are."""
+    for start, stop in faces:
+        axes.axvspan(start, stop, color=SHADE, linewidth=0.0, zorder=0)
+
+
+def draw_curve(axes: Axes, arc: FloatArray, values: FloatArray, series: Series, shift: float) -> None:
+    """A read-out along the receptor line; markers, shifted by a share [1] of their spacing, tell curves apart in grey."""
+    spacing = max(round(MARKER_SPACING / float(arc[1] - arc[0])), 1)
+    axes.plot(
+        arc, values, color=series.colour, linestyle=series.line, marker=series.marker, fillstyle=series.fill,
+        markerfacecoloralt="white", markevery=(int(shift * spacing), spacing), markersize=3.0, zorder=2,
+    )  # fmt: skip
+    axes.axhline(0.0, color=GREY, linewidth=THIN, zorder=1)

@@ -1,0 +1,36 @@
+"""One laterally driven device without and with shear (mirrors the paper's figure 6)."""
+
+from __future__ import annotations
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from ..scene import Interface, Readout
+from .correlation import add_caption, correlation_panel
+from .style import INTERFACE_NAME, WIDE, condition_styles, legend_below, letter, new_figure, styled
+
+HEIGHT = 108.0  # mm
+COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)
+
+
+@styled
+def shear_figure(
+    device: str, title: str, scores: pd.DataFrame, ratings: pd.DataFrame, correlations: pd.DataFrame
+) -> Figure:
+    """Strain (top) and change-of-strain score (bottom) against perceived roughness, without (A) and with shear (B).
+
+    Each row has one scale, so that the two interfaces can be compared.
+    """
+    figure = new_figure(WIDE, HEIGHT)
+    own = [table[table["device"] == device] for table in (scores, ratings, correlations)]
+    styles = condition_styles(own[0])
+    grid = figure.subplots(len(Readout), len(COLUMNS), sharex="row")
+    for row, readout in zip(grid, Readout, strict=True):
+        for axes, interface in zip(row, COLUMNS, strict=True):
+            correlation_panel(axes, *own, (device, interface, readout), styles)
+    for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
+        axes.set_title(f"{title}, {INTERFACE_NAME[interface]}", loc="left")
+        letter(axes, text)
+    legend_below(figure, styles.legend)
+    add_caption(figure, own[2])
+    return figure

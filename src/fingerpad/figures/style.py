@@ -1,0 +1,221 @@
+"""How every figure looks, and how it is saved: sizes, fonts, colours, axis units, byte-stable files.
+
+Nothing rests on colour alone: phases differ in colour, lightness and marker, dispersions in line and filling.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..scene import Control, Device, Interface, Readout
+
+MM = 1.0 / 25.4  # inch
+NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
+TEXT, TITLE = 7.0, 8.0  # font sizes [pt]; source: 7 pt stays legible in print
+THIN, LINE = 0.5, 1.0  # line widths [pt]
+MARKER = 4.5  # marker size [pt]
+LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
+RESOLUTION = 300  # of PNG files [dots per inch]
+
+RC: dict[str, Any] = {
+    "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same letters on every machine
+    "font.size": TEXT,
+    "axes.titlesize": TITLE,
+    "axes.labelsize": TEXT,
+    "xtick.labelsize": TEXT,
+    "ytick.labelsize": TEXT,
+    "legend.fontsize": TEXT,
+    "figure.titlesize": TITLE,
+    "mathtext.fontset": "dejavusans",
+    "axes.titleweight": "bold",
+    "axes.linewidth": THIN,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.formatter.useoffset": False,
+    "xtick.major.width": THIN,
+    "ytick.major.width": THIN,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "lines.linewidth": LINE,
+    "lines.markersize": MARKER,
+    "lines.markeredgewidth": 0.9,
+    "hatch.linewidth": 0.6,
+    "legend.frameon": False,
+    "legend.handlelength": 2.6,
+    "figure.constrained_layout.h_pad": 1.5 * MM,
+    "figure.constrained_layout.w_pad": 1.5 * MM,
+    "pdf.fonttype": 42,
+    "savefig.dpi": RESOLUTION,
+}
+
+# Okabe and Ito 2008: told apart with any colour vision; ordered so that neighbours differ in lightness as well
+ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN = (
+    "#E69F00",
+    "#0072B2",
+    "#000000",
+    "#56B4E9",
+    "#D55E00",
+    "#CC79A7",
+    "#009E73",
+)
+COLOURS = (ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN)
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+LINES = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
+FILLS = ("full", "none", "left", "bottom")
+SHADE = "#E3E3E3"  # actuators' faces behind curves
+GREY = "#6E6E6E"  # what is not data: lines, notes
+
+READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
+INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
+UNITS = {"mm2": "mm²"}
+SCORE_SCALE = {
+    Readout.STRAIN: (1.0, ""),
+    Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
+}  # factor [1] and its typeset inverse
+PERCENT = 100.0
+
+
+@dataclass(frozen=True)
+class Series:
+    """How one condition is drawn, and what it is called."""
+
+    label: str
+    colour: str
+    marker: str
+    line: Any
+    fill: Any
+
+
+@dataclass(frozen=True)
+class Styles:
+    """How the conditions of some devices are drawn.
+
+    series: by device and condition. legend: handles that explain all of them.
+    """
+
+    series: dict[tuple[str, str], Series]
+    legend: list[Line2D]
+
+
+def styled(function: Any) -> Any:
+    """Decorator of figure functions: the style holds while they run, and nothing global is left changed."""
+    return mpl.rc_context(RC)(function)
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Empty figure of that size [mm] that lays itself out."""
+    return Figure(figsize=(width * MM, height * MM), layout="constrained")
+
+
+def save(figure: Figure, stem: Path) -> None:
+    """Write stem.png and stem.pdf, without dates and versions: same figure, same bytes."""
+    with mpl.rc_context(RC):
+        figure.draw_without_rendering()
+        figure.set_layout_engine("none")  # laid out once, the same in both files
+        figure.savefig(stem.with_name(f"{stem.name}.png"), metadata={"Software": None})
+        figure.savefig(
+            stem.with_name(f"{stem.name}.pdf"), metadata={"Creator": None, "Producer": None, "CreationDate": None}
+        )
+
+
+def conditions_of(devices: Iterable[Device]) -> pd.DataFrame:
+    """Table of the devices' conditions: device, condition, dispersion, phase_deg."""
+    rows = [(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
+    return pd.DataFrame(rows, columns=["device", "condition", "dispersion", "phase_deg"])
+
+
+def device_titles(devices: Iterable[Device]) -> dict[str, str]:
+    """Title of each device by its name."""
+    return {device.name: device.title for device in devices}
+
+
+def laterally_driven(device: Device) -> bool:
+    """Whether a device prescribes sideways displacements, as the one in the paper's figures 3 and 6 does."""
+    moves = any(condition.tangential.any() for condition in device.conditions)
+    return device.control is Control.DISPLACEMENT and moves
+
+
+def condition_styles(conditions: pd.DataFrame) -> Styles:
+    """Styles of conditions (device, condition, dispersion, phase_deg; one row or more for each).
+
+    Phases share colour and marker across devices, dispersions line and filling. Where a device has two conditions of
+    one dispersion and phase (histories, say) each of its conditions is drawn in its own colour and called by its name.
+    """
+    table = conditions[["device", "condition", "dispersion", "phase_deg"]].drop_duplicates()
+    series: dict[tuple[str, str], Series] = {}
+    legend: dict[str, Line2D] = {}
+    telling = ~table.duplicated(["device", "dispersion", "phase_deg"], keep=False).groupby(table["device"]).transform(
+        "any"
+    )
+    phases = sorted(table.loc[telling, "phase_deg"].unique())
+    several = table.groupby("device")["dispersion"].transform("nunique") > 1
+    dispersions = list(dict.fromkeys(table.loc[telling & several, "dispersion"]))
+    named = [f"{row.device}: {row.condition}" for row in table[~telling].itertuples()]
+    keys = [*(f"{phase:g}°" for phase in phases), *named]
+    for row, by_phase, spread in zip(table.itertuples(), telling, several, strict=True):
+        key = f"{row.phase_deg:g}°" if by_phase else f"{row.device}: {row.condition}"
+        number = keys.index(key)
+        kind = dispersions.index(row.dispersion) if by_phase and spread else 0
+        one = Series(
+            (f"{row.dispersion}, {key}" if spread else key) if by_phase else row.condition,
+            COLOURS[number % len(COLOURS)],
+            MARKERS[number % len(MARKERS)],
+            LINES[kind % len(LINES)],
+            FILLS[kind % len(FILLS)],
+        )
+        series[row.device, row.condition] = one
+        legend.setdefault(key, Line2D([], [], color=one.colour, marker=one.marker, label=key))
+    handles = [legend[key] for key in keys]
+    for number, name in enumerate(dispersions):
+        line, fill = LINES[number % len(LINES)], FILLS[number % len(FILLS)]
+        handles.append(
+            Line2D([], [], color=GREY, marker="o", linestyle=line, fillstyle=fill, label=f"{name} dispersion")  # type: ignore[arg-type]
+        )
+    return Styles(series, handles)
+
+
+def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:
+    """One marker in a condition's style."""
+    axes.plot(
+        [x], [y], linestyle="none", marker=series.marker, color=series.colour, fillstyle=series.fill,
+        markerfacecoloralt="white", clip_on=False, zorder=3,
+    )  # fmt: skip
+
+
+def legend_below(figure: Figure, handles: Sequence[Any], title: str = "", columns: int = 8) -> None:
+    """Legend under all panels, where it covers nothing."""
+    figure.legend(handles=list(handles), loc="outside lower center", ncols=min(len(handles), columns), title=title)
+
+
+def letter(axes: Axes, text: str, offset: tuple[float, float] = LETTER_OFFSET) -> None:
+    """Bold letter at a panel's upper left corner."""
+    axes.annotate(
+        text, (0.0, 1.0), xycoords="axes fraction", xytext=offset, textcoords="offset points",
+        fontsize=TITLE + 1.0, fontweight="bold", va="bottom",
+    )  # fmt: skip
+
+
+def note_in(axes: Axes, text: str) -> None:
+    """A panel that says why it is empty."""
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=GREY, fontsize=TITLE)
+    axes.set(xticks=[], yticks=[])
+
+
+def score_label(readout: Readout, unit: str) -> str:
+    """Axis label of a score in a unit such as mm2."""
+    return f"{READOUT_NAME[readout]} score ({SCORE_SCALE[readout][1]}{UNITS.get(unit, unit)})"
+
+
+def face_handle() -> Patch:
+    """Legend entry of the shaded faces."""
+    return Patch(color=SHADE, label="actuator face")

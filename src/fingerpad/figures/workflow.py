@@ -1,0 +1,81 @@
+"""From the receptors' strains to a score, for one device (mirrors the paper's figure 3)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from ..roughness import score_span
+from ..scene import GaborFilter, ReadoutRule, Readout
+from .receptors import DeviceReadouts, draw_curve, draw_faces
+from .style import (
+    PERCENT,
+    READOUT_NAME,
+    SCORE_SCALE,
+    WIDE,
+    condition_styles,
+    conditions_of,
+    face_handle,
+    legend_below,
+    letter,
+    new_figure,
+    score_label,
+    styled,
+)
+
+HEIGHT = 92.0  # mm
+WIDTHS = (1.0, 1.0, 0.62)  # of the columns, relative
+HEADROOM = 1.15  # of the bars' axis over the tallest bar [1]
+
+
+@styled
+def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule, scores: pd.DataFrame) -> Figure:
+    """Receptor read-outs, the same after the Gabor filter, and their areas; strain (A), change of strain (B).
+
+    scores: condition, interface, readout, score [unit], unit; rows of this device with shear.
+    """
+    device = entry.device
+    figure = new_figure(WIDE, HEIGHT)
+    styles = condition_styles(conditions_of([device]))
+    grid = figure.subplots(len(Readout), len(WIDTHS), width_ratios=WIDTHS)
+    span = score_span(device.actuators, rule.span_margin)
+    for row, readout in zip(grid, Readout, strict=True):
+        receptors, filtered, bars = row
+        factor, power = SCORE_SCALE[readout]
+        for axes in (receptors, filtered):
+            draw_faces(axes, entry.faces)
+            axes.set_xlim(*span)
+        for number, condition in enumerate(device.conditions):
+            found = entry.readouts[condition.name]
+            series = styles.series[device.name, condition.name]
+            shift = number / len(device.conditions)
+            values = found.strain if readout is Readout.STRAIN else found.change_of_strain
+            draw_curve(receptors, found.arc, PERCENT * values, series, shift)
+            draw_curve(filtered, found.arc, factor * found.filtered(readout), series, shift)
+        receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
+        filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()} ({power}mm)")
+        filtered.set_title(
+            f"λ = {gabor.wavelength(readout):g} mm, σ = {gabor.sigma:g} mm", loc="right", fontsize="medium",
+            fontweight="normal",
+        )  # fmt: skip
+
+        part = scores[scores["readout"] == readout].set_index("condition")
+        heights = factor * part["score"].reindex([condition.name for condition in device.conditions])
+        places = np.arange(len(heights))
+        colours = [styles.series[device.name, name].colour for name in heights.index]
+        drawn = bars.bar(places, heights, color=colours, width=0.65)
+        bars.bar_label(drawn, labels=[f"{height:.3g}" for height in heights], padding=1.0)
+        bars.set_xticks(places, [styles.series[device.name, name].label for name in heights.index])
+        bars.set_ylim(0.0, HEADROOM * float(heights.max()))
+        bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])))
+    for axes in grid[-1][:2]:
+        axes.set_xlabel("Arc length along the receptor line, s (mm)")
+    grid[-1][2].set_xlabel("Phase difference")
+    for axes, heading in zip(grid[0], ("1  At the receptors", "2  Gabor-filtered", "3  Area under |2|"), strict=True):
+        axes.set_title(heading, loc="left")
+    for axes, text in zip(grid[:, 0], "AB", strict=True):
+        letter(axes, text)
+    figure.suptitle(f"{device.title}, with shear", fontweight="bold")
+    legend_below(figure, [*styles.legend, face_handle()])
+    return figure
