@@ -7,8 +7,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import block, block_problem, graded, lift
 
+from blocks import block, block_problem, graded, lift
 from fingerpad.contact import ContactProblem, ContactState, Status, follow, rest, touching_height
 from fingerpad.errors import ContactError
 from fingerpad.scene import ActuatorRow, FloatArray, Material
@@ -87,9 +87,12 @@ def test_flat_punch() -> None:
 
 def test_cattaneo_mindlin() -> None:
     """Partial slip: stick half-width c = a sqrt(1 - Q / (mu P)), within one node spacing; slip obeys Coulomb."""
-    radius, poisson, friction = 100.0, 0.48, 0.5  # as tissue: normal and tangential problems couple by (1 - 2 nu) only
+    radius, poisson, friction = 100.0, 0.3, 0.5
     problem, weight = half_plane(radius, 2 * radius, poisson, friction, fine=0.01)
-    # the theory presses without shear and lets friction act from there
+    # the theory lets pressure move nothing sideways (Goodman), presses without shear, and lets friction act from there
+    uncoupled = problem.compliance.copy()
+    uncoupled[0::2, 1::2] = uncoupled[1::2, 0::2] = 0.0
+    problem = replace(problem, compliance=uncoupled)
     normal = pressed(replace(problem, friction=0.0), 0.008)
     normal = replace(normal, status=np.where(normal.status == Status.OPEN, Status.OPEN, Status.STICK))
     state = follow(problem, normal, normal.actuator + np.array([[0.0025, 0.0]]), 20)
@@ -108,8 +111,7 @@ def test_cattaneo_mindlin() -> None:
     # behind the slip front's kink the forces of vertices and midpoints swing about the traction: take them together
     inner = np.flatnonzero(np.abs(x) < 0.9 * a)[: x[np.abs(x) < 0.9 * a].size // 2 * 2].reshape(-1, 2)
     found, wanted = np.abs(state.force[inner, 0]).sum(axis=1), (exact * weight)[inner].sum(axis=1)
-    # the coupling left at nu = 0.48 is (1 - 2 nu) / (2 - 2 nu) = 2 % of the pressure, half of it odd in x
-    assert np.linalg.norm(found - wanted) < 0.02 * np.linalg.norm(wanted)
+    assert np.linalg.norm(found - wanted) < 0.005 * np.linalg.norm(wanted)
 
 
 def test_large_friction_equals_tied() -> None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from blocks import block
 from scipy.sparse.linalg import spsolve
 from skfem import LinearForm, MeshTri, MeshTri2
 from skfem.helpers import dot
 
+from blocks import block
 from fingerpad.elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
 from fingerpad.scene import FloatArray, Material
 

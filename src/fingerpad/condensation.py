@@ -24,6 +24,7 @@ from .mesh import SectionMesh, mesh_strip
 from .scene import FloatArray, Scene, Side
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
+PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
 
 
@@ -145,7 +146,7 @@ def condense(
     matrix: stiffness; dofs: (2, n_nodes) unknowns of the nodes; fixed: unknowns that do not move (a contact node's may
     be among them: it then answers no load); strain: rows that are read, as a linear map of all unknowns.
 
-    Raises CondensationError if the residual is beyond RESIDUAL_TOLERANCE.
+    Raises CondensationError if the stiffness is singular or the residual is beyond RESIDUAL_TOLERANCE.
     """
     all_loaded = dofs[:, contact].T.ravel()
     moving = ~np.isin(all_loaded, fixed)
@@ -161,6 +162,10 @@ def condense(
     first = order.size - kept
     if not np.array_equal(factors.perm_c[first:], np.arange(first, order.size)):
         raise CondensationError("the factorisation moved the contact unknowns: is the tissue in one piece?")
+
+    pivots = np.abs(factors.U.diagonal())
+    if pivots.min() < PIVOT_LIMIT * pivots.max():
+        raise CondensationError("the stiffness is singular: nothing holds some of the tissue")
 
     lower = factors.L[first:, first:].toarray()
     upper = factors.U[first:, first:].toarray()

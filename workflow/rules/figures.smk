@@ -1,7 +1,30 @@
 # Figures that mirror the paper's, the ablation, the maps and the section; full fields for those that draw them.
 # REQUIRED INPUTS: results of solve, filter, score and correlate. OUTPUTS: results/figures/*.{png,pdf}, fields.npz
 
-FIGURES = []
+# the paper's figures 3 and 6 show Device 2; without it, the first device that prescribes sideways displacements
+LATERAL = min(
+    (
+        name
+        for name in DEVICES
+        if Interface.FRICTIONLESS in SCENE[name].device.interfaces()
+        and any(condition.tangential.any() for condition in SCENE[name].device.conditions)
+    ),
+    key=lambda name: name != "device2",
+    default=None,
+)
+DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
+FIGURES = [
+    f"results/figures/{stem}.{suffix}"
+    for stem in (
+        *(stem for stem in ("figure_3_workflow", "figure_6_shear") if LATERAL),
+        "figure_4_receptors",
+        "figure_5_correlation",
+        "ablation_shear",
+        "section",
+        *(f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]),
+    )
+    for suffix in ("png", "pdf")
+]
 
 
 rule fields:
@@ -25,3 +48,162 @@ rule fields:
         ENVIRONMENT
     script:
         "../scripts/fields.py"
+
+
+rule figure_receptors:
+    input:
+        config=ancient(CONFIG),
+        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        condensed=expand("results/{device}/condensed.npz", device=DEVICES),
+        filtered=[
+            f"results/{name}/{condition.name}/shear/filtered.npz"
+            for name in DEVICES
+            for condition in SCENE[name].device.conditions
+        ],
+        code=code("figure_receptors.py"),
+    output:
+        png="results/figures/figure_4_receptors.png",
+        pdf="results/figures/figure_4_receptors.pdf",
+    log:
+        "results/logs/figures/figure_4_receptors.log",
+    conda:
+        ENVIRONMENT
+    params:
+        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
+    script:
+        "../scripts/figure_receptors.py"
+
+
+rule figure_correlation:
+    input:
+        config=ancient(CONFIG),
+        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        scores="results/scores.csv",
+        ratings=DATA / "ratings.csv",
+        correlations="results/correlations.csv",
+        code=code("figure_correlation.py"),
+    output:
+        png="results/figures/figure_5_correlation.png",
+        pdf="results/figures/figure_5_correlation.pdf",
+    log:
+        "results/logs/figures/figure_5_correlation.log",
+    conda:
+        ENVIRONMENT
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
+    script:
+        "../scripts/figure_correlation.py"
+
+
+rule figure_ablation:
+    input:
+        config=ancient(CONFIG),
+        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        scores="results/scores.csv",
+        correlations="results/correlations.csv",
+        code=code("figure_ablation.py"),
+    output:
+        png="results/figures/ablation_shear.png",
+        pdf="results/figures/ablation_shear.pdf",
+    log:
+        "results/logs/figures/ablation_shear.log",
+    conda:
+        ENVIRONMENT
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
+    script:
+        "../scripts/figure_ablation.py"
+
+
+rule figure_section:
+    input:
+        config=ancient(CONFIG),
+        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        mesh=f"results/{DEVICES[0]}/mesh.npz",
+        code=code("figure_section.py"),
+    output:
+        png="results/figures/section.png",
+        pdf="results/figures/section.pdf",
+    log:
+        "results/logs/figures/section.log",
+    conda:
+        ENVIRONMENT
+    params:
+        scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
+    script:
+        "../scripts/figure_section.py"
+
+
+rule figure_map:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        mesh="results/{device}/mesh.npz",
+        condensed="results/{device}/condensed.npz",
+        fields="results/{device}/fields.npz",
+        solutions=lambda w: [
+            f"results/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
+            for condition in scene_of(w).device.conditions
+            if condition.dispersion == w.dispersion
+        ],
+        code=code("figure_map.py"),
+    output:
+        png="results/figures/map_{device}_{dispersion}.png",
+        pdf="results/figures/map_{device}_{dispersion}.pdf",
+    log:
+        "results/logs/figures/map_{device}_{dispersion}.log",
+    wildcard_constraints:
+        device="|".join(DEVICES),
+        dispersion="|".join(sorted({dispersion for names in DISPERSIONS.values() for dispersion in names})),
+    conda:
+        ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).device),
+    script:
+        "../scripts/figure_map.py"
+
+
+if LATERAL:
+
+    rule figure_workflow:
+        input:
+            config=ancient(CONFIG),
+            device=ancient(SCENES / "devices" / f"{LATERAL}.yaml"),
+            condensed=f"results/{LATERAL}/condensed.npz",
+            filtered=[
+                f"results/{LATERAL}/{condition.name}/shear/filtered.npz"
+                for condition in SCENE[LATERAL].device.conditions
+            ],
+            scores="results/scores.csv",
+            code=code("figure_workflow.py"),
+        output:
+            png="results/figures/figure_3_workflow.png",
+            pdf="results/figures/figure_3_workflow.pdf",
+        log:
+            "results/logs/figures/figure_3_workflow.log",
+        conda:
+            ENVIRONMENT
+        params:
+            scene=support.fingerprint(SCENE[LATERAL].device, SCENE[LATERAL].model.gabor, SCENE[LATERAL].model.readout),
+        script:
+            "../scripts/figure_workflow.py"
+
+    rule figure_shear:
+        input:
+            config=ancient(CONFIG),
+            device=ancient(SCENES / "devices" / f"{LATERAL}.yaml"),
+            scores="results/scores.csv",
+            ratings=DATA / "ratings.csv",
+            correlations="results/correlations.csv",
+            code=code("figure_shear.py"),
+        output:
+            png="results/figures/figure_6_shear.png",
+            pdf="results/figures/figure_6_shear.pdf",
+        log:
+            "results/logs/figures/figure_6_shear.log",
+        conda:
+            ENVIRONMENT
+        params:
+            title=SCENE[LATERAL].device.title,
+        script:
+            "../scripts/figure_shear.py"

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from ..scene import Interface, Readout
 from .style import (
     GREY,
-    READOUT_NAME,
+    MINUS,
     SCORE_SCALE,
     WIDE,
     Styles,
@@ -66,7 +66,7 @@ def correlation_panel(
     key: tuple[str, Interface, Readout],
     styles: Styles,
 ) -> None:
-    """Ratings over scores of one device, interface and read-out, with their statistics beside; or why there are none."""
+    """Ratings over scores of one device, interface and read-out, with their statistics beside; or why there is none."""
     device, _, readout = key
     row = _only(correlations, key)
     points = _rows(scores, key).merge(ratings[["device", "condition", "rating"]], on=["device", "condition"])
@@ -101,7 +101,7 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
         lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
     if pd.notna(row["r2"]):
         p = f"= {row['p']:.2g}" if row["p"] >= SMALLEST_P else f"< {SMALLEST_P:g}"
-        lines.append(f"τ = {row['kendall_tau']:.2f}, p {p}".replace("-", "−"))
+        lines.append(f"τ = {row['kendall_tau']:.2f}, p {p}".replace("-", MINUS))
     if pd.notna(row["published_r2"]):
         lines.append(f"published R² {row['published_r2']:g}")
     elif isinstance(row["published_words"], str) and row["published_words"]:
@@ -116,11 +116,6 @@ def add_caption(figure: Figure, correlations: pd.DataFrame) -> None:
     """Say under a figure what its statistics mean and what the ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
     figure.supxlabel(CAPTION.format(kinds=kinds), fontsize="medium", color=GREY)
-
-
-def readout_heading(readout: Readout) -> str:
-    """Heading of a row or column of one read-out."""
-    return READOUT_NAME[readout]
 
 
 def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:

@@ -86,7 +86,7 @@ def draw_faces(axes: Axes, faces: FloatArray) -> None:
 
 
 def draw_curve(axes: Axes, arc: FloatArray, values: FloatArray, series: Series, shift: float) -> None:
-    """A read-out along the receptor line; markers, shifted by a share [1] of their spacing, tell curves apart in grey."""
+    """A read-out along the receptor line; markers, shifted by a share [1] of their spacing, tell curves apart."""
     spacing = max(round(MARKER_SPACING / float(arc[1] - arc[0])), 1)
     axes.plot(
         arc, values, color=series.colour, linestyle=series.line, marker=series.marker, fillstyle=series.fill,

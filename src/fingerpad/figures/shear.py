@@ -22,15 +22,15 @@ def shear_figure(
     Each row has one scale, so that the two interfaces can be compared.
     """
     figure = new_figure(WIDE, HEIGHT)
-    own = [table[table["device"] == device] for table in (scores, ratings, correlations)]
-    styles = condition_styles(own[0])
+    scores, ratings, correlations = (t[t["device"] == device] for t in (scores, ratings, correlations))
+    styles = condition_styles(scores)
     grid = figure.subplots(len(Readout), len(COLUMNS), sharex="row")
     for row, readout in zip(grid, Readout, strict=True):
         for axes, interface in zip(row, COLUMNS, strict=True):
-            correlation_panel(axes, *own, (device, interface, readout), styles)
+            correlation_panel(axes, scores, ratings, correlations, (device, interface, readout), styles)
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(f"{title}, {INTERFACE_NAME[interface]}", loc="left")
         letter(axes, text)
     legend_below(figure, styles.legend)
-    add_caption(figure, own[2])
+    add_caption(figure, correlations)
     return figure

@@ -27,7 +27,7 @@ MARKER = 4.5  # marker size [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
 RESOLUTION = 300  # of PNG files [dots per inch]
 
-RC: dict[str, Any] = {
+RC: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same letters on every machine
     "font.size": TEXT,
     "axes.titlesize": TITLE,
@@ -83,6 +83,7 @@ SCORE_SCALE = {
     Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
 }  # factor [1] and its typeset inverse
 PERCENT = 100.0
+MINUS = "\N{MINUS SIGN}"
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from ..roughness import score_span
-from ..scene import GaborFilter, ReadoutRule, Readout
+from ..scene import GaborFilter, Readout, ReadoutRule
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
     PERCENT,
@@ -56,7 +56,7 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()} ({power}mm)")
         filtered.set_title(
-            f"λ = {gabor.wavelength(readout):g} mm, σ = {gabor.sigma:g} mm", loc="right", fontsize="medium",
+            f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm", loc="right", fontsize="medium",
             fontweight="normal",
         )  # fmt: skip
 

@@ -1,0 +1,48 @@
+"""The shipped scenes, condensed once for all tests of a session."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.condensation import condense_body, condense_section
+from fingerpad.mesh import SectionMesh, mesh_section
+from fingerpad.scene import Condition, Interface, Scene
+from fingerpad.scenefile import load_scene
+from fingerpad.solution import Solution, solve_condition
+
+CONFIG = Path(__file__).parents[1] / "config"
+
+
+@cache
+def scene(device: str) -> Scene:
+    """A shipped scene."""
+    return load_scene(CONFIG / "config.yaml", CONFIG / "devices" / f"{device}.yaml")
+
+
+@cache
+def section(device: str) -> SectionMesh:
+    """Its mesh."""
+    return mesh_section(scene(device))
+
+
+@cache
+def condensed(device: str) -> tuple[CondensedSection, CondensedBody | None]:
+    """Its condensed tissue and actuators."""
+    body = condense_body(scene(device)) if scene(device).device.actuators.body else None
+    return condense_section(section(device), scene(device)), body
+
+
+@cache
+def solved(device: str, condition: str, interface: Interface) -> Solution:
+    """A solved condition."""
+    return solve(device, scene(device).device.condition(condition), interface)
+
+
+def solve(device: str, condition: Condition, interface: Interface, **numerics: int) -> Solution:
+    """Any condition of a shipped device, with numerics changed on request."""
+    base = scene(device)
+    model = replace(base.model, numerics=replace(base.model.numerics, **numerics))
+    return solve_condition(replace(base, model=model), *condensed(device), condition, interface)

@@ -1,0 +1,94 @@
+"""Condensation against the full model that it replaces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import spsolve
+
+from fingerpad.condensation import condense, contact_skin, receptor_strain, section_stiffness
+from fingerpad.errors import CondensationError
+from fingerpad.fields import recover_fields
+from fingerpad.scene import Interface
+from fingerpad.strain import maximum_principal
+from scenes import condensed, scene, section, solved
+
+
+def test_maps_equal_a_direct_solve_of_the_whole_section() -> None:
+    """Displacement and receptor strain under a lopsided load: folded halves against one sparse solve."""
+    mesh, base = section("device2"), scene("device2")
+    found, _ = condensed("device2")
+    matrix, dofs = section_stiffness(mesh, base)
+    nodes = mesh.skin[contact_skin(mesh, base)]
+    load = np.random.default_rng(1).standard_normal(2 * nodes.size)
+    free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, mesh.fixed].ravel())
+    right = np.zeros(matrix.shape[0])
+    right[dofs[:, nodes].T.ravel()] = load
+    field = np.zeros_like(right)
+    field[free] = spsolve(matrix[free][:, free].tocsc(), right[free])
+    exact = field[dofs[:, nodes].T.ravel()]
+    assert np.abs(found.compliance @ load - exact).max() < 1e-8 * np.abs(exact).max()
+    points, strain = receptor_strain(mesh, base)
+    assert np.array_equal(points, found.receptor)
+    exact_strain = strain @ field
+    assert np.abs(found.strain @ load - exact_strain).max() < 1e-8 * np.abs(exact_strain).max()
+
+
+@pytest.mark.parametrize("device", ["device1", "device2", "device3"])
+def test_compliance_is_symmetric_and_positive(device: str) -> None:
+    """Betti's reciprocity, and energy for every load."""
+    found, body = condensed(device)
+    for compliance in [found.compliance] + ([body.compliance] if body else []):
+        assert np.abs(compliance - compliance.T).max() < 1e-12 * np.abs(compliance).max()
+        assert np.linalg.eigvalsh(compliance).min() > 0.0
+
+
+def test_receptor_line_is_ordered_and_spans_the_pad() -> None:
+    """Arc length ascends, is odd about the mid-line, and reaches past the widest point on both sides."""
+    found, _ = condensed("device1")
+    assert np.all(np.diff(found.arc) > 0)
+    assert np.abs(found.arc + found.arc[::-1]).max() < 1e-9
+    assert found.arc[-1] > 10.0
+
+
+def test_global_equilibrium_bone_carries_what_the_pins_press() -> None:
+    """The reaction at the bone, from the full field, balances the contact forces in x and y."""
+    mesh, base = section("device2"), scene("device2")
+    solution = solved("device2", "alternate_090", Interface.SHEAR)
+    matrix, dofs = section_stiffness(mesh, base)
+    nodes = mesh.skin[contact_skin(mesh, base)]
+    free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, mesh.fixed].ravel())
+    right = np.zeros(matrix.shape[0])
+    right[dofs[:, nodes].T.ravel()] = solution.force[-1].ravel()
+    field = np.zeros_like(right)
+    field[free] = spsolve(matrix[free][:, free].tocsc(), right[free])
+    reaction = (matrix @ field)[dofs[:, mesh.fixed]].sum(axis=1)
+    applied = solution.force[-1].sum(axis=0)
+    assert applied[1] > 0.05
+    assert np.abs(reaction + applied).max() < 1e-9 * applied[1]
+
+
+def test_full_field_agrees_with_the_strain_map() -> None:
+    """The recovered field near the receptors has the strain that the condensed map gave."""
+    mesh, base = section("device2"), scene("device2")
+    solution = solved("device2", "alternate_180", Interface.SHEAR)
+    fields = recover_fields(mesh, base, solution.force[-1:])
+    found, _ = condensed("device2")
+    strain = maximum_principal(found.strain @ solution.force[-1].ravel())
+    dermis = mesh.layer_names.index("dermis")
+    corner_layer = np.repeat(mesh.layer, 3)
+    middle = int(np.argmin(np.abs(found.arc)))
+    inside = np.flatnonzero(corner_layer == dermis)
+    near = inside[np.argsort(np.hypot(*(fields.corner[:, inside].T - found.receptor[middle]).T))[:6]]
+    # corners of the elements at the mid-line point: their spread is the jump between second-order elements
+    assert fields.strain[0, near].min() * 0.97 < strain[middle] < fields.strain[0, near].max() * 1.03
+
+
+def test_a_singular_stiffness_is_a_named_error() -> None:
+    """A body that nothing holds cannot be condensed."""
+    mesh, base = section("device1"), scene("device1")
+    matrix, dofs = section_stiffness(mesh, base)
+    none = csr_matrix((0, matrix.shape[0]))
+    with pytest.raises(CondensationError, match="nothing holds"):
+        condense(matrix, dofs, np.array([], dtype=int), mesh.skin[:5], none)

@@ -1,0 +1,109 @@
+"""The section's mesh: conforming, curved, mirrored, deterministic, graded as asked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fingerpad.elasticity import displacement_basis
+from fingerpad.errors import MeshError
+from fingerpad.mesh import load_section, mesh_section, mesh_strip, save_section
+from scenes import scene, section
+
+DEVICES = ("device1", "device2", "device3")
+
+
+@pytest.mark.parametrize("device", DEVICES)
+def test_mesh_is_its_own_mirror_image_to_the_last_bit(device: str) -> None:
+    """Every node (x, y) has a twin (-x, y)."""
+    nodes = section(device).mesh.doflocs.T
+    order = np.lexsort(nodes.T)
+    mirrored = nodes * np.array([-1.0, 1.0])
+    assert np.array_equal(nodes[order], mirrored[np.lexsort(mirrored.T)])
+
+
+def test_areas_of_outline_bone_and_layers() -> None:
+    """Curved elements fill the ellipse less the bone; each skin layer has the area between its parallel curves."""
+    mesh, finger = section("device2"), scene("device2").model.finger
+    basis = displacement_basis(mesh.mesh)
+    area = basis.dx.sum(axis=1)
+    whole = np.pi / 4.0 * (finger.width * finger.height - finger.bone_width * finger.bone_height)
+    assert area.sum() == pytest.approx(whole, rel=1e-6)  # quadratic arcs of 0.35 mm on radii of 2-10 mm
+    # between parallel curves at depths d1, d2 lies L (d2 - d1) - (turning angle) (d2^2 - d1^2) / 2 of area
+    a, b = finger.width / 2.0, finger.height / 2.0
+    skin = mesh.mesh.doflocs[:, mesh.skin]
+    t = np.linspace(0.0, np.arctan2(skin[0, -1] / a, (b - skin[1, -1]) / b), 200001)
+    length = 2.0 * np.trapezoid(np.hypot(a * np.cos(t), b * np.sin(t)), t)
+    turning = 2.0 * np.arctan2(b * np.sin(t[-1]), a * np.cos(t[-1]))
+    outer = 0.0
+    for index, layer in enumerate(finger.pad[:-1]):
+        inner = outer + layer.thickness
+        exact = length * layer.thickness - turning * (inner**2 - outer**2) / 2.0
+        assert area[mesh.layer == index].sum() == pytest.approx(exact, rel=1e-5), layer.name
+        outer = inner
+
+
+def test_receptor_line_lies_between_epidermis_and_dermis() -> None:
+    """Every receptor facet separates the two layers, and the line is unbroken."""
+    mesh = section("device2")
+    adjacent = mesh.layer[mesh.mesh.f2t[:, mesh.receptor_facets]]
+    names = np.array(mesh.layer_names)[np.sort(adjacent, axis=0)]
+    assert set(map(tuple, names.T)) == {("viable_epidermis", "dermis")}
+    ends = mesh.mesh.facets[:, mesh.receptor_facets]
+    assert np.all([np.intersect1d(ends[:, i], ends[:, i + 1]).size == 1 for i in range(ends.shape[1] - 1)])
+
+
+def test_sizes_are_as_asked() -> None:
+    """On the skin, elements within the edge zone are at most edge_size long, none under the row above face_size."""
+    base = scene("device2")
+    numerics, row, mesh = base.model.numerics, base.device.actuators, section("device2")
+    nodes = mesh.mesh.doflocs[:, mesh.skin]
+    length = np.hypot(*(nodes[:, 2::2] - nodes[:, :-2:2]))
+    middle = nodes[0, 1::2]
+    edges = np.concatenate([np.array(row.positions) - row.width / 2, np.array(row.positions) + row.width / 2])
+    at_edge = np.min(np.abs(middle[:, None] - edges), axis=1) < numerics.edge_zone - numerics.edge_size
+    under = (np.abs(middle) < edges.max()) & (nodes[1, 1::2] < base.model.finger.height / 2)
+    assert at_edge.any()
+    assert length[at_edge].max() <= numerics.edge_size
+    assert length[under].max() <= numerics.face_size * (1.0 + numerics.growth)
+
+
+def test_same_scene_same_mesh_and_round_trip(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    """Meshing is deterministic, and a stored mesh comes back whole, with its facets in the same order."""
+    first, second = section("device1"), mesh_section(scene("device1"))
+    assert np.array_equal(first.mesh.doflocs, second.mesh.doflocs)
+    save_section(tmp_path / "mesh.npz", first)
+    save_section(tmp_path / "again.npz", second)
+    assert (tmp_path / "mesh.npz").read_bytes() == (tmp_path / "again.npz").read_bytes()
+    stored = load_section(tmp_path / "mesh.npz")
+    assert np.array_equal(stored.mesh.facets, first.mesh.facets)
+    assert np.array_equal(stored.receptor_facets, first.receptor_facets)
+    assert stored.layer_names == first.layer_names
+
+
+def test_strip_mirrors_and_is_fine_at_its_ends() -> None:
+    """A deformable actuator's mesh mirrors, and its face elements are at most edge_size at the ends."""
+    base = scene("device3")
+    mesh = mesh_strip(base.device.actuators, base.model.numerics)
+    x = np.sort(mesh.doflocs[0, mesh.doflocs[1] == 0.0])
+    assert np.abs(x + x[::-1]).max() < 1e-15
+    assert x[2] - x[0] <= base.model.numerics.edge_size * (1.0 + 1e-12)
+    with pytest.raises(MeshError, match="rigid"):
+        mesh_strip(scene("device1").device.actuators, base.model.numerics)
+
+
+def test_other_layers_and_outlines_mesh_too() -> None:
+    """Nail and epidermis need not be equally thick; round and flat fingers mesh."""
+    base = scene("device2")
+    finger = base.model.finger
+    nail = replace(finger.dorsal[0], thickness=0.4)
+    thick = replace(finger.dorsal[1], thickness=3.1)
+    for changed in (
+        replace(finger, dorsal=(nail, thick)),
+        replace(finger, width=14.0, height=14.0),
+        replace(finger, width=20.0, height=14.0),
+    ):
+        mesh = mesh_section(replace(base, model=replace(base.model, finger=changed)))
+        assert set(np.unique(mesh.layer)) == set(range(6))

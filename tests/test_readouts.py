@@ -1,0 +1,77 @@
+"""Principal strain, Gabor filter and score against what can be worked out by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fingerpad.gabor import filtered_readouts, gabor_filtered, resample, uniform_grid
+from fingerpad.roughness import roughness_score
+from fingerpad.scene import GaborFilter, Readout
+from fingerpad.strain import maximum_principal, receptor_readouts
+
+SIGMA = 1.12
+
+
+def test_principal_strain_equals_the_largest_eigenvalue() -> None:
+    """Of the three-dimensional strain tensor of plane strain, for random strains."""
+    rows = np.random.default_rng(2).standard_normal((200, 3))
+    tensors = np.zeros((200, 3, 3))
+    tensors[:, 0, 0], tensors[:, 1, 1] = rows[:, 0], rows[:, 1]
+    tensors[:, 0, 1] = tensors[:, 1, 0] = rows[:, 2] / 2.0
+    assert np.abs(maximum_principal(rows.ravel()) - np.linalg.eigvalsh(tensors)[:, -1]).max() < 1e-12
+
+
+def test_readout_of_a_cycle_is_taken_at_its_peak() -> None:
+    """Of several times, the one with the largest change."""
+    strain_map = np.array([[1.0, 0.0], [0.0, 0.0], [0.0, 0.0]])
+    forces = np.array([[[0.1, 0.0]], [[0.3, 0.0]], [[0.2, 0.0]]])
+    found = receptor_readouts(strain_map, np.array([[0.1, 0.0]]), forces)
+    assert found[Readout.STRAIN] == pytest.approx([0.3])
+    assert found[Readout.CHANGE_OF_STRAIN] == pytest.approx([0.2])
+
+
+@pytest.mark.parametrize("wavelength", [2.8, 1.15])
+@pytest.mark.parametrize("period", [0.9, 1.15, 2.5])
+def test_filter_of_a_cosine(wavelength: float, period: float) -> None:
+    """A cosine of period P comes out times the kernel's Fourier transform at 1/P, in the middle of a long grid."""
+    grid = np.linspace(-20.0, 20.0, 4001)
+    k, k0 = 2 * np.pi / period, 2 * np.pi / wavelength
+    gain = (
+        SIGMA * np.sqrt(np.pi / 2) * (np.exp(-((k - k0) ** 2) * SIGMA**2 / 2) + np.exp(-((k + k0) ** 2) * SIGMA**2 / 2))
+    )
+    found = gabor_filtered(grid, np.cos(k * grid), wavelength, SIGMA)
+    middle = np.abs(grid) < 5.0
+    assert np.abs(found - gain * np.cos(k * grid))[middle].max() < 1e-6
+
+
+def test_change_filter_has_almost_no_mean() -> None:
+    """The signed area of the filtered change vanishes for every stimulus: that is why the score is rectified."""
+    grid = np.linspace(-12.0, 12.0, 2401)
+    bump = np.exp(-((grid - 0.7) ** 2))
+    filtered = gabor_filtered(grid, bump, 1.15, SIGMA)
+    # the kernel's transform at zero is exp(-(2 pi sigma / lambda)^2 / 2) = 7e-9 of its peak
+    assert abs(np.trapezoid(filtered, grid)) < 1e-7
+    assert roughness_score(grid, filtered, (-5.0, 5.0)) > 1e-3
+
+
+def test_score_is_the_rectified_area_over_the_span() -> None:
+    """|cos| over whole periods has mean 2 / pi; spans that end between samples count their share."""
+    grid = np.linspace(-10.0, 10.0, 4001)
+    assert roughness_score(grid, np.cos(2 * np.pi * grid), (-3.0, 3.0)) == pytest.approx(6 * 2 / np.pi, rel=1e-4)
+    assert roughness_score(grid, np.ones_like(grid), (-0.0012, 0.0031)) == pytest.approx(0.0043, rel=1e-12)
+
+
+def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
+    """A smooth read-out at uneven receptors is resampled to 1e-4; half the grid spacing moves the score by less."""
+    arc = np.sort(np.random.default_rng(3).uniform(-10, 10, 400))
+    arc = np.unique(np.concatenate([-arc, arc, [-10.0, 10.0]]))
+    strain = np.exp(-(arc**2) / 4) * np.cos(3 * arc)
+    grid = uniform_grid(arc, 0.02)
+    assert np.diff(grid).max() <= 0.02 + 1e-12
+    assert np.abs(resample(arc, strain, grid) - np.exp(-(grid**2) / 4) * np.cos(3 * grid)).max() < 1e-3
+    scores = []
+    for spacing in (0.02, 0.01):
+        found = filtered_readouts(arc, strain, strain, GaborFilter(2.8, 1.15, SIGMA, spacing))
+        scores.append(roughness_score(found.arc, found.filtered(Readout.STRAIN), (-4.0, 4.0)))
+    assert scores[0] == pytest.approx(scores[1], rel=1e-4)

@@ -1,0 +1,151 @@
+"""Solved conditions: certificates, symmetry, independence of increments, what the issue of friction does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fingerpad.contact import face_shape
+from fingerpad.errors import ContactError
+from fingerpad.scene import Condition, Interface
+from fingerpad.solution import certify, contact_problem, indented_state
+from scenes import condensed, scene, solve, solved
+
+CASES = [
+    (device, condition.name, interface)
+    for device in ("device1", "device2", "device3")
+    for condition in scene(device).device.conditions
+    for interface in scene(device).device.interfaces()
+]
+
+
+@pytest.mark.parametrize(("device", "condition", "interface"), CASES)
+def test_every_solution_is_certified(device: str, condition: str, interface: Interface) -> None:
+    """The laws of contact hold for every device, condition and interface, and nothing had to be cut."""
+    solution = solved(device, condition, interface)
+    certificate = solution.certificate
+    assert certificate.equilibrium < 1e-12
+    assert certificate.contact <= scene(device).model.numerics.newton_tolerance
+    assert certificate.penetration <= 1e-4 * solution.indentation
+    assert certificate.smallest_pressure > 0.0
+    assert certificate.cone_excess < 1e-9
+    assert certificate.dissipation >= 0.0
+    assert (certificate.dissipation > 0.0) == (interface is Interface.SHEAR)
+    assert solution.cuts == 0
+    assert np.all(np.isfinite(solution.strain))
+
+
+def lateral(name: str, tangential: list[float]) -> Condition:
+    """A condition of four lateral displacements [mm]."""
+    row = np.array([tangential])
+    return Condition(name, "test", 0.0, np.array([1.0]), np.zeros_like(row), row)
+
+
+@pytest.mark.parametrize("interface", list(Interface))
+def test_mirrored_stimulus_gives_mirrored_strains(interface: Interface) -> None:
+    """Pins 1 and 3 to the right are the mirror image of pins 2 and 4 to the left."""
+    right = solve("device2", lateral("right", [0.02, 0.0, 0.02, 0.0]), interface)
+    left = solve("device2", lateral("left", [0.0, -0.02, 0.0, -0.02]), interface)
+    largest = np.abs(right.change_of_strain).max()
+    assert np.abs(right.strain - left.strain[::-1]).max() < 1e-6 * right.strain.max()
+    assert np.abs(right.change_of_strain - left.change_of_strain[::-1]).max() < 1e-5 * largest
+
+
+def test_indentation_alone_is_symmetric() -> None:
+    """All pins pressed alike: the strain mirrors."""
+    still = solve("device2", lateral("still", [0.0] * 4), Interface.SHEAR)
+    assert np.abs(still.strain - still.strain[::-1]).max() < 1e-7 * still.strain.max()
+    assert not still.change_of_strain.any()
+
+
+@pytest.mark.parametrize("device", ["device1", "device2", "device3"])
+def test_full_criterion_covers_every_face_and_no_less_would(device: str) -> None:
+    """After pre-indentation every node over a flat face presses; a per cent less and some face is not covered."""
+    base = scene(device)
+    problem = contact_problem(base, *condensed(device), Interface.SHEAR)
+    state = indented_state(base, problem)
+    over_face = np.abs(state.place) < base.device.actuators.half_face - 0.02
+    assert np.all(state.force[over_face, 1] > 0.0)
+    shallow = replace(problem, position=problem.position + np.array([0.0, 0.01 * state.actuator[0, 1]]))
+    moved = indented_state(base, shallow)
+    assert moved.actuator[0, 1] == pytest.approx(state.actuator[0, 1] * 1.01, rel=1e-6)
+
+
+@pytest.mark.parametrize("condition", ["alternate_090", "alternate_180"])
+def test_increments_leave_little_trace(condition: str) -> None:
+    """Four times the increments change the read-outs by less than one per cent of their largest value."""
+    wanted = scene("device2").device.condition(condition)
+    coarse = solved("device2", condition, Interface.SHEAR)
+    fine = solve("device2", wanted, Interface.SHEAR, indentation_increments=80, stimulus_increments=16)
+    largest = np.abs(fine.change_of_strain).max()
+    assert np.abs(coarse.change_of_strain - fine.change_of_strain).max() < 0.01 * largest
+    assert np.abs(coarse.strain - fine.strain).max() < 0.01 * fine.strain.max()
+
+
+def test_frictionless_path_leaves_no_trace_at_all() -> None:
+    """Without friction there is no history: to and fro ends where it began."""
+    row = np.array([[0.02, -0.02, 0.02, -0.02], [0.0, 0.0, 0.0, 0.0]])
+    there_and_back = Condition("loop", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(row), row)
+    solution = solve("device2", there_and_back, Interface.FRICTIONLESS)
+    assert np.abs(solution.force[-1] - solution.indented_force).max() < 1e-7 * solution.force.max()
+
+
+def test_friction_remembers() -> None:
+    """With friction the same loop leaves the skin sheared: history counts."""
+    row = np.array([[0.02, -0.02, 0.02, -0.02], [0.0, 0.0, 0.0, 0.0]])
+    there_and_back = Condition("loop", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(row), row)
+    solution = solve("device2", there_and_back, Interface.SHEAR)
+    assert np.abs(solution.force[-1] - solution.indented_force).max() > 1e-3 * solution.force.max()
+
+
+def test_normal_and_lateral_histories_combine() -> None:
+    """An arbitrary stimulus: each pin its own normal and tangential path; lifting one pin off unloads it alone."""
+    time = np.array([1.0, 2.0, 3.0])
+    normal = np.array([[0.0, 0.01, 0.0, 0.0], [0.0, 0.02, 0.0, -0.01], [0.0, 0.0, 0.0, -2.0]])
+    tangential = np.array([[0.01, 0.0, 0.0, 0.0], [0.0, 0.0, -0.01, 0.0], [0.02, 0.0, 0.0, 0.0]])
+    solution = solve("device2", Condition("free", "test", 0.0, time, normal, tangential), Interface.SHEAR)
+    problem = contact_problem(scene("device2"), *condensed("device2"), Interface.SHEAR)
+    pressed = [solution.force[-1][problem.actuator_of() == pin, 1].sum() for pin in range(4)]
+    assert solution.force.shape[0] == 3
+    assert pressed[3] == 0.0
+    assert min(pressed[:3]) > 0.01
+
+
+def test_failures_name_device_condition_and_interface() -> None:
+    """A path that leaves the candidate nodes, and an indentation that cannot be reached."""
+    far = lateral("far", [0.0, 0.0, 0.0, -0.9])
+    with pytest.raises(ContactError, match=r"device=device2, condition=far, interface=frictionless: .*sideways"):
+        solve("device2", far, Interface.FRICTIONLESS)
+    base = scene("device2")
+    problem = contact_problem(base, *condensed("device2"), Interface.SHEAR)
+    lifted = np.where(np.abs(problem.position[:, [0]]) > 4.0, [0.0, 30.0], [0.0, 0.0])
+    with pytest.raises(ContactError, match=r"pre-indentation did not reach 'full' contact within 5 mm"):
+        indented_state(base, replace(problem, position=problem.position + lifted))
+
+
+def test_certificate_refuses_a_wrong_solution() -> None:
+    """Forces that were tampered with do not pass."""
+    base = scene("device2")
+    found, body = condensed("device2")
+    problem = contact_problem(base, found, body, Interface.SHEAR)
+    state = indented_state(base, problem)
+    certify(problem, found, state)
+    with pytest.raises(ContactError, match="penetration"):
+        certify(problem, found, replace(state, force=0.99 * state.force))
+    sheared = state.force.copy()
+    sheared[:, 0] = 0.7 * state.force[:, 1]
+    with pytest.raises(ContactError, match=r"penetration|cone"):
+        certify(problem, found, replace(state, force=sheared))
+
+
+def test_face_shape_functions_interpolate_quadratics() -> None:
+    """They sum to one and reproduce a quadratic anywhere on the face; beyond its ends they hold the end."""
+    _, body = condensed("device3")
+    assert body is not None
+    at = np.linspace(body.coordinate[0], body.coordinate[-1], 37)
+    shape = face_shape(body, at)
+    assert np.abs(shape.sum(axis=1) - 1.0).max() < 1e-12
+    assert np.abs(shape @ body.coordinate**2 - at**2).max() < 1e-12
+    assert face_shape(body, np.array([9.0]))[0, -1] == pytest.approx(1.0)

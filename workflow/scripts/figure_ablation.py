@@ -1,0 +1,26 @@
+"""Draw the scores of all devices with and without shear."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.figures.ablation import ablation_figure
+from fingerpad.figures.style import device_titles, save
+from fingerpad.scenefile import load_scene
+
+
+def main(config: Path, devices: list[Path], scores: Path, correlations: Path, stem: Path) -> None:
+    """Read the tables, draw, write PNG and PDF."""
+    titles = device_titles(load_scene(config, path).device for path in devices)
+    save(ablation_figure(pd.read_csv(scores), pd.read_csv(correlations), titles), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        Path(job.input.scores),
+        Path(job.input.correlations),
+        Path(job.output.png).with_suffix(""),
+    )

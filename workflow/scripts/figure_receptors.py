@@ -1,0 +1,32 @@
+"""Draw strain and change of strain at the receptors of all devices."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedSection
+from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
+from fingerpad.figures.style import save
+from fingerpad.scenefile import load_scene
+from fingerpad.store import load
+from fingerpad.strain import FilteredReadouts
+
+
+def main(config: Path, devices: list[Path], condensed: list[Path], filtered: list[Path], stem: Path) -> None:
+    """Read every device's read-outs (in the order of devices and their conditions), draw, write PNG and PDF."""
+    waiting = iter(filtered)
+    entries = []
+    for path, section in zip(devices, condensed, strict=True):
+        device = load_scene(config, path).device
+        readouts = {condition.name: load(next(waiting), FilteredReadouts) for condition in device.conditions}
+        entries.append(DeviceReadouts(device, readouts, face_arcs(device, load(section, CondensedSection))))
+    save(receptor_figure(entries), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        [Path(path) for path in job.input.condensed],
+        [Path(path) for path in job.input.filtered],
+        Path(job.output.png).with_suffix(""),
+    )

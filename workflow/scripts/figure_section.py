@@ -1,0 +1,24 @@
+"""Draw the finger's section with its layers and the devices' actuators."""
+
+from pathlib import Path
+
+from fingerpad.figures.section import section_figure
+from fingerpad.figures.style import save
+from fingerpad.mesh import load_section
+from fingerpad.scenefile import load_scene
+
+
+def main(config: Path, devices: list[Path], mesh: Path, stem: Path) -> None:
+    """Read the scenes and one device's mesh, draw, write PNG and PDF."""
+    scenes = [load_scene(config, path) for path in devices]
+    save(section_figure(scenes[0].model, load_section(mesh), [scene.device for scene in scenes]), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        Path(job.input.mesh),
+        Path(job.output.png).with_suffix(""),
+    )

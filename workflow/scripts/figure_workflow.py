@@ -1,0 +1,37 @@
+"""Draw one device's way from receptor strains to scores."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.compliance import CondensedSection
+from fingerpad.figures.receptors import DeviceReadouts, face_arcs
+from fingerpad.figures.style import save
+from fingerpad.figures.workflow import workflow_figure
+from fingerpad.scene import Interface
+from fingerpad.scenefile import load_scene
+from fingerpad.store import load
+from fingerpad.strain import FilteredReadouts
+
+
+def main(config: Path, device: Path, condensed: Path, filtered: list[Path], scores: Path, stem: Path) -> None:
+    """Read one device's read-outs (in the order of its conditions) and its scores, draw, write PNG and PDF."""
+    scene = load_scene(config, device)
+    names = [condition.name for condition in scene.device.conditions]
+    readouts = {name: load(path, FilteredReadouts) for name, path in zip(names, filtered, strict=True)}
+    entry = DeviceReadouts(scene.device, readouts, face_arcs(scene.device, load(condensed, CondensedSection)))
+    table = pd.read_csv(scores)
+    own = table[(table["device"] == scene.device.name) & (table["interface"] == Interface.SHEAR)]
+    save(workflow_figure(entry, scene.model.gabor, scene.model.readout, own), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.condensed),
+        [Path(path) for path in job.input.filtered],
+        Path(job.input.scores),
+        Path(job.output.png).with_suffix(""),
+    )
