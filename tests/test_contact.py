@@ -182,7 +182,7 @@ def _elastic(problem: ContactProblem, state: ContactState) -> float:
 
 def test_sliding_punch_carries_contact_along() -> None:
     """Finite sliding: without friction the pressure pattern moves with the punch, node by node."""
-    problem, weight = half_plane(0.1, 0.8, 0.3, 0.0)
+    problem, _ = half_plane(0.1, 0.8, 0.3, 0.0)
     before = pressed(problem, 0.01)
     after = follow(problem, before, before.actuator + np.array([[0.1, 0.0]]), 10)
     x = problem.position[:, 0]

@@ -37,9 +37,8 @@ def test_filter_of_a_cosine(wavelength: float, period: float) -> None:
     """A cosine of period P comes out times the kernel's Fourier transform at 1/P, in the middle of a long grid."""
     grid = np.linspace(-20.0, 20.0, 4001)
     k, k0 = 2 * np.pi / period, 2 * np.pi / wavelength
-    gain = (
-        SIGMA * np.sqrt(np.pi / 2) * (np.exp(-((k - k0) ** 2) * SIGMA**2 / 2) + np.exp(-((k + k0) ** 2) * SIGMA**2 / 2))
-    )
+    peaks = (np.exp(-((k - sign * k0) ** 2) * SIGMA**2 / 2) for sign in (1, -1))
+    gain = SIGMA * np.sqrt(np.pi / 2) * sum(peaks)
     found = gabor_filtered(grid, np.cos(k * grid), wavelength, SIGMA)
     middle = np.abs(grid) < 5.0
     assert np.abs(found - gain * np.cos(k * grid))[middle].max() < 1e-6
@@ -63,7 +62,8 @@ def test_score_is_the_rectified_area_over_the_span() -> None:
 
 
 def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
-    """A smooth read-out at uneven receptors is resampled to 1e-4; half the grid spacing moves the score by less."""
+    """A smooth read-out at uneven receptors is resampled to 1e-3, and half the grid spacing moves its score by less
+    than a tenth of the error that scores aim at (0.5 %), though the rectified integrand has kinks."""
     arc = np.sort(np.random.default_rng(3).uniform(-10, 10, 400))
     arc = np.unique(np.concatenate([-arc, arc, [-10.0, 10.0]]))
     strain = np.exp(-(arc**2) / 4) * np.cos(3 * arc)
@@ -74,4 +74,4 @@ def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
     for spacing in (0.02, 0.01):
         found = filtered_readouts(arc, strain, strain, GaborFilter(2.8, 1.15, SIGMA, spacing))
         scores.append(roughness_score(found.arc, found.filtered(Readout.STRAIN), (-4.0, 4.0)))
-    assert scores[0] == pytest.approx(scores[1], rel=1e-4)
+    assert scores[0] == pytest.approx(scores[1], rel=5e-4)

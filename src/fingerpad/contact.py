@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import LinAlgError, solve
@@ -35,6 +36,9 @@ MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is bel
 SETTLED = 1e-6  # relative residual [1] below which forces are good enough to judge a single node's state
 END_TOLERANCE = 1e-4  # mm of face or gap at which pre-indentation ends; source: 1e-5 of the indentation
 CAUTION = 0.2  # share [1] of an increment below which its promise is trusted; source: overshoot is then below 1e-4 mm
+
+
+Blocks = tuple[FloatArray, ...]  # compliance by components xx, xy, yx, yy
 
 
 class Status(IntEnum):
@@ -65,6 +69,11 @@ class ContactProblem:
     friction: float
     tolerance: float
     max_cuts: int
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """The compliance by components xx, xy, yx, yy, each (n, n) [mm per N/mm] and contiguous."""
+        return tuple(np.ascontiguousarray(self.compliance[i::2, j::2]) for i in (0, 1) for j in (0, 1))
 
     def actuator_of(self) -> np.ndarray:
         """Index (n,) of the actuator nearest to each undeformed node: the only one that it can touch."""
@@ -277,14 +286,10 @@ def _solve_increment(problem: ContactProblem, start: ContactState, actuator: Flo
 
 def _set_up(problem: ContactProblem, start: ContactState, actuator: FloatArray) -> _Increment:
     """What an increment needs: compliance blocks at its start, unloaded places, slip references."""
-    compliance = _compliance_at(problem, start.place)
     length = float(np.abs(actuator - start.actuator).max())
     return _Increment(
         problem,
-        compliance[0::2, 0::2],
-        compliance[0::2, 1::2],
-        compliance[1::2, 0::2],
-        compliance[1::2, 1::2],
+        *_blocks_at(problem, start.place),
         _unloaded(problem, actuator),
         _slip_reference(start, length),
         length + float(np.abs(actuator).max()),
@@ -297,25 +302,26 @@ def _unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     return np.asarray(problem.position - (actuator + centre)[problem.actuator_of()])
 
 
-def _compliance_at(problem: ContactProblem, place: FloatArray) -> FloatArray:
-    """Compliance (2n, 2n) of the skin plus that of the actuators' faces at the places (n,) where the skin is."""
+def _blocks_at(problem: ContactProblem, place: FloatArray) -> Blocks:
+    """Compliance of the skin plus that of the actuators' faces at the places (n,) where the skin is, by components."""
     if problem.body is None:
-        return problem.compliance
-    compliance = problem.compliance.copy()
+        return problem.blocks
+    blocks = tuple(block.copy() for block in problem.blocks)
     index = problem.actuator_of()
     for number in range(len(problem.row.positions)):
         nodes = np.flatnonzero(index == number)
-        shape = np.kron(face_shape(problem.body, place[nodes]), np.eye(2))
-        unknowns = (2 * nodes[:, None] + np.arange(2)).ravel()
-        compliance[np.ix_(unknowns, unknowns)] += shape @ problem.body.compliance @ shape.T
-    return compliance
+        shape = face_shape(problem.body, place[nodes])
+        for block, (i, j) in zip(blocks, ((0, 0), (0, 1), (1, 0), (1, 1)), strict=True):
+            block[np.ix_(nodes, nodes)] += shape @ problem.body.compliance[i::2, j::2] @ shape.T
+    return blocks
 
 
 def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
     """Gaps (n,) [mm] computed anew from a state's forces, with the actuators' compliance where the skin now is."""
-    moved = (_compliance_at(problem, state.place) @ state.force.ravel()).reshape(-1, 2)
-    x, y = (_unloaded(problem, state.actuator) + moved).T
-    return np.asarray(y + profile(problem.row, x)[0])
+    xx, xy, yx, yy = _blocks_at(problem, state.place)
+    fx, fy = state.force.T
+    x, y = _unloaded(problem, state.actuator).T
+    return np.asarray(y + yx @ fx + yy @ fy + profile(problem.row, x + xx @ fx + xy @ fy)[0])
 
 
 def _slip_reference(start: ContactState, length: float) -> FloatArray:
@@ -338,11 +344,10 @@ def _touched(problem: ContactProblem) -> Status:
 
 def _at(increment: _Increment, force: FloatArray) -> _Trial:
     """Where the nodes are under given forces, and what they see of the profile."""
-    loaded = np.flatnonzero(force[:, 1])
-    sheared = np.flatnonzero(force[:, 0])
-    fx, fy = force[sheared, 0], force[loaded, 1]
-    x = increment.origin[:, 0] + increment.xx[:, sheared] @ fx + increment.xy[:, loaded] @ fy
-    y = increment.origin[:, 1] + increment.yx[:, sheared] @ fx + increment.yy[:, loaded] @ fy
+    fx, fy = np.ascontiguousarray(force.T)
+    x, y = increment.origin[:, 0] + increment.xy @ fy, increment.origin[:, 1] + increment.yy @ fy
+    if increment.problem.friction > 0.0:
+        x, y = x + increment.xx @ fx, y + increment.yx @ fx
     drop, slope = profile(increment.problem.row, x)
     return _Trial(force, x, y, y + drop, slope)
 

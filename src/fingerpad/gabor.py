@@ -39,8 +39,9 @@ def resample(arc: FloatArray, values: FloatArray, grid: FloatArray) -> FloatArra
 def kernel(wavelength: float, sigma: float, spacing: float) -> tuple[FloatArray, FloatArray]:
     """Offsets x (2k+1,) [mm] and Gabor kernel g = cos(2 pi x / wavelength) exp(-x^2 / (2 sigma^2)) there [1]."""
     reach = int(np.ceil(REACH * sigma / spacing))
-    x = spacing * np.arange(-reach, reach + 1)
-    return x, np.asarray(np.cos(2.0 * np.pi * x / wavelength) * np.exp(-(x**2) / (2.0 * sigma**2)))
+    x: FloatArray = spacing * np.arange(-reach, reach + 1, dtype=np.float64)
+    weights: FloatArray = np.cos(2.0 * np.pi * x / wavelength) * np.exp(-(x**2) / (2.0 * sigma**2))
+    return x, weights
 
 
 def gabor_filtered(grid: FloatArray, values: FloatArray, wavelength: float, sigma: float) -> FloatArray:

@@ -28,7 +28,7 @@ from .style import (
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
 BAR = 0.38  # width of a bar, of the distance between conditions [1]
-GROUP_OFFSET = -18.0  # of a dispersion's name below the axis [pt]
+GROUP_OFFSET = -15.0  # of a dispersion's name below the axis [pt]
 LOOK: dict[Interface, dict[str, Any]] = {
     Interface.SHEAR: {"facecolor": BLUE, "edgecolor": BLUE},
     Interface.FRICTIONLESS: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
@@ -52,7 +52,7 @@ def ablation_figure(scores: pd.DataFrame, correlations: pd.DataFrame, titles: Ma
             fontweight="bold", fontsize="large",
         )  # fmt: skip
     for axes, text in zip(grid[0], "AB", strict=True):
-        letter(axes, text)
+        letter(axes, text, (-30.0, 26.0))
     legend_below(figure, [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface])
     return figure
 
@@ -74,7 +74,8 @@ def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.
                     note, (place + side * BAR, 0.0), xytext=(0.0, 3.0), textcoords="offset points", rotation=90.0,
                     ha="center", va="bottom", color=GREY,
                 )  # fmt: skip
-    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" (", "\n("))
+    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
+    axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
     _name_conditions(axes, conditions)
     lines = [_statistics(correlations, interface) for interface in Interface]
     axes.set_title("\n".join(lines), loc="left", fontsize="medium", fontweight="normal")
@@ -90,10 +91,11 @@ def _name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
     if conditions["dispersion"].nunique() == 1:
         axes.set_xlabel("Phase difference")
         return
+    axes.set_xlabel("Phase difference, dispersion", labelpad=-GROUP_OFFSET / 1.5)
     for name in conditions["dispersion"].unique():
         centre = float(places[(conditions["dispersion"] == name).to_numpy()].mean())
         axes.annotate(
-            f"{name} dispersion" if len(conditions) <= 6 else name, (centre, 0.0),
+            name, (centre, 0.0),
             xycoords=axes.get_xaxis_transform(), xytext=(0.0, GROUP_OFFSET), textcoords="offset points",
             ha="center", va="top",
         )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -14,9 +15,11 @@ from ..scene import Interface, Readout
 from .style import (
     GREY,
     MINUS,
+    PERCENT,
     SCORE_SCALE,
     WIDE,
     Styles,
+    as_points,
     condition_styles,
     draw_point,
     legend_below,
@@ -28,11 +31,14 @@ from .style import (
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
+STATISTICS_WIDTH = 22  # characters in a line beside a panel
+TICKS = 4  # along a score's axis, at most
 SMALLEST_P = 0.001  # below it p is given as a bound
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
-    "n: conditions. range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R².\n"
-    "spread: of the scores, relative to their mean. Line: least squares. Ratings: {kinds}."
+    "{interface}n: conditions; those with one and the same stimulus coincide. Line: least squares. Ratings: {kinds}.\n"
+    "range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R²."
+    " spread: of the scores, relative to their mean."
 )
 
 
@@ -53,8 +59,7 @@ def correlation_figure(
         row[0].set_title(title, loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    legend_below(figure, styles.legend)
-    add_caption(figure, correlations)
+    legend_below(figure, as_points(styles.legend), caption(correlations, "With shear. "))
     return figure
 
 
@@ -83,6 +88,8 @@ def correlation_panel(
     for name, one, other in zip(points["condition"], x, y, strict=True):
         draw_point(axes, one, other, styles.series[device, name])
     axes.margins(PADDING)
+    axes.locator_params(axis="x", nbins=TICKS)
+    axes.locator_params(axis="y", nbins=TICKS)
     axes.set_xlabel(score_label(readout, str(points["unit"].iloc[0])))
     axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
     axes.annotate(
@@ -106,16 +113,17 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
         lines.append(f"published R² {row['published_r2']:g}")
     elif isinstance(row["published_words"], str) and row["published_words"]:
         lines.append(f"published: {row['published_words']}")
-    lines.append(f"spread {np.ptp(score) / np.abs(score).mean():.2%}".replace("%", " %"))
+    spread = PERCENT * float(np.ptp(score) / np.abs(score).mean())
+    lines.append(f"spread {spread:.{0 if spread >= 10.0 else 1}f} %")
     if isinstance(row["note"], str) and row["note"]:
         lines.append(row["note"])
-    return "\n".join(lines)
+    return "\n".join(part for line in lines for part in wrap(line, STATISTICS_WIDTH))
 
 
-def add_caption(figure: Figure, correlations: pd.DataFrame) -> None:
-    """Say under a figure what its statistics mean and what the ratings are."""
+def caption(correlations: pd.DataFrame, interface: str = "") -> str:
+    """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
-    figure.supxlabel(CAPTION.format(kinds=kinds), fontsize="medium", color=GREY)
+    return CAPTION.format(interface=interface, kinds=kinds)
 
 
 def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:

@@ -12,10 +12,10 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, TriMesh
+from matplotlib.colors import PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
 from matplotlib.tri import Triangulation
 
 from ..compliance import CondensedSection
@@ -23,11 +23,10 @@ from ..fields import Fields
 from ..mesh import SectionMesh
 from ..scene import ActuatorRow, Condition, FloatArray, Scene
 from ..solution import Solution
-from .outline import actuator_shapes, layer_lines
+from .outline import draw_actuators, interface_facets
 from .style import (  # fmt: skip
     BLUE,
     GREY,
-    LINES,
     PERCENT,
     THIN,
     VERMILLION,
@@ -40,13 +39,16 @@ from .style import (  # fmt: skip
 )
 
 COLUMNS = 3  # panels beside each other
-ASIDE, BELOW, ABOVE = 1.5, 0.9, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
+ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
 SIDE = 34.0  # mm of the figure's width that axis labels and colour bar take
+CAPTION = "n = {n} conditions, at the end of the stimulus; displacements to scale. Tractions: means over skin elements."
 COVERED = 99.5  # per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
+HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
 MIDPOINT = 0.5  # weight over distance of a node's neighbours [1]: 2/3 at midpoints, 1/3 at vertices (Simpson)
+DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the shear traction
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 
 
@@ -81,32 +83,49 @@ def strain_map_figure(
         2 * blocks, columns, squeeze=False, sharex=True, height_ratios=[map_height, TRACTION_HEIGHT] * blocks
     )
     maps, tractions = grid[0::2].ravel(), grid[1::2].ravel()
-    styles = condition_styles(conditions_of([device]))
-    largest = KILO * max(float(solution.pressure.max()) for solution in solutions.values())
+    table = conditions_of([device])
+    styles = condition_styles(table[table["dispersion"] == dispersion])
+    row = device.actuators
+    means = [
+        element_means(row, contact, KILO * nodal)[1] for s in solutions.values() for nodal in (s.pressure, s.shear)
+    ]
+    limits = HEADROOM * min(float(mean.min()) for mean in means), HEADROOM * max(float(mean.max()) for mean in means)
     for axes, beneath, condition in zip(maps, tractions, conditions, strict=False):
         loading = distinct.index(device.first_with_stimulus_of(condition.name).name)
         solution = solutions[condition.name]
         drawn = _draw_map(axes, section, fields, loading, end)
-        _draw_actuators(axes, device.actuators, condition, solution.indentation)
-        axes.set(xlim=window[0], ylim=window[1], aspect="equal")
+        rise = np.array([0.0, solution.indentation])
+        offsets = np.stack([condition.tangential[-1], condition.normal[-1]], axis=1) + rise
+        draw_actuators(axes, device.actuators, offsets, 2.0 * BELOW)
+        axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
         axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
         axes.set_title(styles.series[device.name, condition.name].label, loc="left")
+        axes.tick_params(labelleft=False)
+        beneath.tick_params(labelleft=False)
         _draw_tractions(beneath, device.actuators, contact, solution, condition)
-        beneath.set_ylim(-0.75 * largest, 1.05 * largest)
+        beneath.set_ylim(*limits)
         beneath.set_xlabel("x (mm)")
     for axes in (*maps[len(conditions) :], *tractions[len(conditions) :]):
         axes.remove()
+    for axes in (*maps[::columns], *tractions[::columns]):
+        axes.tick_params(labelleft=True)
     for first, beneath in zip(maps[::columns], tractions[::columns], strict=True):
         first.set_ylabel("y (mm)")
         beneath.set_ylabel("Traction (kPa)")
-    figure.colorbar(drawn, ax=list(maps[: len(conditions)]), extend="max", label="Max. principal strain (%)", aspect=14, pad=0.01)  # fmt: skip
-    figure.suptitle(f"{device.title}, {dispersion} dispersion, with shear", fontweight="bold")
+    figure.colorbar(
+        drawn, ax=list(maps[: len(conditions)]), extend="max", aspect=14, pad=0.01,
+        label="Max. principal strain\n(%, square-root scale)",
+    )  # fmt: skip
+    several = len({condition.dispersion for condition in device.conditions}) > 1
+    named = f", {dispersion} dispersion" if several else ""
+    figure.suptitle(f"{device.title}{named}, with shear", fontweight="bold")
     legend_below(
         figure,
         [
-            Line2D([], [], color=BLUE, linestyle=LINES[0], label="contact pressure"),
-            Line2D([], [], color=VERMILLION, linestyle=LINES[1], label="shear traction on the skin, along x"),
+            Line2D([], [], color=BLUE, label="contact pressure"),
+            Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, along x"),
         ],
+        CAPTION.format(n=len(conditions)),
     )
     return figure
 
@@ -139,29 +158,19 @@ def element_means(row: ActuatorRow, contact: CondensedSection, nodal: FloatArray
     return middle, (nodal[middle - 1] + 4.0 * nodal[middle] + nodal[middle + 1]) / 6.0
 
 
-def _draw_map(axes: Axes, section: SectionMesh, fields: Fields, loading: int, end: float) -> object:
-    """Strain on the deformed elements, rasterised, and the layers' interfaces as lines."""
+def _draw_map(axes: Axes, section: SectionMesh, fields: Fields, loading: int, end: float) -> TriMesh:
+    """Strain on the deformed elements, rasterised; the layers' interfaces and the boundary as lines."""
     moved = fields.corner + fields.displacement[loading]
-    triangles = np.arange(moved.shape[1]).reshape(-1, 3)
     drawn = axes.tripcolor(
-        Triangulation(*moved, triangles), PERCENT * fields.strain[loading], shading="gouraud", cmap=COLOURS, vmin=0.0,
-        vmax=end, rasterized=True,
+        Triangulation(moved[0], moved[1], np.arange(moved.shape[1]).reshape(-1, 3)), PERCENT * fields.strain[loading],
+        shading="gouraud", cmap=COLOURS, norm=PowerNorm(0.5, 0.0, end), rasterized=True,
     )  # fmt: skip
     vertices = np.empty((2, section.mesh.nvertices))
     vertices[:, section.mesh.t.T.ravel()] = moved
-    lines = vertices[:, section.mesh.facets[:, layer_lines(section)]].transpose(2, 1, 0)
-    axes.add_collection(LineCollection(list(lines), colors="white", linewidths=THIN, capstyle="round"))
+    for facets, colour in ((interface_facets(section), "white"), (section.mesh.boundary_facets(), "black")):
+        lines = vertices[:, section.mesh.facets[:, facets]].transpose(2, 1, 0)
+        axes.add_collection(LineCollection(list(lines), colors=colour, linewidths=THIN, capstyle="round"))
     return drawn
-
-
-def _draw_actuators(axes: Axes, row: ActuatorRow, condition: Condition, height: float) -> None:
-    """Actuators where they end up; the body of a deformable one undeformed (it yields by less than a line's width)."""
-    depth = row.body.thickness if row.body else BELOW + abs(float(condition.normal[-1].min()))
-    for shape, x, y in zip(actuator_shapes(row, depth), condition.tangential[-1], condition.normal[-1], strict=True):
-        placed = shape + np.array([x, height + y])
-        axes.add_patch(Polygon(placed, closed=True, facecolor="#C8C8C8", edgecolor="black", linewidth=THIN))
-        if row.body:
-            axes.plot(placed[[0, -1], 0], placed[[0, -1], 1], color="black", linewidth=2.0, solid_capstyle="butt")
 
 
 def _draw_tractions(
@@ -171,12 +180,14 @@ def _draw_tractions(
     nearest = np.argmin(np.abs(contact.position[:, [0]] - np.asarray(row.positions)), axis=1)
     centre = np.asarray(row.positions) + condition.tangential[-1]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
-    for nodal, colour, line in ((solution.pressure, BLUE, LINES[0]), (solution.shear, VERMILLION, LINES[1])):
-        middle, mean = element_means(row, contact, KILO * nodal)
-        for number in range(len(row.positions)):
-            own = middle[nearest[middle] == number]
-            x = centre[number] + solution.place[own]
-            values = mean[nearest[middle] == number]
-            touched = np.flatnonzero(solution.pressure[own] > 0.0)
-            shown = slice(max(int(touched[0]) - 1, 0), int(touched[-1]) + 2) if touched.size else slice(0)
-            axes.plot(x[shown], values[shown], color=colour, linestyle=line)
+    middle, pressure = element_means(row, contact, KILO * solution.pressure)
+    _, shear = element_means(row, contact, KILO * solution.shear)
+    for number in range(len(row.positions)):
+        own = np.flatnonzero(nearest[middle] == number)
+        touched = own[pressure[own] > 0.0]
+        if touched.size == 0:
+            continue
+        shown = own[(own >= touched[0] - 1) & (own <= touched[-1] + 1)]  # from and to an element without contact
+        x = centre[number] + solution.place[middle[shown]]
+        axes.plot(x, pressure[shown], color=BLUE)
+        axes.plot(x, shear[shown], color=VERMILLION, linestyle=DASHED)

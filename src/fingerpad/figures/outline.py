@@ -1,20 +1,25 @@
-"""Lines and shapes of a section and its actuators, as figures draw them [mm]."""
+"""A section's lines and its actuators, as figures draw them [mm]."""
 
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Polygon, Rectangle
 
 from ..mesh import SectionMesh
 from ..profile import profile
 from ..scene import ActuatorRow, FloatArray
+from .style import THIN
 
 PROFILE_POINTS = 41  # along a rounded edge [1]
+BASE = 0.25  # mm of a deformable actuator's rigid base that is drawn
+FACE, UNDER = "#CFCFCF", "#5A5A5A"  # fill of actuators, and of the base of deformable ones
 
 
-def layer_lines(section: SectionMesh) -> np.ndarray:
-    """Facets (k,) between two layers, or on the outside."""
+def interface_facets(section: SectionMesh) -> np.ndarray:
+    """Facets (k,) between two layers."""
     left, right = section.mesh.f2t
-    return np.flatnonzero((right < 0) | (section.layer[left] != section.layer[right]))
+    return np.flatnonzero((right >= 0) & (section.layer[left] != section.layer[right]))
 
 
 def curved_lines(section: SectionMesh, facets: np.ndarray) -> FloatArray:
@@ -24,14 +29,23 @@ def curved_lines(section: SectionMesh, facets: np.ndarray) -> FloatArray:
     return np.asarray(section.mesh.doflocs[:, np.stack([ends[0], middle, ends[1]], axis=1)].transpose(1, 2, 0))
 
 
-def actuator_shapes(row: ActuatorRow, depth: float) -> list[FloatArray]:
-    """Outline (m, 2) of each actuator, its face on y = 0, its sides down to -depth."""
+def draw_actuators(axes: Axes, row: ActuatorRow, offsets: FloatArray, depth: float) -> None:
+    """Actuators moved by offsets (n_actuators, 2) from the row's position with faces on y = 0.
+
+    Rigid ones end at `depth` below their faces; of deformable ones the body is drawn undeformed, on its base.
+    """
     half = row.width / 2.0
+    bottom = row.body.thickness if row.body else depth
     rounded = np.linspace(row.half_face, half, PROFILE_POINTS)
     x = np.concatenate([-rounded[::-1], rounded])
     drop, _ = profile(row, x)
-    x, y = np.concatenate([[-half], x, [half]]), np.concatenate([[-depth], -drop, [-depth]])
-    return [np.stack([x + centre, y], axis=1) for centre in row.positions]
+    shape = np.stack([np.concatenate([[-half], x, [half]]), np.concatenate([[-bottom], -drop, [-bottom]])], axis=1)
+    for centre, offset in zip(row.positions, offsets, strict=True):
+        placed = shape + offset + np.array([centre, 0.0])
+        axes.add_patch(Polygon(placed, closed=True, facecolor=FACE, edgecolor="black", linewidth=THIN, zorder=2))
+        if row.body:
+            corner = (float(placed[0, 0]), float(placed[0, 1]) - BASE)
+            axes.add_patch(Rectangle(corner, row.width, BASE, facecolor=UNDER, edgecolor="black", linewidth=THIN))
 
 
 def touching_face(section: SectionMesh, row: ActuatorRow) -> float:

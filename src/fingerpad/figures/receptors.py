@@ -29,9 +29,11 @@ from .style import (
     styled,
 )
 
-ROW_HEIGHT, LEGEND_HEIGHT = 44.0, 16.0  # mm
+ROW_HEIGHT, LEGEND_HEIGHT = 44.0, 18.0  # mm
 MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces
-MARKER_SPACING = 1.3  # mm between markers on a curve
+MARKER_SPACING = 2.0  # mm between markers on a curve
+
+CAPTION = "With shear. Conditions with one and the same stimulus are drawn once."
 
 
 @dataclass(frozen=True)
@@ -70,12 +72,12 @@ def receptor_figure(devices: Sequence[DeviceReadouts]) -> Figure:
                 draw_curve(axes, found.arc, values, series, number / len(distinct))
             axes.set_xlim(entry.faces.min() - MARGIN, entry.faces.max() + MARGIN)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        row[0].set_title(entry.device.title, loc="left")
+        row[0].set_title(f"{entry.device.title} (n = {len(entry.device.conditions)} conditions)", loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     for axes in grid[-1]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
-    legend_below(figure, [*styles.legend, face_handle()])
+    legend_below(figure, [*styles.legend, face_handle()], CAPTION)
     return figure
 
 

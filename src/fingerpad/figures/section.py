@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -9,40 +10,48 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
+from matplotlib.ticker import MultipleLocator
 from matplotlib.tri import Triangulation
 
 from ..mesh import SectionMesh
 from ..scene import ActuatorRow, Device, Model
-from .outline import actuator_shapes, curved_lines, layer_lines, touching_face
-from .style import GREY, THIN, VERMILLION, WIDE, letter, new_figure, styled
+from .outline import BASE, curved_lines, draw_actuators, interface_facets, touching_face
+from .style import THIN, VERMILLION, WIDE, letter, new_figure, styled, subtitle
 
-HEIGHT, ROW_HEIGHT = 96.0, 32.0  # mm: of the figure at least, and for each device
-WIDTHS = (1.18, 1.0)  # of the columns, relative
+HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices
+COLUMNS = 3  # devices beside each other
 LABELS = 8.6  # mm from the mid-line at which the layers' names begin, of a finger of half width 8 mm
 TINTS = ("#E9C9A3", "#B98553", "#F3C1AC", "#FBEBC4", "#AEBBC8", "#E3B0BE")  # of the layers, which are named as well
-ACTUATOR = "#C8C8C8"
 DEPTH = 0.9  # mm of a rigid actuator that is drawn
-ASIDE, ABOVE, BELOW = 0.9, 2.6, 1.5  # mm shown beside the row, above the lowest skin and below it
-ARROW = 0.7  # mm, length of the arrows that show how actuators are driven
+ASIDE, ABOVE, BELOW = 0.8, 1.7, 1.2  # mm shown beside the row, above the lowest skin and below it
+LEADER = {"arrowstyle": "-", "linewidth": THIN, "shrinkA": 1.0, "shrinkB": 0.0, "relpos": (0.0, 0.5)}
+HEAD = 5.0  # pt, of arrow heads
+ARROW = 0.8  # mm, length of the arrows that show how actuators are driven
 
 
 @styled
 def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]) -> Figure:
     """The whole section (A) and the pad with each device's actuators at first touch (B), undeformed, in mm."""
-    figure = new_figure(WIDE, max(HEIGHT, ROW_HEIGHT * len(devices)))
-    grid = figure.add_gridspec(len(devices), 2, width_ratios=WIDTHS)
-    whole = figure.add_subplot(grid[:, 0])
+    columns = min(len(devices), COLUMNS)
+    blocks = math.ceil(len(devices) / columns)
+    figure = new_figure(WIDE, HEIGHT + ROW_HEIGHT * blocks)
+    grid = figure.add_gridspec(1 + blocks, columns, height_ratios=[HEIGHT, *[ROW_HEIGHT] * blocks])
+    whole = figure.add_subplot(grid[0, :])
     _draw_section(whole, section)
     _label(whole, model, section)
-    letter(whole, "A", (0.0, 4.0))
+    letter(whole, "A", (0.0, -8.0))
+    rows = [device.actuators for device in devices]
+    reach = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions) + ASIDE
     for number, device in enumerate(devices):
-        axes = figure.add_subplot(grid[number, 1])
-        _draw_device(axes, section, device)
+        block, column = divmod(number, columns)
+        axes = figure.add_subplot(grid[1 + block, column])
+        _draw_device(axes, section, device, reach)
+        axes.set_xlabel("x (mm)")
+        axes.xaxis.set_major_locator(MultipleLocator(2.0))
+        if column == 0:
+            axes.set_ylabel("y (mm)")
         if number == 0:
-            letter(axes, "B", (-30.0, 16.0))
-        if number == len(devices) - 1:
-            axes.set_xlabel("x (mm)")
+            letter(axes, "B", (-26.0, 26.0))
     return figure
 
 
@@ -54,13 +63,13 @@ def _draw_section(axes: Axes, section: SectionMesh) -> None:
     quarters = np.hstack([np.array(t) for t in ((first, a, c), (a, second, b), (c, b, third), (a, b, c))])
     layers = len(section.layer_names)
     axes.tripcolor(
-        Triangulation(*mesh.doflocs, quarters.T), facecolors=np.tile(section.layer, 4), rasterized=True, vmin=-0.5,
-        vmax=layers - 0.5, cmap=ListedColormap([TINTS[i % len(TINTS)] for i in range(layers)]),
+        Triangulation(mesh.doflocs[0], mesh.doflocs[1], quarters.T), facecolors=np.tile(section.layer, 4),
+        rasterized=True, vmin=-0.5, vmax=layers - 0.5, cmap=ListedColormap([TINTS[i % len(TINTS)] for i in range(layers)]),
     )  # fmt: skip
-    lines = curved_lines(section, layer_lines(section))
+    lines = curved_lines(section, np.concatenate([interface_facets(section), mesh.boundary_facets()]))
     axes.add_collection(LineCollection(list(lines), colors="black", linewidths=THIN, capstyle="round"))
     receptors = curved_lines(section, section.receptor_facets)
-    axes.add_collection(LineCollection(list(receptors), colors=VERMILLION, linewidths=1.6, capstyle="round"))
+    axes.add_collection(LineCollection(list(receptors), colors=VERMILLION, linewidths=1.0, capstyle="round"))
     axes.set_aspect("equal")
 
 
@@ -69,24 +78,29 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
     finger = model.finger
     half, height = finger.width / 2.0, finger.height
     labels = LABELS / 8.0 * half
-    centre = section.mesh.doflocs[:, section.mesh.t].mean(axis=1)
-    parts = [(la.name.replace("_", " "), f"{la.thickness:g} mm", centre[:, section.layer == i])
-             for i, la in enumerate((*finger.pad, *reversed(finger.dorsal)))]  # fmt: skip
-    order = [section.layer_names.index(la.name) for la in (*finger.pad, *reversed(finger.dorsal))]
-    for number, index in enumerate(order):
-        name, thickness, _ = parts[number]
-        parts[number] = (name, thickness, centre[:, section.layer == index])
-    receptors = section.mesh.doflocs[:, section.mesh.nvertices + section.receptor_facets]
-    parts.insert(len(finger.pad), ("bone", "rigid", np.array([[finger.bone_width / 4.0], [finger.pad_thickness + finger.bone_height / 2.0]])))  # fmt: skip
-    epidermis = [la.name for la in finger.pad].index(model.readout.layer_above) + 1
-    parts.insert(epidermis, ("receptors", f"{model.receptor_depth:g} mm deep", receptors))
+    mesh = section.mesh
+    centre = mesh.doflocs[:, mesh.t].mean(axis=1)
+    layers = (*finger.pad, *reversed(finger.dorsal))
+    parts = [
+        (
+            la.name.replace("_", " "),
+            f"{la.thickness:g} mm",
+            centre[:, section.layer == section.layer_names.index(la.name)],
+        )
+        for la in layers
+    ]
+    inside_bone = np.array([[0.3 * finger.bone_width], [finger.pad_thickness + 0.7 * finger.bone_height]])
+    parts.insert(len(finger.pad), ("bone", "rigid", inside_bone))
+    below = [la.name for la in finger.pad].index(model.readout.layer_above) + 1
+    receptors = mesh.doflocs[:, mesh.nvertices + section.receptor_facets]
+    parts.insert(below, ("receptors", f"{model.receptor_depth:g} mm deep", receptors))
     for number, (name, size, points) in enumerate(parts):
         place = np.array([labels, (number + 0.5) / len(parts) * height])
         target = points[:, np.argmin(np.hypot(*(points - place[:, None])))]
         colour = VERMILLION if name == "receptors" else "black"
         axes.annotate(
             f"{name}, {size}", tuple(target), tuple(place), va="center", color=colour,
-            arrowprops={"arrowstyle": "-", "linewidth": THIN, "color": colour, "shrinkA": 1.0, "shrinkB": 0.0},
+            arrowprops={"color": colour, **LEADER},
         )  # fmt: skip
         axes.plot(*target, marker="o", markersize=1.5, color=colour)
     _dimension(axes, (-half, -0.7), (half, -0.7), f"{finger.width:g} mm")
@@ -108,35 +122,29 @@ def _dimension(axes: Axes, start: tuple[float, float], stop: tuple[float, float]
     )  # fmt: skip
 
 
-def _draw_device(axes: Axes, section: SectionMesh, device: Device) -> None:
+def _draw_device(axes: Axes, section: SectionMesh, device: Device, reach: float) -> None:
     """The pad above a device's actuators at first touch, and how they are driven."""
     row = device.actuators
     _draw_section(axes, section)
-    face = touching_face(section, row)
-    depth = row.body.thickness if row.body else DEPTH
-    normal = any(condition.normal.any() for condition in device.conditions)
-    lateral = any(condition.tangential.any() for condition in device.conditions)
-    for shape, x in zip(actuator_shapes(row, depth), row.positions, strict=True):
-        placed = shape + np.array([0.0, face])
-        axes.add_patch(Polygon(placed, closed=True, facecolor=ACTUATOR, edgecolor="black", linewidth=THIN))
-        if row.body:
-            axes.plot(placed[[0, -1], 0], placed[[0, -1], 1], color="black", linewidth=2.0, solid_capstyle="butt")
-        for driven, (dx, dy) in ((normal, (0.0, ARROW)), (lateral, (ARROW, 0.0))):
-            if driven:
-                middle = face - (DEPTH / 2.0 if not row.body else row.body.thickness + 0.45)
+    face = np.array([0.0, touching_face(section, row)])
+    draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH)
+    below = row.body.thickness + BASE + ARROW / 2.0 if row.body else DEPTH / 2.0
+    for x in row.positions:
+        middle = face + np.array([x, -below])
+        for driven, direction in (("normal", (0.0, 1.0)), ("tangential", (1.0, 0.0))):
+            if any(getattr(condition, driven).any() for condition in device.conditions):
+                half = ARROW / 2.0 * np.array(direction)
                 axes.annotate(
-                    "", (x - dx / 2.0, middle - dy / 2.0), (x + dx / 2.0, middle + dy / 2.0),
-                    arrowprops={"arrowstyle": "<->", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0},
+                    "", tuple(middle - half), tuple(middle + half),
+                    arrowprops={"arrowstyle": "<->", "linewidth": 0.8, "mutation_scale": HEAD, "shrinkA": 0.0, "shrinkB": 0.0},
                 )  # fmt: skip
-    reach = max(abs(x) for x in row.positions) + row.width / 2.0 + ASIDE
-    axes.set(xlim=(-reach, reach), ylim=(-BELOW, ABOVE), ylabel="y (mm)")
-    axes.set_title(f"{device.title}\n", loc="left")
-    axes.set_title(_described(row), loc="left", fontsize="medium", fontweight="normal", color=GREY)
+    axes.set(xlim=(-reach, reach), ylim=(-BELOW, ABOVE))
+    subtitle(axes, device.title, _described(row))
 
 
 def _described(row: ActuatorRow) -> str:
     """The row's dimensions in words."""
     pitches = {round(right - left, 6) for left, right in zip(row.positions, row.positions[1:], strict=False)}
     pitch = f"pitch {pitches.pop():g}, " if len(pitches) == 1 else ""
-    kind = f"deformable, {row.body.thickness:g} thick" if row.body else "rigid"
-    return f"{pitch}width {row.width:g}, edge radius {row.edge_radius:g} mm; {kind}"
+    kind = f"deformable, {row.body.thickness:g} mm thick" if row.body else "rigid"
+    return f"{pitch}width {row.width:g}, edge radius {row.edge_radius:g} mm\n{kind}"

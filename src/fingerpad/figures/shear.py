@@ -6,8 +6,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from ..scene import Interface, Readout
-from .correlation import add_caption, correlation_panel
-from .style import INTERFACE_NAME, WIDE, condition_styles, legend_below, letter, new_figure, styled
+from .correlation import caption, correlation_panel
+from .style import INTERFACE_NAME, WIDE, as_points, condition_styles, legend_below, letter, new_figure, styled
 
 HEIGHT = 108.0  # mm
 COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)
@@ -31,6 +31,5 @@ def shear_figure(
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(f"{title}, {INTERFACE_NAME[interface]}", loc="left")
         letter(axes, text)
-    legend_below(figure, styles.legend)
-    add_caption(figure, correlations)
+    legend_below(figure, as_points(styles.legend), caption(correlations))
     return figure

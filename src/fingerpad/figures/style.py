@@ -51,7 +51,9 @@ RC: dict[Any, Any] = {
     "lines.markeredgewidth": 0.9,
     "hatch.linewidth": 0.6,
     "legend.frameon": False,
-    "legend.handlelength": 2.6,
+    "legend.handlelength": 2.4,
+    "legend.handletextpad": 0.5,
+    "legend.columnspacing": 1.4,
     "figure.constrained_layout.h_pad": 1.5 * MM,
     "figure.constrained_layout.w_pad": 1.5 * MM,
     "pdf.fonttype": 42,
@@ -70,8 +72,8 @@ ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN = (
 )
 COLOURS = (ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-LINES = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
-FILLS = ("full", "none", "left", "bottom")
+LINES: tuple[Any, ...] = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
+FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom")
 SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
 
@@ -121,6 +123,7 @@ def new_figure(width: float, height: float) -> Figure:
 def save(figure: Figure, stem: Path) -> None:
     """Write stem.png and stem.pdf, without dates and versions: same figure, same bytes."""
     with mpl.rc_context(RC):
+        figure.align_ylabels()
         figure.draw_without_rendering()
         figure.set_layout_engine("none")  # laid out once, the same in both files
         figure.savefig(stem.with_name(f"{stem.name}.png"), metadata={"Software": None})
@@ -180,7 +183,16 @@ def condition_styles(conditions: pd.DataFrame) -> Styles:
     for number, name in enumerate(dispersions):
         line, fill = LINES[number % len(LINES)], FILLS[number % len(FILLS)]
         handles.append(
-            Line2D([], [], color=GREY, marker="o", linestyle=line, fillstyle=fill, label=f"{name} dispersion")  # type: ignore[arg-type]
+            Line2D(
+                [],
+                [],
+                color=GREY,
+                marker="o",
+                linestyle=line,
+                fillstyle=fill,
+                label=f"{name} dispersion",
+                markerfacecoloralt="white",
+            )
         )
     return Styles(series, handles)
 
@@ -193,9 +205,24 @@ def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:
     )  # fmt: skip
 
 
-def legend_below(figure: Figure, handles: Sequence[Any], title: str = "", columns: int = 8) -> None:
-    """Legend under all panels, where it covers nothing."""
-    figure.legend(handles=list(handles), loc="outside lower center", ncols=min(len(handles), columns), title=title)
+def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "", columns: int = 8) -> None:
+    """Legend under all panels, where it covers nothing, with a caption."""
+    figure.legend(
+        handles=list(handles),
+        loc="outside lower center",
+        ncols=max(min(len(handles), columns), 1),
+        title=caption or None,
+        title_fontproperties={"size": TEXT},
+    )
+
+
+def as_points(handles: Iterable[Line2D]) -> list[Line2D]:
+    """Legend entries without their lines, for figures that draw points alone."""
+    return [
+        Line2D([], [], color=h.get_color(), marker=h.get_marker(), fillstyle=h.get_fillstyle(), linestyle="none",
+               markerfacecoloralt="white", label=h.get_label())
+        for h in handles
+    ]  # fmt: skip
 
 
 def letter(axes: Axes, text: str, offset: tuple[float, float] = LETTER_OFFSET) -> None:
@@ -209,7 +236,7 @@ def letter(axes: Axes, text: str, offset: tuple[float, float] = LETTER_OFFSET) -
 def note_in(axes: Axes, text: str) -> None:
     """A panel that says why it is empty."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=GREY, fontsize=TITLE)
-    axes.set(xticks=[], yticks=[])
+    axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
 
 
 def score_label(readout: Readout, unit: str) -> str:
@@ -220,3 +247,10 @@ def score_label(readout: Readout, unit: str) -> str:
 def face_handle() -> Patch:
     """Legend entry of the shaded faces."""
     return Patch(color=SHADE, label="actuator face")
+
+
+def subtitle(axes: Axes, title: str, text: str) -> None:
+    """Bold title, which may be empty, with a line of plain text under it, or two."""
+    if title:
+        axes.set_title(title + "\n" * (text.count("\n") + 1), loc="left")
+    axes.annotate(text, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 4.0), textcoords="offset points", color=GREY)

@@ -22,10 +22,12 @@ from .style import (
     new_figure,
     score_label,
     styled,
+    subtitle,
 )
 
-HEIGHT = 92.0  # mm
+HEIGHT = 100.0  # mm
 WIDTHS = (1.0, 1.0, 0.62)  # of the columns, relative
+HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 HEADROOM = 1.15  # of the bars' axis over the tallest bar [1]
 
 
@@ -54,28 +56,26 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
             draw_curve(receptors, found.arc, PERCENT * values, series, shift)
             draw_curve(filtered, found.arc, factor * found.filtered(readout), series, shift)
         receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()} ({power}mm)")
-        filtered.set_title(
-            f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm", loc="right", fontsize="medium",
-            fontweight="normal",
-        )  # fmt: skip
+        filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()}\n({power}mm)")
+        kernel = f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm"
+        headings = HEADINGS if readout is Readout.STRAIN else ("", "", "")
+        for axes, heading, text in zip(row, headings, ("", kernel, "of |2| over the span shown"), strict=True):
+            subtitle(axes, heading, text)
 
         part = scores[scores["readout"] == readout].set_index("condition")
         heights = factor * part["score"].reindex([condition.name for condition in device.conditions])
         places = np.arange(len(heights))
         colours = [styles.series[device.name, name].colour for name in heights.index]
         drawn = bars.bar(places, heights, color=colours, width=0.65)
-        bars.bar_label(drawn, labels=[f"{height:.3g}" for height in heights], padding=1.0)
+        bars.bar_label(drawn, labels=[f"{height:.4g}" for height in heights], padding=1.0)
         bars.set_xticks(places, [styles.series[device.name, name].label for name in heights.index])
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
-        bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])))
+        bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])).replace(" score", "\nscore"))
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     grid[-1][2].set_xlabel("Phase difference")
-    for axes, heading in zip(grid[0], ("1  At the receptors", "2  Gabor-filtered", "3  Area under |2|"), strict=True):
-        axes.set_title(heading, loc="left")
     for axes, text in zip(grid[:, 0], "AB", strict=True):
-        letter(axes, text)
-    figure.suptitle(f"{device.title}, with shear", fontweight="bold")
+        letter(axes, text, (-30.0, 14.0))
+    figure.suptitle(f"{device.title}, with shear (n = {len(device.conditions)} conditions)", fontweight="bold")
     legend_below(figure, [*styles.legend, face_handle()])
     return figure

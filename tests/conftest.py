@@ -1,0 +1,144 @@
+"""A copy of the project in a temporary folder, and one complete run of its workflow there, for the workflow tests."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+CORES = 2
+LONGEST_RUN = 240.0  # a complete run on two cores [s]
+NOT_SOURCE = ("results", ".snakemake", ".venv", ".git", "__pycache__", "*.egg-info", ".ipynb_checkpoints", ".*_cache")
+
+sys.path.insert(0, str(ROOT / "workflow"))  # `support` is what the Snakefile imports
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Register the marker of the tests that run Snakemake: `-m "not workflow"` leaves them out."""
+    config.addinivalue_line("markers", "workflow: runs Snakemake on a copy of the project")
+
+
+@dataclass(frozen=True)
+class Job:
+    """A job as Snakemake announces it."""
+
+    rule: str
+    inputs: frozenset[str]
+    outputs: frozenset[str]
+    device: str | None
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a call of Snakemake said: its exit status, its whole output and the jobs that it announced."""
+
+    status: int
+    text: str
+
+    @property
+    def jobs(self) -> frozenset[Job]:
+        """Jobs that ran or, in a dry run, would have run."""
+        blocks = re.findall(r"^(?:local)?rule (\w+):\n((?:    .*\n)+)", self.text, re.MULTILINE)
+        return frozenset(_job(rule, dict(re.findall(r"^    (\w+): (.*)$", body, re.M))) for rule, body in blocks)
+
+    @property
+    def outputs(self) -> frozenset[str]:
+        """All files that these jobs make."""
+        return frozenset().union(*(job.outputs for job in self.jobs))
+
+
+def _job(rule: str, said: dict[str, str]) -> Job:
+    inputs, outputs = (frozenset(said.get(key, "").split(", ")) - {""} for key in ("input", "output"))
+    device = re.search(r"\bdevice=(\w+)", said.get("wildcards", ""))
+    return Job(rule, inputs, outputs, device[1] if device else None)
+
+
+@dataclass(frozen=True)
+class Project:
+    """A copy of the project."""
+
+    folder: Path
+
+    def command(self, *arguments: str | Path) -> list[str]:
+        """A call of Snakemake that announces every job."""
+        given = [str(argument) for argument in arguments]
+        return [sys.executable, "-m", "snakemake", *given, "--cores", str(CORES), "--quiet", "progress"]
+
+    def environment(self) -> dict[str, str]:
+        """The environment of a user who has activated the project's and set nothing else."""
+        return {key: value for key, value in os.environ.items() if not key.startswith(("PYTHON", "SNAKEMAKE"))}
+
+    def snakemake(self, *arguments: str | Path) -> Run:
+        """Call Snakemake in the project's folder and wait for its end."""
+        done = subprocess.run(
+            self.command(*arguments),
+            cwd=self.folder,
+            env=self.environment(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=LONGEST_RUN,
+            check=False,
+        )
+        return Run(done.returncode, done.stdout)
+
+    def files(self, folder: str = ".") -> dict[str, tuple[int, str]]:
+        """Time of change and checksum of every file below a folder, but for what Python and Snakemake keep there."""
+        paths = (path for path in (self.folder / folder).rglob("*") if path.is_file())
+        return {
+            str(path.relative_to(self.folder)): (path.stat().st_mtime_ns, hashlib.sha256(path.read_bytes()).hexdigest())
+            for path in paths
+            if not {"__pycache__", ".snakemake"} & set(path.parts)
+        }
+
+    def edit(self, name: str, change: Callable[[str], str]) -> None:
+        """Rewrite one file. The change must change something."""
+        path = self.folder / name
+        before = path.read_text(encoding="utf-8")
+        after = change(before)
+        assert after != before, f"{name} has not changed"
+        path.write_text(after, encoding="utf-8")
+
+
+@pytest.fixture(scope="session")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The project as a fresh checkout would have it: its files, tracked or about to be, and no results."""
+    folder = tmp_path_factory.mktemp("project") / "fingerpad"
+    try:
+        command = ["git", "ls-files", "-co", "--exclude-standard", "-z"]
+        listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):  # an unpacked archive, or no git
+        shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(*NOT_SOURCE))
+        return Project(folder)
+    for name in filter(None, listed.split("\0")):
+        if (ROOT / name).is_file():  # not one that is deleted, but still tracked
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, folder / name)
+    return Project(folder)
+
+
+@pytest.fixture(scope="session")
+def finished(project: Project) -> Project:
+    """The project after one complete run of everything. Tests leave it as it is, or take `changeable`."""
+    run = project.snakemake("all")
+    assert run.status == 0, run.text
+    return project
+
+
+@pytest.fixture
+def changeable(finished: Project) -> Iterator[Project]:
+    """The finished project, at the same place, for a test that changes it: it is put back afterwards."""
+    kept = finished.folder.with_name("kept")
+    shutil.copytree(finished.folder, kept, symlinks=True)
+    yield finished
+    shutil.rmtree(finished.folder)
+    kept.rename(finished.folder)

@@ -1,0 +1,143 @@
+"""What the Snakefile takes from `workflow/support.py`: the code that a script reaches, and fingerprints of scenes."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fingerpad.scene import GaborFilter, Scene
+from fingerpad.scenefile import load_scene
+from support import fingerprint, path_of, reached_modules, stroke
+
+ROOT = Path(__file__).parents[1]
+CONFIG = ROOT / "config" / "config.yaml"
+DEVICE = ROOT / "config" / "devices" / "device2.yaml"
+FILES = {
+    "script.py": "import numpy\nfrom fingerpad.top import thing\n",
+    "src/fingerpad/__init__.py": "",
+    "src/fingerpad/top.py": "from . import middle\nfrom .leaf import value\n",
+    "src/fingerpad/middle.py": "import fingerpad.leaf\nimport fingerpad.top\n",
+    "src/fingerpad/leaf.py": "def late():\n    from .late import never\n",
+    "src/fingerpad/late.py": "import math\n",
+    "src/fingerpad/unused.py": "from .top import thing\n",
+    "src/fingerpad/drawing/__init__.py": "from ..leaf import value\n",
+    "src/fingerpad/drawing/map.py": "from .style import line\nfrom ..late import never\n",
+    "src/fingerpad/drawing/style.py": "",
+    "src/fingerpad/drawing/unused.py": "",
+}
+DRAWING = ["drawing/__init__", "drawing/map", "drawing/style", "leaf", "late"]
+
+
+@pytest.fixture
+def code(tmp_path: Path) -> Path:
+    """A small package with a script that uses it."""
+    for name, text in FILES.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+def reached(code: Path, script: str) -> list[str]:
+    """The modules that a script of this text reaches, without the script and the package itself."""
+    path = code / "script.py"
+    path.write_text(script, encoding="utf-8")
+    found = [Path(name) for name in reached_modules(path, code / "src")]
+    assert path in found
+    package = code / "src" / "fingerpad"
+    names = [str(name.relative_to(package).with_suffix("")) for name in found if name != path]
+    return [name for name in names if name != "__init__"]
+
+
+def test_reaches_what_its_modules_reach_in_turn(code: Path) -> None:
+    assert reached(code, FILES["script.py"]) == sorted(["top", "middle", "leaf", "late"])
+
+
+def test_reaches_the_package_itself(code: Path) -> None:
+    found = reached_modules(code / "script.py", code / "src")
+    assert str(code / "src/fingerpad/__init__.py") in found
+
+
+def test_reaches_nothing_without_the_package(code: Path) -> None:
+    (code / "script.py").write_text("import numpy\nfrom fingerpadding import top\n", encoding="utf-8")
+    assert reached_modules(code / "script.py", code / "src") == [str(code / "script.py")]
+
+
+def test_is_sorted_and_without_repeats(code: Path) -> None:
+    found = reached_modules(code / "script.py", code / "src")
+    assert found == sorted(set(found))
+    assert found == reached_modules(code / "script.py", code / "src")
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "from fingerpad.drawing import map",
+        "from fingerpad.drawing.map import draw",
+        "import fingerpad.drawing.map",
+        "import fingerpad.drawing.map as drawn",
+        "import sys, fingerpad.drawing.map",
+        "def main():\n    from fingerpad.drawing.map import draw\n",
+    ],
+)
+def test_reaches_modules_of_a_package_and_the_package(code: Path, script: str) -> None:
+    assert reached(code, script) == sorted(DRAWING)
+
+
+def test_fingerprint_does_not_depend_on_the_order_of_keys() -> None:
+    assert fingerprint({"a": 1.0, "b": 2.0}) == fingerprint({"b": 2.0, "a": 1.0})
+
+
+def test_fingerprint_depends_on_the_order_of_parts_and_of_lists() -> None:
+    assert fingerprint(1.0, 2.0) != fingerprint(2.0, 1.0)
+    assert fingerprint(np.array([1.0, 2.0])) != fingerprint(np.array([2.0, 1.0]))
+
+
+@pytest.fixture
+def scene() -> Scene:
+    """Device 2 as it is in the scene files."""
+    return load_scene(CONFIG, DEVICE)
+
+
+def whole(scene: Scene) -> str:
+    """The fingerprint of everything in a scene."""
+    return fingerprint(scene.model, scene.device)
+
+
+def test_fingerprint_holds_no_source_and_no_comment(scene: Scene, tmp_path: Path) -> None:
+    config, device = tmp_path / "config.yaml", tmp_path / "device2.yaml"
+    for path, copy in ((CONFIG, config), (DEVICE, device)):
+        text, edits = re.subn(r'source: "[^"]*"', 'source: "assumption: another one"', path.read_text("utf-8"))
+        assert edits > 3
+        copy.write_text(f"# a remark\n{text}", encoding="utf-8")
+    assert whole(load_scene(config, device)) == whole(scene)
+
+
+@pytest.mark.parametrize("name", [field.name for field in dataclasses.fields(GaborFilter)])
+def test_the_last_bit_of_a_number_matters(scene: Scene, name: str) -> None:
+    gabor = scene.model.gabor
+    changed = dataclasses.replace(gabor, **{name: np.nextafter(getattr(gabor, name), 0.0)})
+    assert fingerprint(changed) != fingerprint(gabor)
+
+
+def test_every_material_matters(scene: Scene) -> None:
+    finger = scene.model.finger
+    for i, layer in enumerate(finger.pad):
+        softer = dataclasses.replace(layer, material=dataclasses.replace(layer.material, poisson=0.4))
+        changed = dataclasses.replace(finger, pad=(*finger.pad[:i], softer, *finger.pad[i + 1 :]))
+        assert fingerprint(changed) != fingerprint(finger), layer.name
+
+
+def test_stroke_is_the_largest_tangential_displacement(scene: Scene) -> None:
+    assert stroke(scene) == pytest.approx(0.020)
+
+
+def test_path_holds_no_names(scene: Scene) -> None:
+    first = scene.device.conditions[0]
+    renamed = dataclasses.replace(first, dispersion="other")
+    assert fingerprint(path_of(renamed)) == fingerprint(path_of(first))
+    assert fingerprint(path_of(scene.device.conditions[-1])) != fingerprint(path_of(first))

@@ -1,0 +1,360 @@
+"""The workflow as its users meet it: what is planned, what reruns and what does not, and what happens when things go
+wrong. All of it runs on a copy of the project; where a plan proves the point, nothing is computed.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run
+
+pytestmark = pytest.mark.workflow
+
+DIRECTIVES = ["input", "output", "params", "log", "benchmark", "conda", "script", "shell"]
+SOLVER = {"mesh", "condense", "condense_body", "solve", "filter", "score"}
+TABLES = {"scores", "correlate", "claims"}
+CONFIG, DEVICE = "config/config.yaml", "config/devices/device2.yaml"
+NOTHING = "Nothing to be done"
+
+
+# What is written
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule as it is written: the stem of its file, and its directives with their text, in the order of writing."""
+
+    name: str
+    file: str
+    directives: Mapping[str, str]
+
+    @property
+    def program(self) -> str | None:
+        """The script or notebook that the rule runs, if it runs one."""
+        found = re.search(r"(scripts/\w+\.py|notebooks/\w+\.ipynb)", "".join(self.directives.values()))
+        return found and found[0].replace("scripts/", "workflow/scripts/")
+
+
+def _written() -> Iterator[Rule]:
+    for path in (ROOT / "Snakefile", *sorted((ROOT / "workflow" / "rules").glob("*.smk"))):
+        text = path.read_text(encoding="utf-8")
+        for name, body in re.findall(r"^rule (\w+):\n((?:(?: {4}.*)?\n)+)", text, re.MULTILINE):
+            found = re.findall(r"^ {4}(\w+):(.*\n(?:(?: {8}.*)?\n)*)", body, re.MULTILINE)
+            yield Rule(name, path.stem, dict(found))
+
+
+RULES = {rule.name: rule for rule in _written()}
+WORKING = [rule for rule in RULES.values() if rule.name != "all"]
+
+
+@pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
+def test_directives_come_in_the_same_order(rule: Rule) -> None:
+    found = list(rule.directives)
+    assert found == [directive for directive in DIRECTIVES if directive in found]
+    assert {"input", "output", "log", "conda"} < set(found)
+    assert len({"script", "shell"} & set(found)) == 1  # and so there is no `run`
+
+
+@pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
+def test_rule_script_log_and_benchmark_share_a_name(rule: Rule) -> None:
+    for directive, ending in (("log", "log"), ("benchmark", "tsv")):
+        if directive in rule.directives:
+            assert re.search(rf"/{rule.name}\.{ending}\"", rule.directives[directive])
+    if "script" in rule.directives and (rule.file != "figures" or rule.name == "fields"):  # figures may share one
+        assert rule.program == f"workflow/scripts/{rule.name}.py"
+
+
+def test_lint_finds_nothing(project: Project) -> None:
+    run = project.snakemake("--lint")
+    assert run.status == 0, run.text
+    assert "Congratulations" in run.text
+
+
+# What a job loads
+
+
+@functools.cache
+def loaded(project: Project, program: str) -> frozenset[str]:
+    """All modules that are loaded once a script's or notebook's imports are done, in a process of its own."""
+    path = project.folder / program
+    if path.suffix == ".ipynb":
+        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        code = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+        code = "\n".join(re.findall(r"^(?:import|from) (?:.*\([^)]*\)|.*)", code, re.MULTILINE))
+    else:
+        code = f"import runpy; runpy.run_path({str(path)!r}, run_name='loaded')"
+    done = subprocess.run(
+        [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"],
+        env=project.environment() | {"PYTHONPATH": str(project.folder / "src")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return frozenset(done.stdout.split())
+
+
+@pytest.mark.parametrize("name", sorted(SOLVER))
+def test_solver_jobs_load_no_plots_no_tables_no_schemas(project: Project, name: str) -> None:
+    program = RULES[name].program
+    assert program is not None
+    assert not {"matplotlib", "pandas", "jsonschema"} & loaded(project, program)
+
+
+# What is planned
+
+
+@pytest.fixture(scope="module")
+def nothing(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder without results."""
+    return tmp_path_factory.mktemp("nothing")
+
+
+@pytest.fixture(scope="module")
+def plan(project: Project, nothing: Path) -> Run:
+    """The dry run of everything, from nothing."""
+    run = project.snakemake("-n", "all", "--directory", nothing)
+    assert run.status == 0, run.text
+    return run
+
+
+def shown(jobs: Iterable[Job]) -> list[str]:
+    """Jobs in a form whose differences can be read."""
+    return sorted(f"{job.rule}: {', '.join(sorted(job.outputs))}" for job in jobs)
+
+
+def downstream(jobs: Iterable[Job], starts: Callable[[Job], bool]) -> set[Job]:
+    """The jobs at which a change starts, and all that need what those make."""
+    rest = set(jobs)
+    stale = {job for job in rest if starts(job)}
+    while more := {job for job in rest - stale if any(job.inputs & other.outputs for other in stale)}:
+        stale |= more
+    return stale
+
+
+def test_every_output_can_be_a_target(project: Project, plan: Run, nothing: Path) -> None:
+    run = project.snakemake("-n", *sorted(plan.outputs), "--directory", nothing)
+    assert run.status == 0, run.text
+    assert shown(run.jobs) == shown(job for job in plan.jobs if job.rule != "all")
+
+
+def test_every_rule_is_planned_by_a_target(project: Project, plan: Run, nothing: Path) -> None:
+    targets = set(project.snakemake("--list-target-rules").text.splitlines()) & set(RULES) - {"all"}
+    assert targets >= TABLES
+    with ThreadPoolExecutor(CORES) as pool:
+        runs = list(pool.map(lambda target: project.snakemake("-n", target, "--directory", nothing), sorted(targets)))
+    for target, run in zip(sorted(targets), runs, strict=True):
+        assert run.status == 0, run.text
+        assert target in {job.rule for job in run.jobs}
+    assert {job.rule for run in (plan, *runs) for job in run.jobs} == set(RULES)
+
+
+# What reruns
+
+
+def test_second_run_does_nothing(finished: Project) -> None:
+    before = finished.files()
+    run = finished.snakemake("all")
+    assert run.status == 0, run.text
+    assert NOTHING in run.text
+    assert finished.files() == before
+
+
+def test_touched_code_reruns_nothing(changeable: Project) -> None:
+    for folder in ("src", "workflow", "config", "data"):
+        for path in (changeable.folder / folder).rglob("*.*"):
+            path.touch()
+    assert NOTHING in changeable.snakemake("-n", "all").text
+
+
+@pytest.mark.parametrize(
+    ("module", "spared"),
+    [
+        ("gabor", {"mesh", "condense", "condense_body", "solve"}),
+        ("contact", {"mesh", "condense", "condense_body"}),
+        ("perception", SOLVER),
+        ("figures.style", SOLVER | TABLES),
+    ],
+)
+def test_edited_module_reruns_exactly_what_reaches_it(
+    changeable: Project, plan: Run, module: str, spared: set[str]
+) -> None:
+    reaching = {
+        rule.name for rule in WORKING if rule.program and f"fingerpad.{module}" in loaded(changeable, rule.program)
+    }
+    assert reaching
+    changeable.edit(f"src/fingerpad/{module.replace('.', '/')}.py", lambda text: f"{text}\n\n_NEUTRAL = None\n")
+    run = changeable.snakemake("-n", "all")
+    assert shown(run.jobs) == shown(downstream(plan.jobs, lambda job: job.rule in reaching))
+    assert not spared & {job.rule for job in run.jobs}
+
+
+def test_edited_source_or_comment_reruns_nothing(changeable: Project) -> None:
+    changeable.edit(CONFIG, lambda text: "# a remark\n" + text.replace('"paper: sigma"', '"paper: sigma, section 2"'))
+    changeable.edit(DEVICE, lambda text: re.sub('source: "[^"]*"', 'source: "assumption: any"', text) + "# a remark\n")
+    assert NOTHING in changeable.snakemake("-n", "all").text
+
+
+def test_edited_filter_reruns_filter_and_what_follows(changeable: Project, plan: Run) -> None:
+    changeable.edit(CONFIG, lambda text: text.replace("sigma: {value: 1.12", "sigma: {value: 1.13"))
+    run = changeable.snakemake("-n", "all")
+    assert shown(run.jobs) == shown(downstream(plan.jobs, lambda job: job.rule == "filter"))
+    assert not {"mesh", "condense", "condense_body", "solve"} & {job.rule for job in run.jobs}
+
+
+def test_new_mesh_that_equals_the_old_one_hides_no_edited_tissue(changeable: Project) -> None:
+    changeable.edit(CONFIG, lambda text: text.replace("modulus: {value: 0.08,", "modulus: {value: 0.09,"))
+    mesh, condensed = "results/device2/mesh.npz", "results/device2/condensed.npz"
+    run = changeable.snakemake(mesh)  # as if the run of everything had been interrupted here
+    assert run.status == 0, run.text
+    assert condensed in changeable.snakemake("-n", condensed).outputs
+
+
+def test_fourth_device_runs_only_its_own_jobs_and_the_tables(changeable: Project, plan: Run) -> None:
+    second = (changeable.folder / DEVICE).read_text(encoding="utf-8")
+    fourth = second.replace("pitch: {value: 2.5,", "pitch: {value: 2.4,")
+    assert fourth != second
+    (changeable.folder / DEVICE.replace("device2", "device4")).write_text(fourth, encoding="utf-8")
+    before = changeable.files("results")
+
+    planned = changeable.snakemake("-n", "all").jobs
+    own = [job for job in planned if job.device]
+    assert {job.device for job in own} == {"device4"}
+    expected = shown(job for job in plan.jobs if job.device == "device2")
+    assert shown(own) == sorted(line.replace("device2", "device4") for line in expected)
+    others = {job.rule for job in planned if not job.device}
+    assert TABLES < others <= {job.rule for job in plan.jobs if not job.device}
+
+    run = changeable.snakemake("results/scores.csv")
+    assert run.status == 0, run.text
+    after = changeable.files("results")
+    kept = before.keys() - {"results/scores.csv", "results/logs/scores.log"}
+    assert {name: after[name] for name in kept} == {name: before[name] for name in kept}
+    rows = (changeable.folder / "results/scores.csv").read_text(encoding="utf-8").splitlines()
+    assert sum(row.startswith("device4,") for row in rows) == sum(row.startswith("device2,") for row in rows) > 0
+
+
+# Other folders, and runs that end early
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """A run with results in another folder that was killed and then finished."""
+
+    project: Project  # what there is in that folder
+    killed: frozenset[str]  # outputs that were there when it was killed
+    resumed: Run
+    source_before: dict[str, tuple[int, str]]
+    source_after: dict[str, tuple[int, str]]
+
+
+@pytest.fixture(scope="module")
+def elsewhere(finished: Project, plan: Run, tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
+    """Start everything in another folder, kill it as a power cut would, and go on up to the tables."""
+    there = Project(tmp_path_factory.mktemp("elsewhere"))
+    before = finished.files()
+    with (there.folder / "killed.log").open("w", encoding="utf-8") as log:
+        process = subprocess.Popen(
+            finished.command("all", "--directory", there.folder),
+            cwd=finished.folder,
+            env=finished.environment(),
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+        end = time.monotonic() + LONGEST_RUN
+        try:
+            while len(list(there.folder.glob("results/*/*/*/score.csv"))) < 3:
+                assert process.poll() is None, (there.folder / "killed.log").read_text(encoding="utf-8")
+                assert time.monotonic() < end, "no scores in time"
+                time.sleep(0.05)
+        finally:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+    killed = plan.outputs & there.files("results").keys()
+    unlocked = finished.snakemake("--unlock", "--directory", there.folder)
+    assert unlocked.status == 0, unlocked.text
+    target = "results/correlations.csv"
+    resumed = finished.snakemake(target, "--rerun-incomplete", "--directory", there.folder)
+    return Elsewhere(there, killed, resumed, before, finished.files())
+
+
+def test_interrupted_run_goes_on_where_it_stopped(elsewhere: Elsewhere, plan: Run) -> None:
+    assert elsewhere.resumed.status == 0, elsewhere.resumed.text
+    assert 3 < len(elsewhere.killed) < len(plan.outputs)
+    again = elsewhere.killed & elsewhere.resumed.outputs
+    assert len(again) <= CORES, again  # those that were being written
+    assert elsewhere.killed | elsewhere.resumed.outputs >= {
+        output for job in plan.jobs if job.rule in SOLVER for output in job.outputs
+    }
+
+
+@pytest.mark.parametrize("table", ["results/scores.csv", "results/correlations.csv"])
+def test_interruption_and_folder_leave_no_trace_in_the_tables(
+    elsewhere: Elsewhere, finished: Project, table: str
+) -> None:
+    assert (elsewhere.project.folder / table).read_bytes() == (finished.folder / table).read_bytes()
+
+
+def test_run_elsewhere_leaves_the_project_alone(elsewhere: Elsewhere) -> None:
+    assert elsewhere.source_after == elsewhere.source_before
+
+
+# Bad input
+
+
+def assert_refused(project: Project, target: str, *said: str) -> None:
+    """A real run must fail, say all this, compute nothing and keep what there is."""
+    before = project.files("results")
+    run = project.snakemake(target)
+    assert run.status != 0
+    for words in said:
+        assert words in run.text
+    assert not run.jobs
+    assert project.files("results") == before
+
+
+def test_unknown_device_is_refused(finished: Project) -> None:
+    known = "device1, device2, device3"
+    assert_refused(finished, "results/devise2/mesh.npz", "'devise2'", known, "did you mean 'device2'?")
+
+
+def test_unknown_condition_is_refused(finished: Project) -> None:
+    known = "alternate_000, alternate_090, alternate_180"
+    assert_refused(finished, "results/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
+
+
+@pytest.mark.parametrize(
+    ("file", "change", "said"),
+    [
+        pytest.param(
+            CONFIG,
+            lambda text: text.replace("  friction:", "  frction:"),
+            ["contact.frction", "an unknown key", "did you mean friction?"],
+            id="misspelled",
+        ),
+        pytest.param(
+            CONFIG,
+            lambda text: text.replace("sigma: {value: 1.12", "sigma: {value: .nan"),
+            ["filter.sigma.value", ".nan", "a finite number"],
+            id="nan",
+        ),
+        pytest.param(DEVICE, lambda text: "", ["the file is empty"], id="empty"),
+    ],
+)
+def test_bad_scene_file_is_refused(
+    changeable: Project, file: str, change: Callable[[str], str], said: list[str]
+) -> None:
+    changeable.edit(file, change)
+    assert_refused(changeable, "all", str(changeable.folder / file), *said)

@@ -1,0 +1,22 @@
+"""Execute a notebook in the folder of the results and render it to a page."""
+
+import os
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from nbconvert import HTMLExporter
+
+
+def main(notebook: Path, page: Path) -> None:
+    """Read the notebook, run all of its cells here, write the page; a failing cell fails the job."""
+    document = nbformat.read(notebook, as_version=4)
+    NotebookClient(document, record_timing=False, resources={"metadata": {"path": str(Path.cwd())}}).execute()
+    text, _ = HTMLExporter(exclude_input_prompt=True, exclude_output_prompt=True).from_notebook_node(document)
+    page.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    os.environ["IPYTHONDIR"] = str(Path(job.output.page).parent / ".ipython")
+    main(Path(job.input.notebook), Path(job.output.page))
