@@ -92,3 +92,14 @@ def test_a_singular_stiffness_is_a_named_error() -> None:
     none = csr_matrix((0, matrix.shape[0]))
     with pytest.raises(CondensationError, match="nothing holds"):
         condense(matrix, dofs, np.array([], dtype=int), mesh.skin[:5], none)
+
+
+def test_body_compliance_is_its_own_mirror_image() -> None:
+    """A puck answers a mirrored load with mirrored displacement: its mesh mirrors, diagonals included."""
+    _, body = condensed("device3")
+    assert body is not None
+    count = body.coordinate.size
+    image = (2 * np.arange(count)[::-1][:, None] + np.arange(2)).ravel()
+    sign = np.tile([-1.0, 1.0], count)
+    mirrored = sign[:, None] * body.compliance[np.ix_(image, image)] * sign
+    assert np.abs(mirrored - body.compliance).max() < 1e-12 * np.abs(body.compliance).max()

@@ -238,7 +238,7 @@ def _residual(matrix: csc_matrix, factors: SuperLU, answer: FloatArray) -> float
 
     max |K u - f| / (max row sum of |K| times max |u|): what is left after the rounding that the numbers allow.
     """
-    load = np.random.default_rng(0).standard_normal(answer.shape[1])
+    load = np.random.default_rng(0).standard_normal((answer.shape[1],))
     right = np.zeros(matrix.shape[0])
     right[-load.size :] = load
     field = factors.solve(right)

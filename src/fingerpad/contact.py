@@ -34,11 +34,12 @@ MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; s
 SIMULTANEOUS = 12  # iterations in which all nodes may change state at once [1]; after that, the worst one alone
 MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is below any step that was ever needed
 SETTLED = 1e-6  # relative residual [1] below which forces are good enough to judge a single node's state
-END_TOLERANCE = 1e-4  # mm of face or gap at which pre-indentation ends; source: 1e-5 of the indentation
+END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
+END_STEP = 1e-4  # mm to which the height is located at which it ends; source: 1e-4 of the indentation
 CAUTION = 0.2  # share [1] of an increment below which its promise is trusted; source: overshoot is then below 1e-4 mm
 
 
-Blocks = tuple[FloatArray, ...]  # compliance by components xx, xy, yx, yy
+Blocks = tuple[FloatArray, FloatArray, FloatArray, FloatArray]  # compliance by components xx, xy, yx, yy
 
 
 class Status(IntEnum):
@@ -73,7 +74,9 @@ class ContactProblem:
     @cached_property
     def blocks(self) -> Blocks:
         """The compliance by components xx, xy, yx, yy, each (n, n) [mm per N/mm] and contiguous."""
-        return tuple(np.ascontiguousarray(self.compliance[i::2, j::2]) for i in (0, 1) for j in (0, 1))
+        x, y = slice(0, None, 2), slice(1, None, 2)
+        xx, xy, yx, yy = (np.ascontiguousarray(self.compliance[rows, columns]) for rows in (x, y) for columns in (x, y))
+        return xx, xy, yx, yy
 
     def actuator_of(self) -> np.ndarray:
         """Index (n,) of the actuator nearest to each undeformed node: the only one that it can touch."""
@@ -198,9 +201,13 @@ def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit
             )
         target = state.actuator.copy()
         target[:, 1] = height
-        state = follow(problem, state, target, 1)
-        before, missing = missing, _missing(problem, state, criterion)
-        rate = (before - missing) / step if np.isfinite(before) else 0.0
+        advanced = follow(problem, state, target, 1)
+        left = _missing(problem, advanced, criterion)
+        if left <= END_TOLERANCE and step > END_STEP:
+            stride = step / 2.0  # somewhere on the way it was met: go back and look closer
+            continue
+        rate = (missing - left) / step if np.isfinite(missing) else 0.0
+        state, missing = advanced, left
     return state
 
 
@@ -306,14 +313,14 @@ def _blocks_at(problem: ContactProblem, place: FloatArray) -> Blocks:
     """Compliance of the skin plus that of the actuators' faces at the places (n,) where the skin is, by components."""
     if problem.body is None:
         return problem.blocks
-    blocks = tuple(block.copy() for block in problem.blocks)
+    xx, xy, yx, yy = (block.copy() for block in problem.blocks)
     index = problem.actuator_of()
     for number in range(len(problem.row.positions)):
         nodes = np.flatnonzero(index == number)
         shape = face_shape(problem.body, place[nodes])
-        for block, (i, j) in zip(blocks, ((0, 0), (0, 1), (1, 0), (1, 1)), strict=True):
+        for block, i, j in ((xx, 0, 0), (xy, 0, 1), (yx, 1, 0), (yy, 1, 1)):
             block[np.ix_(nodes, nodes)] += shape @ problem.body.compliance[i::2, j::2] @ shape.T
-    return blocks
+    return xx, xy, yx, yy
 
 
 def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:

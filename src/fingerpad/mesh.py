@@ -108,11 +108,12 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
     half = row.width / 2.0
     count = int(np.ceil(np.log1p(numerics.growth * half / numerics.edge_size) / np.log1p(numerics.growth)))
     distance = numerics.edge_size * np.expm1(np.arange(count + 1) * np.log1p(numerics.growth)) / numerics.growth
-    right = half * (1.0 - distance[::-1] / distance[-1])
-    across = np.concatenate([-right[:0:-1], right])
+    across = half * (1.0 - distance[::-1] / distance[-1])
     rows = max(2, int(np.ceil(row.body.thickness / numerics.edge_size)))
     down = -row.body.thickness * np.linspace(1.0, 0.0, rows + 1)
-    return MeshTri2.from_mesh(MeshTri.init_tensor(across, down))
+    right = MeshTri.init_tensor(across, down)
+    left = MeshTri(right.p * np.array([[-1.0], [1.0]]), right.t)  # mirrored with its diagonals
+    return MeshTri2.from_mesh(right + left)
 
 
 def save_section(path: Path, section: SectionMesh) -> None:

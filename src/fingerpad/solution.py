@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .compliance import CondensedBody, CondensedSection
-from .contact import ContactProblem, ContactState, Status, follow, indent, reevaluated_gap
+from .contact import ContactProblem, ContactState, Status, follow, reevaluated_gap
 from .errors import ContactError
 from .scene import Condition, FloatArray, Interface, Readout, Scene
 from .strain import receptor_readouts
+from .symmetry import indent_by_halves
 
 # What a certificate may not exceed; source: each lies two orders below the score error that is aimed at (0.5 %)
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
@@ -80,7 +81,8 @@ def contact_problem(
 def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
     """State after pre-indentation: the same for all conditions of a device and interface. Raises ContactError."""
     limit = scene.model.finger.pad_thickness
-    return indent(problem, scene.model.contact.criterion, scene.model.numerics.indentation_increments, limit)
+    increments = scene.model.numerics.indentation_increments
+    return indent_by_halves(problem, scene.model.contact.criterion, increments, limit)
 
 
 def solve_condition(

@@ -1,6 +1,8 @@
 # Figures that mirror the paper's, the ablation, the maps and the section; full fields for those that draw them.
 # REQUIRED INPUTS: results of solve, filter, score and correlate. OUTPUTS: results/figures/*.{png,pdf}, fields.npz
 
+DEVICE_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEVICES]
+DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
 # the paper's figures 3 and 6 show Device 2; without it, the first device that prescribes sideways displacements
 LATERAL = min(
     (
@@ -12,11 +14,10 @@ LATERAL = min(
     key=lambda name: name != "device2",
     default=None,
 )
-DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
 FIGURES = [
     f"results/figures/{stem}.{suffix}"
     for stem in (
-        *(stem for stem in ("figure_3_workflow", "figure_6_shear") if LATERAL),
+        *(("figure_3_workflow", "figure_6_shear") if LATERAL else ()),
         "figure_4_receptors",
         "figure_5_correlation",
         "ablation_shear",
@@ -53,7 +54,7 @@ rule fields:
 rule figure_receptors:
     input:
         config=ancient(CONFIG),
-        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        devices=ancient(DEVICE_FILES),
         condensed=expand("results/{device}/condensed.npz", device=DEVICES),
         filtered=[
             f"results/{name}/{condition.name}/shear/filtered.npz"
@@ -64,12 +65,12 @@ rule figure_receptors:
     output:
         png="results/figures/figure_4_receptors.png",
         pdf="results/figures/figure_4_receptors.pdf",
+    params:
+        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     log:
         "results/logs/figures/figure_4_receptors.log",
     conda:
         ENVIRONMENT
-    params:
-        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_receptors.py"
 
@@ -77,7 +78,7 @@ rule figure_receptors:
 rule figure_correlation:
     input:
         config=ancient(CONFIG),
-        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        devices=ancient(DEVICE_FILES),
         scores="results/scores.csv",
         ratings=DATA / "ratings.csv",
         correlations="results/correlations.csv",
@@ -85,12 +86,12 @@ rule figure_correlation:
     output:
         png="results/figures/figure_5_correlation.png",
         pdf="results/figures/figure_5_correlation.pdf",
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
     log:
         "results/logs/figures/figure_5_correlation.log",
     conda:
         ENVIRONMENT
-    params:
-        titles=[SCENE[name].device.title for name in DEVICES],
     script:
         "../scripts/figure_correlation.py"
 
@@ -98,19 +99,19 @@ rule figure_correlation:
 rule figure_ablation:
     input:
         config=ancient(CONFIG),
-        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        devices=ancient(DEVICE_FILES),
         scores="results/scores.csv",
         correlations="results/correlations.csv",
         code=code("figure_ablation.py"),
     output:
         png="results/figures/ablation_shear.png",
         pdf="results/figures/ablation_shear.pdf",
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
     log:
         "results/logs/figures/ablation_shear.log",
     conda:
         ENVIRONMENT
-    params:
-        titles=[SCENE[name].device.title for name in DEVICES],
     script:
         "../scripts/figure_ablation.py"
 
@@ -118,18 +119,18 @@ rule figure_ablation:
 rule figure_section:
     input:
         config=ancient(CONFIG),
-        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        devices=ancient(DEVICE_FILES),
         mesh=f"results/{DEVICES[0]}/mesh.npz",
         code=code("figure_section.py"),
     output:
         png="results/figures/section.png",
         pdf="results/figures/section.pdf",
+    params:
+        scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
     log:
         "results/logs/figures/section.log",
     conda:
         ENVIRONMENT
-    params:
-        scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_section.py"
 
@@ -150,6 +151,8 @@ rule figure_map:
     output:
         png="results/figures/map_{device}_{dispersion}.png",
         pdf="results/figures/map_{device}_{dispersion}.pdf",
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).device),
     log:
         "results/logs/figures/map_{device}_{dispersion}.log",
     wildcard_constraints:
@@ -157,8 +160,6 @@ rule figure_map:
         dispersion="|".join(sorted({dispersion for names in DISPERSIONS.values() for dispersion in names})),
     conda:
         ENVIRONMENT
-    params:
-        scene=lambda w: support.fingerprint(scene_of(w).device),
     script:
         "../scripts/figure_map.py"
 
@@ -179,12 +180,12 @@ if LATERAL:
         output:
             png="results/figures/figure_3_workflow.png",
             pdf="results/figures/figure_3_workflow.pdf",
+        params:
+            scene=support.fingerprint(SCENE[LATERAL].device, SCENE[LATERAL].model.gabor, SCENE[LATERAL].model.readout),
         log:
             "results/logs/figures/figure_3_workflow.log",
         conda:
             ENVIRONMENT
-        params:
-            scene=support.fingerprint(SCENE[LATERAL].device, SCENE[LATERAL].model.gabor, SCENE[LATERAL].model.readout),
         script:
             "../scripts/figure_workflow.py"
 
@@ -199,11 +200,11 @@ if LATERAL:
         output:
             png="results/figures/figure_6_shear.png",
             pdf="results/figures/figure_6_shear.pdf",
+        params:
+            title=SCENE[LATERAL].device.title,
         log:
             "results/logs/figures/figure_6_shear.log",
         conda:
             ENVIRONMENT
-        params:
-            title=SCENE[LATERAL].device.title,
         script:
             "../scripts/figure_shear.py"

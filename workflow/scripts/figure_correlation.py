@@ -6,16 +6,16 @@ import pandas as pd
 
 from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.style import device_titles, save
+from fingerpad.perception import read_ratings
 from fingerpad.scenefile import load_scene
 
 
 def main(config: Path, devices: list[Path], scores: Path, ratings: Path, correlations: Path, stem: Path) -> None:
     """Read the tables, draw, write PNG and PDF."""
     titles = device_titles(load_scene(config, path).device for path in devices)
-    save(
-        correlation_figure(pd.read_csv(scores), pd.read_csv(ratings), pd.read_csv(correlations), titles),
-        stem,
-    )
+    table = pd.read_csv(scores)
+    conditions = {device: list(dict.fromkeys(rows)) for device, rows in table.groupby("device")["condition"]}
+    save(correlation_figure(table, read_ratings(ratings, conditions), pd.read_csv(correlations), titles), stem)
 
 
 if __name__ == "__main__":

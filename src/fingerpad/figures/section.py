@@ -19,12 +19,14 @@ from .outline import BASE, curved_lines, draw_actuators, interface_facets, touch
 from .style import THIN, VERMILLION, WIDE, letter, new_figure, styled, subtitle
 
 HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices
+CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators are driven."
 COLUMNS = 3  # devices beside each other
 LABELS = 8.6  # mm from the mid-line at which the layers' names begin, of a finger of half width 8 mm
 TINTS = ("#E9C9A3", "#B98553", "#F3C1AC", "#FBEBC4", "#AEBBC8", "#E3B0BE")  # of the layers, which are named as well
 DEPTH = 0.9  # mm of a rigid actuator that is drawn
 ASIDE, ABOVE, BELOW = 0.8, 1.7, 1.2  # mm shown beside the row, above the lowest skin and below it
 LEADER = {"arrowstyle": "-", "linewidth": THIN, "shrinkA": 1.0, "shrinkB": 0.0, "relpos": (0.0, 0.5)}
+DOUBLE = {"arrowstyle": "<->", "shrinkA": 0.0, "shrinkB": 0.0}
 HEAD = 5.0  # pt, of arrow heads
 ARROW = 0.8  # mm, length of the arrows that show how actuators are driven
 
@@ -52,6 +54,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
             axes.set_ylabel("y (mm)")
         if number == 0:
             letter(axes, "B", (-26.0, 26.0))
+    figure.supxlabel(CAPTION, fontsize="medium")
     return figure
 
 
@@ -64,7 +67,8 @@ def _draw_section(axes: Axes, section: SectionMesh) -> None:
     layers = len(section.layer_names)
     axes.tripcolor(
         Triangulation(mesh.doflocs[0], mesh.doflocs[1], quarters.T), facecolors=np.tile(section.layer, 4),
-        rasterized=True, vmin=-0.5, vmax=layers - 0.5, cmap=ListedColormap([TINTS[i % len(TINTS)] for i in range(layers)]),
+        cmap=ListedColormap([TINTS[i % len(TINTS)] for i in range(layers)]), vmin=-0.5, vmax=layers - 0.5,
+        rasterized=True,
     )  # fmt: skip
     lines = curved_lines(section, np.concatenate([interface_facets(section), mesh.boundary_facets()]))
     axes.add_collection(LineCollection(list(lines), colors="black", linewidths=THIN, capstyle="round"))
@@ -113,7 +117,7 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
 
 def _dimension(axes: Axes, start: tuple[float, float], stop: tuple[float, float], text: str) -> None:
     """A dimension line with its value on it."""
-    axes.annotate("", start, stop, arrowprops={"arrowstyle": "<->", "linewidth": THIN, "shrinkA": 0.0, "shrinkB": 0.0})
+    axes.annotate("", start, stop, arrowprops={"linewidth": THIN, **DOUBLE})
     upright = start[0] == stop[0]
     middle = ((start[0] + stop[0]) / 2.0, (start[1] + stop[1]) / 2.0)
     axes.annotate(
@@ -136,7 +140,7 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, reach: float)
                 half = ARROW / 2.0 * np.array(direction)
                 axes.annotate(
                     "", tuple(middle - half), tuple(middle + half),
-                    arrowprops={"arrowstyle": "<->", "linewidth": 0.8, "mutation_scale": HEAD, "shrinkA": 0.0, "shrinkB": 0.0},
+                    arrowprops={"linewidth": 0.8, "mutation_scale": HEAD, **DOUBLE},
                 )  # fmt: skip
     axes.set(xlim=(-reach, reach), ylim=(-BELOW, ABOVE))
     subtitle(axes, device.title, _described(row))
@@ -146,5 +150,6 @@ def _described(row: ActuatorRow) -> str:
     """The row's dimensions in words."""
     pitches = {round(right - left, 6) for left, right in zip(row.positions, row.positions[1:], strict=False)}
     pitch = f"pitch {pitches.pop():g}, " if len(pitches) == 1 else ""
-    kind = f"deformable, {row.body.thickness:g} mm thick" if row.body else "rigid"
-    return f"{pitch}width {row.width:g}, edge radius {row.edge_radius:g} mm\n{kind}"
+    thick = f", thickness {row.body.thickness:g}" if row.body else ""
+    kind = "deformable" if row.body else "rigid"
+    return f"{kind}, {pitch}width {row.width:g} mm\nedge radius {row.edge_radius:g}{thick} mm"

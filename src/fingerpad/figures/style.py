@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..scene import Control, Device, Interface, Readout
+from ..scene import Device, Interface, Readout
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
@@ -141,12 +141,6 @@ def conditions_of(devices: Iterable[Device]) -> pd.DataFrame:
 def device_titles(devices: Iterable[Device]) -> dict[str, str]:
     """Title of each device by its name."""
     return {device.name: device.title for device in devices}
-
-
-def laterally_driven(device: Device) -> bool:
-    """Whether a device prescribes sideways displacements, as the one in the paper's figures 3 and 6 does."""
-    moves = any(condition.tangential.any() for condition in device.conditions)
-    return device.control is Control.DISPLACEMENT and moves
 
 
 def condition_styles(conditions: pd.DataFrame) -> Styles:

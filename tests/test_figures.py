@@ -1,0 +1,343 @@
+"""Figures say what they show: axes with units, n, what the ratings are; and they are saved byte for byte the same."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from fingerpad.compliance import CondensedSection
+from fingerpad.contact import Status
+from fingerpad.fields import Fields
+from fingerpad.figures.ablation import ablation_figure
+from fingerpad.figures.correlation import correlation_figure
+from fingerpad.figures.maps import element_means, strain_map_figure
+from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
+from fingerpad.figures.section import section_figure
+from fingerpad.figures.shear import shear_figure
+from fingerpad.figures.style import TEXT, WIDE, condition_styles, conditions_of, save
+from fingerpad.figures.workflow import workflow_figure
+from fingerpad.mesh import SectionMesh, mesh_section
+from fingerpad.perception import correlation_table
+from fingerpad.scene import (
+    ActuatorRow,
+    Body,
+    Condition,
+    Control,
+    Device,
+    FloatArray,
+    Interface,
+    Material,
+    Numerics,
+    Readout,
+    Scene,
+)
+from fingerpad.scenefile import build_model, read_yaml
+from fingerpad.solution import Certificate, Solution
+from fingerpad.strain import FilteredReadouts
+
+ROOT = Path(__file__).parents[1]
+COARSE = Numerics(0.4, 0.1, 0.4, 0.6, 0.5, 1.5, 2, 1, 1e-9, 1)
+MODEL = build_model(read_yaml(ROOT / "config/config.yaml"))
+PINS = ActuatorRow((-2.0, 0.0, 2.0), 1.0, 0.1)
+PUCKS = ActuatorRow((-1.5, 1.5), 1.5, 0.0, Body(Material(1.0, 0.48), 0.15))
+
+
+def make_condition(name: str, dispersion: str, phase: float, count: int, size: float = 0.02) -> Condition:
+    still = np.zeros((1, count))
+    return Condition(name, dispersion, phase, np.array([1.0]), still, still + size * math.cos(math.radians(phase)))
+
+
+PHASED = Device(
+    "phased",
+    "Phased pins",
+    Control.DISPLACEMENT,
+    PINS,
+    tuple(make_condition(f"{d}_{p:03d}", d, float(p), 3) for d in ("low", "high") for p in (0, 60, 120, 180)),
+)
+FORCED = Device(
+    "forced", "Forced pucks", Control.FORCE, PUCKS, tuple(make_condition(f"all_{p}", "all", p, 2) for p in (0, 90, 180))
+)
+# histories: two of one dispersion and phase, so that only their names tell them apart; nobody has rated them
+UNRATED = Device(
+    "unrated",
+    "Histories without ratings",
+    Control.DISPLACEMENT,
+    PINS,
+    (make_condition("push", "own", 37.5, 3), make_condition("shove", "own", 37.5, 3, 0.1)),
+)
+DEVICES = (PHASED, FORCED, UNRATED)
+TITLES = {device.name: device.title for device in DEVICES}
+
+
+def make_scores() -> pd.DataFrame:
+    rows = []
+    for device in DEVICES:
+        for number, condition in enumerate(device.conditions):
+            for interface in Interface:
+                for readout in Readout:
+                    known = interface in device.interfaces()
+                    score = 0.3 + 0.01 * number**2 if known else math.nan
+                    kind = (condition.dispersion, condition.phase_deg, str(interface), str(readout))
+                    note = "" if known else "no prediction"
+                    rows.append((device.name, condition.name, *kind, score, "mm2", note))
+    columns = ["device", "condition", "dispersion", "phase_deg", "interface", "readout", "score", "unit", "note"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+SCORES = make_scores()
+RATINGS = pd.DataFrame(
+    [(d.name, c.name, float(i), "surrogate", "made up") for d in (PHASED, FORCED) for i, c in enumerate(d.conditions)],
+    columns=["device", "condition", "rating", "kind", "source"],
+)
+ORDER = pd.DataFrame(
+    [("forced", "all_0", "<", "all_90", "made up"), ("forced", "all_90", "<", "all_180", "made up")],
+    columns=["device", "lower", "relation", "higher", "source"],
+)
+PUBLISHED = pd.DataFrame(
+    [
+        ("phased", "shear", "strain", 0.876, "good", "made up"),
+        ("forced", "shear", "strain", math.nan, "poor", "made up"),
+    ],
+    columns=["device", "interface", "readout", "r2", "words", "source"],
+)
+
+
+@pytest.fixture(scope="module")
+def correlations(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
+    """The table as figures get it: through a CSV file."""
+    path = tmp_path_factory.mktemp("tables") / "correlations.csv"
+    correlation_table(SCORES, RATINGS, ORDER, PUBLISHED).to_csv(path, index=False)
+    return pd.read_csv(path)
+
+
+def make_readouts(device: Device) -> DeviceReadouts:
+    arc = np.linspace(-8.0, 8.0, 401)
+    waves = [FilteredReadouts(arc, *(np.sin(arc + i) for i in range(4))) for _ in device.conditions]
+    faces = np.array([[x - 0.5, x + 0.5] for x in device.actuators.positions])
+    return DeviceReadouts(device, dict(zip((c.name for c in device.conditions), waves, strict=True)), faces)
+
+
+@pytest.fixture(scope="module")
+def section() -> SectionMesh:
+    model = build_model(read_yaml(ROOT / "config/config.yaml"))
+    coarse = type(model)(model.finger, model.contact, model.gabor, model.readout, COARSE)
+    return mesh_section(Scene(coarse, PHASED))
+
+
+def words(figure: Figure) -> str:
+    return "\n".join(text.get_text() for text in figure.findobj(Text) if text.get_visible())
+
+
+def axis_labels(figure: Figure) -> list[tuple[str, str]]:
+    return [(axes.get_xlabel(), axes.get_ylabel()) for axes in figure.axes]
+
+
+def require_legible(figure: Figure) -> None:
+    figure.draw_without_rendering()
+    assert figure.get_size_inches()[0] * 25.4 == pytest.approx(WIDE)
+    sizes = [t.get_fontsize() for t in figure.findobj(Text) if t.get_text().strip()]
+    assert min(sizes) >= TEXT
+
+
+def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -> None:
+    figure = correlation_figure(SCORES, RATINGS, correlations, TITLES)
+    require_legible(figure)
+    text = words(figure)
+    for said in (
+        "ordinal surrogate",
+        "n = 8",
+        "n = 3",
+        "R² = ",
+        "τ = ",
+        "p ",
+        "range ",
+        "published R² 0.876",
+        *TITLES.values(),
+    ):
+        assert said in text, said
+    assert text.count("no ratings") == 2
+    assert ("Strain score (mm²)", "Perceived roughness\n(ordinal surrogate)") in axis_labels(figure)
+    assert ("Change of strain score (10⁻³ mm²)", "Perceived roughness\n(ordinal surrogate)") in axis_labels(figure)
+    assert "published: poor" in text
+
+
+def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) -> None:
+    measured = correlation_table(SCORES, RATINGS.assign(kind="measured"), ORDER, PUBLISHED)
+    text = words(correlation_figure(SCORES, RATINGS, measured, TITLES))
+    assert "surrogate" not in text
+    assert "(measured)" in text
+
+
+def test_points_lie_where_the_tables_say(correlations: pd.DataFrame) -> None:
+    figure = correlation_figure(SCORES, RATINGS, correlations, {"forced": "Forced pucks"})
+    strain, change = figure.axes
+    dots = [line.get_xydata()[0] for line in strain.lines if line.get_linestyle() == "None"]
+    np.testing.assert_allclose(dots, [[0.30, 0.0], [0.31, 1.0], [0.34, 2.0]])
+    dots = [line.get_xydata()[0] for line in change.lines if line.get_linestyle() == "None"]
+    np.testing.assert_allclose(np.array(dots)[:, 0], [300.0, 310.0, 340.0])
+
+
+@pytest.mark.parametrize(("device", "said"), [(PHASED, "n = 8"), (FORCED, "no prediction"), (UNRATED, "no ratings")])
+def test_shear_figure_of_any_device(device: Device, said: str, correlations: pd.DataFrame) -> None:
+    figure = shear_figure(device.name, device.title, SCORES, RATINGS, correlations)
+    require_legible(figure)
+    text = words(figure)
+    assert said in text
+    assert f"{device.title}, without shear" in text
+    assert f"{device.title}, with shear" in text
+
+
+def test_ablation_says_where_there_is_no_prediction(correlations: pd.DataFrame) -> None:
+    figure = ablation_figure(SCORES, correlations, TITLES)
+    require_legible(figure)
+    text = words(figure)
+    assert "without shear: no prediction" in text
+    assert text.count("\nno prediction") == 2 * len(FORCED.conditions)
+    assert "with shear: no ratings" in text
+    assert "n = 8" in text
+    assert "ordinal surrogate" in text
+    assert {label for _, label in axis_labels(figure)} == {"Strain\nscore (mm²)", "Change of strain\nscore (10⁻³ mm²)"}
+    for phased in figure.axes[:2]:
+        assert len(phased.patches) == 2 * len(PHASED.conditions)
+    for forced in figure.axes[2:4]:
+        assert len(forced.patches) == len(FORCED.conditions)
+    for unrated in figure.axes[4:]:
+        assert [label.get_text() for label in unrated.get_xticklabels()] == ["push", "shove"]
+
+
+def test_receptor_figure_has_a_row_a_device() -> None:
+    figure = receptor_figure([make_readouts(device) for device in DEVICES])
+    require_legible(figure)
+    assert len(figure.axes) == 2 * len(DEVICES)
+    assert {label for _, label in axis_labels(figure)} == {"Strain (%)", "Change of strain (%)"}
+    text = words(figure)
+    assert "Phased pins (n = 8 conditions)" in text
+    assert "unrated: push" in text
+    # low_000 and high_000 are one stimulus here, and drawn once: as are all phases of both dispersions
+    assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]) == 4
+
+
+@pytest.mark.parametrize("device", [PHASED, UNRATED])
+def test_workflow_figure_goes_from_strain_to_score(device: Device) -> None:
+    shear = SCORES[(SCORES["device"] == device.name) & (SCORES["interface"] == "shear")]
+    figure = workflow_figure(make_readouts(device), MODEL.gabor, MODEL.readout, shear)
+    require_legible(figure)
+    assert [label for _, label in axis_labels(figure)] == [
+        "Strain (%)",
+        "Filtered strain\n(mm)",
+        "Strain\nscore (mm²)",
+        "Change of strain (%)",
+        "Filtered change of strain\n(10⁻³ mm)",
+        "Change of strain\nscore (10⁻³ mm²)",
+    ]
+    text = words(figure)
+    assert f"n = {len(device.conditions)} conditions" in text
+    assert "λ = 2.8 mm" in text
+    assert "λ = 1.15 mm" in text
+    assert [bar.get_height() for bar in figure.axes[2].patches] == list(
+        shear.loc[shear["readout"] == "strain", "score"]
+    )
+
+
+def test_section_names_every_layer(section: SectionMesh) -> None:
+    figure = section_figure(MODEL, section, DEVICES)
+    require_legible(figure)
+    text = words(figure)
+    for layer in (*MODEL.finger.pad, *MODEL.finger.dorsal):
+        assert f"{layer.name.replace('_', ' ')}, {layer.thickness:g} mm" in text
+    for said in ("bone, rigid", "receptors, 0.6 mm deep", "16 mm", "13 mm", *TITLES.values()):
+        assert said in text
+    assert [axes.get_xlabel() for axes in figure.axes[1:]] == ["x (mm)"] * len(DEVICES)
+
+
+def make_contact(row: ActuatorRow) -> CondensedSection:
+    """Skin of equal elements of 0.1 mm under every actuator; nothing else of the section is drawn."""
+    x = np.concatenate([np.linspace(centre - 0.6, centre + 0.6, 25) for centre in row.positions])
+    weight = np.tile(np.concatenate([[0.1 / 6.0], np.tile([0.4 / 6.0, 0.2 / 6.0], 12)]), len(row.positions))
+    none = np.zeros((0, 0))
+    return CondensedSection(np.stack([x, 0.0 * x], axis=1), weight, none, none, none, none, 0.0)
+
+
+def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatArray) -> Solution:
+    place = (contact.position[:, 0].reshape(len(row.positions), -1) - np.array(row.positions)[:, None]).ravel()
+    none = np.zeros(0)
+    return Solution(
+        1.5, none, none, traction, 0.5 * traction, place, np.where(traction > 0.0, Status.STICK, Status.OPEN), none,
+        none, none, 1, 0, Certificate(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    )  # fmt: skip
+
+
+def test_element_means_keep_the_force() -> None:
+    contact = make_contact(PINS)
+    nodal = np.random.default_rng(1).random(contact.weight.size)
+    nodal[[0, 24, 25, 49, 50, 74]] = 0.0  # no contact at the ends
+    middle, mean = element_means(PINS, contact, nodal)
+    assert len(middle) == 12 * 3
+    # an end of an actuator's candidates carries no force, so every other node's share is counted in full
+    assert float(mean.sum()) * 0.1 == pytest.approx(float(nodal @ contact.weight), rel=1e-12)
+
+
+@pytest.mark.parametrize(("device", "dispersion"), [(PHASED, "high"), (FORCED, "all"), (UNRATED, "own")])
+def test_maps_show_every_condition_of_a_dispersion(device: Device, dispersion: str, section: SectionMesh) -> None:
+    distinct = [c for c in device.conditions if device.first_with_stimulus_of(c.name) is c]
+    corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
+    shape = (len(distinct), corner.shape[1])
+    fields = Fields(corner, section.layer, np.zeros((len(distinct), *corner.shape)), np.full(shape, 0.2))
+    contact = make_contact(device.actuators)
+    pressed = np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0)
+    solution = make_solution(contact, device.actuators, np.tile(pressed, len(device.actuators.positions)))
+    shown = [c.name for c in device.conditions if c.dispersion == dispersion]
+    scene = Scene(MODEL, device)
+    figure = strain_map_figure(scene, dispersion, section, fields, contact, dict.fromkeys(shown, solution))
+    figure.draw_without_rendering()
+    labels = axis_labels(figure)
+    assert labels.count(("x (mm)", "Traction (kPa)")) >= 1
+    assert len(figure.axes) == 2 * len(shown) + 1
+    assert "Max. principal strain" in labels[-1][1]
+    assert "%" in labels[-1][1]
+    text = words(figure)
+    assert device.title in text
+    assert f"n = {len(shown)} conditions" in text
+    tractions = next(axes for axes in figure.axes if axes.get_ylabel() == "Traction (kPa)")
+    assert max(line.get_ydata().max() for line in tractions.lines if len(line.get_xdata()) > 2) == pytest.approx(30.0)
+
+
+def test_styles_differ_wherever_conditions_do() -> None:
+    styles = condition_styles(conditions_of(DEVICES))
+    for device in DEVICES:
+        looks = [styles.series[device.name, c.name] for c in device.conditions]
+        assert len({(s.colour, s.marker, str(s.line), s.fill) for s in looks}) == len(looks)
+        assert len({s.label for s in looks}) == len(looks)
+    assert styles.series["phased", "low_000"].colour == styles.series["forced", "all_0"].colour
+
+
+def test_faces_are_projected_on_the_receptor_line() -> None:
+    x = np.linspace(-4.0, 4.0, 9)
+    none = np.zeros((0, 0))
+    condensed = CondensedSection(none, none, none, np.stack([x, 0.0 * x], axis=1), 1.1 * x, none, 0.0)
+    np.testing.assert_allclose(face_arcs(PHASED, condensed), 1.1 * np.array([[-2.5, -1.5], [-0.5, 0.5], [1.5, 2.5]]))
+
+
+def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd.DataFrame) -> None:
+    for name in ("first", "second"):
+        save(correlation_figure(SCORES, RATINGS, correlations, TITLES), tmp_path / f"{name}.v1")
+    for suffix in ("png", "pdf"):
+        first, second = (tmp_path / f"{name}.v1.{suffix}" for name in ("first", "second"))
+        assert first.read_bytes() == second.read_bytes()
+        assert b"Date" not in first.read_bytes()
+
+
+def test_neither_figures_nor_solver_load_what_they_do_not_need() -> None:
+    code = (
+        "import sys, fingerpad.solution, fingerpad.gabor, fingerpad.roughness; assert 'matplotlib' not in sys.modules;"
+        "import fingerpad.figures.workflow, fingerpad.figures.maps; assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})
