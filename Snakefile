@@ -37,5 +37,6 @@ rule all:
         "results/correlations.csv",
         "results/claims.csv",
         FIGURES,
+        "results/notebooks/walkthrough.html",
 
     default_target: True

@@ -144,7 +144,7 @@ def require_legible(figure: Figure) -> None:
     figure.draw_without_rendering()
     assert figure.get_size_inches()[0] * 25.4 == pytest.approx(WIDE)
     sizes = [t.get_fontsize() for t in figure.findobj(Text) if t.get_text().strip()]
-    assert min(sizes) >= TEXT
+    assert min(float(size) for size in sizes) >= TEXT
 
 
 def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -> None:

@@ -95,7 +95,8 @@ def test_frictionless_path_leaves_no_trace_at_all() -> None:
     row = np.array([[0.02, -0.02, 0.02, -0.02], [0.0, 0.0, 0.0, 0.0]])
     there_and_back = Condition("loop", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(row), row)
     solution = solve("device2", there_and_back, Interface.FRICTIONLESS)
-    assert np.abs(solution.force[-1] - solution.indented_force).max() < 1e-7 * solution.force.max()
+    # gaps are solved to 1e-9 of 1.7 mm; the stiffest pattern of nodal forces costs 0.027 mm per N/mm: 6e-8 N/mm
+    assert np.abs(solution.force[-1] - solution.indented_force).max() < 6e-8
 
 
 def test_friction_remembers() -> None:

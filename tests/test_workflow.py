@@ -11,6 +11,7 @@ import re
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -18,11 +19,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
 from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run
 
 pytestmark = pytest.mark.workflow
 
-DIRECTIVES = ["input", "output", "params", "log", "benchmark", "conda", "script", "shell"]
+DIRECTIVES = ["input", "output", "params", "log", "benchmark", "threads", "conda", "script", "shell"]
 SOLVER = {"mesh", "condense", "condense_body", "solve", "filter", "score"}
 TABLES = {"scores", "correlate", "claims"}
 CONFIG, DEVICE = "config/config.yaml", "config/devices/device2.yaml"
@@ -41,22 +43,22 @@ class Rule:
     directives: Mapping[str, str]
 
     @property
-    def program(self) -> str | None:
-        """The script or notebook that the rule runs, if it runs one."""
-        found = re.search(r"(scripts/\w+\.py|notebooks/\w+\.ipynb)", "".join(self.directives.values()))
-        return found and found[0].replace("scripts/", "workflow/scripts/")
+    def script(self) -> str:
+        """The script that the rule runs, or nothing."""
+        found = re.search(r"scripts/\w+\.py", self.directives.get("script", ""))
+        return f"workflow/{found[0]}" if found else ""
 
 
 def _written() -> Iterator[Rule]:
     for path in (ROOT / "Snakefile", *sorted((ROOT / "workflow" / "rules").glob("*.smk"))):
         text = path.read_text(encoding="utf-8")
-        for name, body in re.findall(r"^rule (\w+):\n((?:(?: {4}.*)?\n)+)", text, re.MULTILINE):
-            found = re.findall(r"^ {4}(\w+):(.*\n(?:(?: {8}.*)?\n)*)", body, re.MULTILINE)
+        for _, name, body in re.findall(r"^( *)rule (\w+):\n((?:(?:\1 {4}.*)?\n)+)", text, re.MULTILINE):
+            found = re.findall(r"^(\w+):(.*\n(?:(?: {4}.*)?\n)*)", textwrap.dedent(body), re.MULTILINE)
             yield Rule(name, path.stem, dict(found))
 
 
 RULES = {rule.name: rule for rule in _written()}
-WORKING = [rule for rule in RULES.values() if rule.name != "all"]
+WORKING = [rule for rule in RULES.values() if "output" in rule.directives]  # the others only gather targets
 
 
 @pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
@@ -68,12 +70,15 @@ def test_directives_come_in_the_same_order(rule: Rule) -> None:
 
 
 @pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
-def test_rule_script_log_and_benchmark_share_a_name(rule: Rule) -> None:
+def test_rule_and_script_share_a_name(rule: Rule) -> None:
+    assert rule.script in {f"workflow/scripts/{rule.name}.py", ""}
+
+
+@pytest.mark.parametrize("rule", [rule for rule in WORKING if rule.file != "figures"], ids=lambda rule: rule.name)
+def test_rule_log_and_benchmark_share_a_name(rule: Rule) -> None:
     for directive, ending in (("log", "log"), ("benchmark", "tsv")):
         if directive in rule.directives:
-            assert re.search(rf"/{rule.name}\.{ending}\"", rule.directives[directive])
-    if "script" in rule.directives and (rule.file != "figures" or rule.name == "fields"):  # figures may share one
-        assert rule.program == f"workflow/scripts/{rule.name}.py"
+            assert re.search(rf"/{rule.name}(_[^/]*)?\.{ending}\"", rule.directives[directive])
 
 
 def test_lint_finds_nothing(project: Project) -> None:
@@ -105,11 +110,16 @@ def loaded(project: Project, program: str) -> frozenset[str]:
     return frozenset(done.stdout.split())
 
 
+def reaches(project: Project, job: Job, module: str) -> bool:
+    """Whether a job loads a module of the package: by its script, or by the notebook that it executes."""
+    script = RULES[job.rule].script
+    notebooks = [name for name in job.inputs if name.endswith(".ipynb")]
+    return any(f"fingerpad.{module}" in loaded(project, name) for name in [script, *notebooks] if name)
+
+
 @pytest.mark.parametrize("name", sorted(SOLVER))
 def test_solver_jobs_load_no_plots_no_tables_no_schemas(project: Project, name: str) -> None:
-    program = RULES[name].program
-    assert program is not None
-    assert not {"matplotlib", "pandas", "jsonschema"} & loaded(project, program)
+    assert not {"matplotlib", "pandas", "jsonschema"} & loaded(project, RULES[name].script)
 
 
 # What is planned
@@ -171,10 +181,10 @@ def test_second_run_does_nothing(finished: Project) -> None:
     assert finished.files() == before
 
 
-def test_touched_code_reruns_nothing(changeable: Project) -> None:
-    for folder in ("src", "workflow", "config", "data"):
-        for path in (changeable.folder / folder).rglob("*.*"):
-            path.touch()
+@pytest.mark.parametrize("folder", ["src", "workflow", "config", "data"])
+def test_touched_files_rerun_nothing(changeable: Project, folder: str) -> None:
+    for path in (changeable.folder / folder).rglob("*.*"):
+        path.touch()
     assert NOTHING in changeable.snakemake("-n", "all").text
 
 
@@ -190,13 +200,11 @@ def test_touched_code_reruns_nothing(changeable: Project) -> None:
 def test_edited_module_reruns_exactly_what_reaches_it(
     changeable: Project, plan: Run, module: str, spared: set[str]
 ) -> None:
-    reaching = {
-        rule.name for rule in WORKING if rule.program and f"fingerpad.{module}" in loaded(changeable, rule.program)
-    }
-    assert reaching
+    stale = downstream(plan.jobs, lambda job: reaches(changeable, job, module))
+    assert stale
     changeable.edit(f"src/fingerpad/{module.replace('.', '/')}.py", lambda text: f"{text}\n\n_NEUTRAL = None\n")
     run = changeable.snakemake("-n", "all")
-    assert shown(run.jobs) == shown(downstream(plan.jobs, lambda job: job.rule in reaching))
+    assert shown(run.jobs) == shown(stale)
     assert not spared & {job.rule for job in run.jobs}
 
 
@@ -350,7 +358,7 @@ def test_unknown_condition_is_refused(finished: Project) -> None:
             ["filter.sigma.value", ".nan", "a finite number"],
             id="nan",
         ),
-        pytest.param(DEVICE, lambda text: "", ["the file is empty"], id="empty"),
+        pytest.param(DEVICE, lambda text: "", ["found an empty file"], id="empty"),
     ],
 )
 def test_bad_scene_file_is_refused(

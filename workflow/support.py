@@ -30,7 +30,6 @@ def reached_modules(script: Path, source: Path) -> list[str]:
 
 def _imported(path: Path, source: Path) -> list[Path]:
     """Files of the package that one file imports."""
-    package = source / PACKAGE
     found: list[Path] = []
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
@@ -45,12 +44,13 @@ def _imported(path: Path, source: Path) -> list[Path]:
         else:
             continue
         for name in names:
-            if name.split(".")[0] != PACKAGE:
+            parts = name.split(".")
+            if parts[0] != PACKAGE:
                 continue
-            stem = source.joinpath(*name.split("."))
-            found.extend(file for file in (stem.with_suffix(".py"), stem / "__init__.py") if file.is_file())
-        if any(name.split(".")[0] == PACKAGE for name in names):
-            found.append(package / "__init__.py")
+            # importing a.b.c runs a/__init__, a/b/__init__ and a/b/c, or a/b/c/__init__
+            packages = [source.joinpath(*parts[:depth], "__init__.py") for depth in range(1, len(parts) + 1)]
+            module = source.joinpath(*parts).with_suffix(".py")
+            found.extend(file for file in (*packages, module) if file.is_file())
     return found
 
 

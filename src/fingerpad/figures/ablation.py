@@ -22,6 +22,7 @@ from .style import (
     legend_below,
     letter,
     new_figure,
+    plain,
     score_label,
     styled,
 )
@@ -95,7 +96,7 @@ def _name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
     for name in conditions["dispersion"].unique():
         centre = float(places[(conditions["dispersion"] == name).to_numpy()].mean())
         axes.annotate(
-            name, (centre, 0.0),
+            plain(name), (centre, 0.0),
             xycoords=axes.get_xaxis_transform(), xytext=(0.0, GROUP_OFFSET), textcoords="offset points",
             ha="center", va="top",
         )  # fmt: skip

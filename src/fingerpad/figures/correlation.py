@@ -36,8 +36,8 @@ TICKS = 4  # along a score's axis, at most
 SMALLEST_P = 0.001  # below it p is given as a bound
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
-    "{interface}n: conditions; those with one and the same stimulus coincide. Line: least squares. Ratings: {kinds}.\n"
-    "range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R²."
+    "{interface}n: conditions; those with one and the same stimulus coincide. Line: least squares. Ratings: {kinds}."
+    " range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R²."
     " spread: of the scores, relative to their mean."
 )
 
@@ -51,7 +51,7 @@ def correlation_figure(
     scores, correlations: the tables of that name. ratings: device, condition, rating. titles: by device.
     """
     figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
-    styles = condition_styles(scores)
+    styles = condition_styles(scores[scores["device"].isin(ratings["device"])])
     grid = figure.subplots(len(titles), len(Readout), squeeze=False)
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         for axes, readout in zip(row, Readout, strict=True):

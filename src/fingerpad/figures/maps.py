@@ -24,25 +24,32 @@ from ..mesh import SectionMesh
 from ..scene import ActuatorRow, Condition, FloatArray, Scene
 from ..solution import Solution
 from .outline import draw_actuators, interface_facets
-from .style import (  # fmt: skip
+from .style import (
     BLUE,
     GREY,
+    MIDDLE,
+    NARROW,
     PERCENT,
     THIN,
+    TITLE,
     VERMILLION,
     WIDE,
     condition_styles,
     conditions_of,
+    counted,
+    fitted,
     legend_below,
     new_figure,
+    plain,
     styled,
 )
 
-COLUMNS = 3  # panels beside each other
+WIDTHS = (NARROW, MIDDLE, WIDE)  # mm, of figures with one, two or three panels beside each other
 ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
-SIDE = 34.0  # mm of the figure's width that axis labels and colour bar take
-CAPTION = "n = {n} conditions, at the end of the stimulus; displacements to scale. Tractions: means over skin elements."
+SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
+CAPTION = "{counted}, at the end of the stimulus; displacements to scale. Tractions: means over skin elements."
+BOLD = 1.2  # width of bold letters, of plain ones [1]
 COVERED = 99.5  # per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
@@ -74,11 +81,12 @@ def strain_map_figure(
     window = ((-reach, reach), (face - BELOW, pad + ABOVE))
     end = colour_end(fields, window)
 
-    columns = min(len(conditions), COLUMNS)
+    columns = min(len(conditions), len(WIDTHS))
     blocks = math.ceil(len(conditions) / columns)
-    map_height = (WIDE - SIDE) / COLUMNS * (window[1][1] - window[1][0]) / (2.0 * reach)
+    width = WIDTHS[columns - 1]
+    map_height = ((width - SIDE + GAP) / columns - GAP) * (window[1][1] - window[1][0]) / (2.0 * reach)
     height = blocks * (map_height + TRACTION_HEIGHT + FURNITURE) + BASE
-    figure = new_figure(WIDE * columns / COLUMNS if columns > 1 else WIDE / 2.0, height)
+    figure = new_figure(width, height)
     grid = figure.subplots(
         2 * blocks, columns, squeeze=False, sharex=True, height_ratios=[map_height, TRACTION_HEIGHT] * blocks
     )
@@ -101,7 +109,7 @@ def strain_map_figure(
         axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
         axes.set_title(styles.series[device.name, condition.name].label, loc="left")
         axes.tick_params(labelleft=False)
-        beneath.tick_params(labelleft=False)
+        beneath.tick_params(labelleft=False, labelbottom=True)
         _draw_tractions(beneath, device.actuators, contact, solution, condition)
         beneath.set_ylim(*limits)
         beneath.set_xlabel("x (mm)")
@@ -113,19 +121,19 @@ def strain_map_figure(
         first.set_ylabel("y (mm)")
         beneath.set_ylabel("Traction (kPa)")
     figure.colorbar(
-        drawn, ax=list(maps[: len(conditions)]), extend="max", aspect=14, pad=0.01,
+        drawn, ax=list(maps[:columns]), extend="max", aspect=14, pad=0.01,
         label="Max. principal strain\n(%, square-root scale)",
     )  # fmt: skip
     several = len({condition.dispersion for condition in device.conditions}) > 1
-    named = f", {dispersion} dispersion" if several else ""
-    figure.suptitle(f"{device.title}{named}, with shear", fontweight="bold")
+    named = f", {plain(dispersion)} dispersion" if several else ""
+    figure.suptitle(fitted(figure, f"{device.title}{named}, with shear", BOLD * TITLE), fontweight="bold")
     legend_below(
         figure,
         [
             Line2D([], [], color=BLUE, label="contact pressure"),
             Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, along x"),
         ],
-        CAPTION.format(n=len(conditions)),
+        CAPTION.format(counted=counted(conditions)),
     )
     return figure
 

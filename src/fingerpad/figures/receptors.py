@@ -22,6 +22,7 @@ from .style import (
     Series,
     condition_styles,
     conditions_of,
+    counted,
     face_handle,
     legend_below,
     letter,
@@ -72,7 +73,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts]) -> Figure:
                 draw_curve(axes, found.arc, values, series, number / len(distinct))
             axes.set_xlim(entry.faces.min() - MARGIN, entry.faces.max() + MARGIN)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        row[0].set_title(f"{entry.device.title} (n = {len(entry.device.conditions)} conditions)", loc="left")
+        row[0].set_title(f"{entry.device.title} ({counted(entry.device.conditions)})", loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     for axes in grid[-1]:

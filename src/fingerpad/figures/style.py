@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 import matplotlib as mpl
@@ -25,6 +26,8 @@ TEXT, TITLE = 7.0, 8.0  # font sizes [pt]; source: 7 pt stays legible in print
 THIN, LINE = 0.5, 1.0  # line widths [pt]
 MARKER = 4.5  # marker size [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
+POINTS = 72.0  # in an inch
+CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
 RESOLUTION = 300  # of PNG files [dots per inch]
 
 RC: dict[Any, Any] = {
@@ -71,7 +74,7 @@ ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN = (
     "#009E73",
 )
 COLOURS = (ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN)
-MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")  # as many as share no factor with the colours
 LINES: tuple[Any, ...] = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
 FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom")
 SHADE = "#E3E3E3"  # actuators' faces behind curves
@@ -165,7 +168,7 @@ def condition_styles(conditions: pd.DataFrame) -> Styles:
         number = keys.index(key)
         kind = dispersions.index(row.dispersion) if by_phase and spread else 0
         one = Series(
-            (f"{row.dispersion}, {key}" if spread else key) if by_phase else row.condition,
+            (f"{plain(row.dispersion)}, {key}" if spread else key) if by_phase else row.condition,
             COLOURS[number % len(COLOURS)],
             MARKERS[number % len(MARKERS)],
             LINES[kind % len(LINES)],
@@ -184,7 +187,7 @@ def condition_styles(conditions: pd.DataFrame) -> Styles:
                 marker="o",
                 linestyle=line,
                 fillstyle=fill,
-                label=f"{name} dispersion",
+                label=f"{plain(name)} dispersion",
                 markerfacecoloralt="white",
             )
         )
@@ -199,15 +202,35 @@ def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:
     )  # fmt: skip
 
 
-def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "", columns: int = 8) -> None:
-    """Legend under all panels, where it covers nothing, with a caption."""
+def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "") -> None:
+    """Legend under all panels, where it covers nothing, with a caption; both fit the figure's width."""
+    labels = [len(str(handle.get_label())) for handle in handles]
+    width = float(figure.get_size_inches()[0]) * POINTS
+    columns = len(labels)
+    while columns > 1 and _legend_width(labels, columns) > width:
+        columns -= 1
     figure.legend(
         handles=list(handles),
         loc="outside lower center",
-        ncols=max(min(len(handles), columns), 1),
-        title=caption or None,
+        ncols=max(columns, 1),
+        title=fitted(figure, caption) or None,
         title_fontproperties={"size": TEXT},
     )
+
+
+def fitted(figure: Figure, text: str, size: float = TEXT) -> str:
+    """Text broken into lines that fit a figure's width at a font size [pt]."""
+    characters = int(float(figure.get_size_inches()[0]) * POINTS / (CHARACTER * size))
+    return "\n".join(part for line in text.splitlines() for part in wrap(line, characters))
+
+
+def _legend_width(labels: Sequence[int], columns: int) -> float:
+    """Width [pt] of a legend that fills its columns one after the other, with labels of so many characters."""
+    rows, longer = divmod(len(labels), columns)
+    sizes = [rows + (column < longer) for column in range(columns)]
+    starts = [sum(sizes[:column]) for column in range(columns)]
+    longest = [max(labels[start : start + size]) for start, size in zip(starts, sizes, strict=True)]
+    return TEXT * sum(HANDLE + CHARACTER * characters for characters in longest)
 
 
 def as_points(handles: Iterable[Line2D]) -> list[Line2D]:
@@ -248,3 +271,13 @@ def subtitle(axes: Axes, title: str, text: str) -> None:
     if title:
         axes.set_title(title + "\n" * (text.count("\n") + 1), loc="left")
     axes.annotate(text, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 4.0), textcoords="offset points", color=GREY)
+
+
+def plain(name: str) -> str:
+    """A name from a scene file as text."""
+    return name.replace("_", " ")
+
+
+def counted(conditions: Sequence[Any]) -> str:
+    """How many conditions there are."""
+    return f"n = {len(conditions)} condition{'' if len(conditions) == 1 else 's'}"

@@ -16,6 +16,7 @@ from .style import (
     WIDE,
     condition_styles,
     conditions_of,
+    counted,
     face_handle,
     legend_below,
     letter,
@@ -28,6 +29,7 @@ from .style import (
 HEIGHT = 100.0  # mm
 WIDTHS = (1.0, 1.0, 0.62)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
+LONG = 6  # characters of a label beyond which labels are slanted
 HEADROOM = 1.15  # of the bars' axis over the tallest bar [1]
 
 
@@ -68,14 +70,16 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         colours = [styles.series[device.name, name].colour for name in heights.index]
         drawn = bars.bar(places, heights, color=colours, width=0.65)
         bars.bar_label(drawn, labels=[f"{height:.4g}" for height in heights], padding=1.0)
-        bars.set_xticks(places, [styles.series[device.name, name].label for name in heights.index])
+        labels = [styles.series[device.name, name].label for name in heights.index]
+        long = max(map(len, labels)) > LONG
+        bars.set_xticks(places, labels, rotation=30.0 if long else 0.0, ha="right" if long else "center")
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
         bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])).replace(" score", "\nscore"))
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
-    grid[-1][2].set_xlabel("Phase difference")
+    grid[-1][2].set_xlabel("Condition" if long else "Phase difference")
     for axes, text in zip(grid[:, 0], "AB", strict=True):
         letter(axes, text, (-30.0, 14.0))
-    figure.suptitle(f"{device.title}, with shear (n = {len(device.conditions)} conditions)", fontweight="bold")
+    figure.suptitle(f"{device.title}, with shear ({counted(device.conditions)})", fontweight="bold")
     legend_below(figure, [*styles.legend, face_handle()])
     return figure
