@@ -10,12 +10,10 @@ min_version("9.0")
 BASE = Path(workflow.basedir)
 SOURCE = BASE / "src"
 sys.path[:0] = [str(SOURCE), str(BASE / "workflow")]
-os.environ["PYTHONPATH"] = str(SOURCE)
-# one thread a job: results do not depend on the machine's cores, and jobs run beside each other
-for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ[variable] = "1"
-# the figures' PDFs carry no time of making
-os.environ["SOURCE_DATE_EPOCH"] = "0"
+import support
+
+# jobs find the library; one thread each: results do not depend on the machine's cores, and jobs run beside each other
+os.environ |= {"PYTHONPATH": str(SOURCE), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
 
 
 include: "workflow/rules/common.smk"
@@ -32,11 +30,10 @@ include: "workflow/rules/benchmark.smk"
 
 
 rule all:
+    default_target: True
     input:
         "results/scores.csv",
         "results/correlations.csv",
         "results/claims.csv",
         FIGURES,
         "results/notebooks/walkthrough.html",
-
-    default_target: True

@@ -22,7 +22,7 @@ from fingerpad.figures.maps import element_means, strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.section import section_figure
 from fingerpad.figures.shear import shear_figure
-from fingerpad.figures.style import TEXT, WIDE, condition_styles, conditions_of, save
+from fingerpad.figures.style import MIDDLE, NARROW, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.mesh import SectionMesh, mesh_section
 from fingerpad.perception import correlation_table
@@ -73,6 +73,8 @@ UNRATED = Device(
     PINS,
     (make_condition("push", "own", 37.5, 3), make_condition("shove", "own", 37.5, 3, 0.1)),
 )
+PIN = ActuatorRow((0.0,), 1.0, 0.1)
+SINGLE = Device("single", "One pin", Control.DISPLACEMENT, PIN, (make_condition("tap", "lone", 0.0, 1),))
 DEVICES = (PHASED, FORCED, UNRATED)
 TITLES = {device.name: device.title for device in DEVICES}
 
@@ -142,7 +144,10 @@ def axis_labels(figure: Figure) -> list[tuple[str, str]]:
 
 def require_legible(figure: Figure) -> None:
     figure.draw_without_rendering()
-    assert figure.get_size_inches()[0] * 25.4 == pytest.approx(WIDE)
+    width, height = figure.get_size_inches()
+    assert round(width * 25.4, 6) in {NARROW, MIDDLE, WIDE}
+    drawn = figure.get_tightbbox()
+    assert drawn.x0 >= 0.0 and drawn.y0 >= 0.0 and drawn.x1 <= width and drawn.y1 <= height, "something is cut off"
     sizes = [t.get_fontsize() for t in figure.findobj(Text) if t.get_text().strip()]
     assert min(float(size) for size in sizes) >= TEXT
 
@@ -285,8 +290,9 @@ def test_element_means_keep_the_force() -> None:
     assert float(mean.sum()) * 0.1 == pytest.approx(float(nodal @ contact.weight), rel=1e-12)
 
 
-@pytest.mark.parametrize(("device", "dispersion"), [(PHASED, "high"), (FORCED, "all"), (UNRATED, "own")])
-def test_maps_show_every_condition_of_a_dispersion(device: Device, dispersion: str, section: SectionMesh) -> None:
+@pytest.mark.parametrize("device", [PHASED, FORCED, UNRATED, SINGLE], ids=lambda device: str(device.name))
+def test_maps_show_every_condition_of_a_dispersion(device: Device, section: SectionMesh) -> None:
+    dispersion = device.conditions[-1].dispersion
     distinct = [c for c in device.conditions if device.first_with_stimulus_of(c.name) is c]
     corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
     shape = (len(distinct), corner.shape[1])
@@ -297,7 +303,10 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, dispersion: s
     shown = [c.name for c in device.conditions if c.dispersion == dispersion]
     scene = Scene(MODEL, device)
     figure = strain_map_figure(scene, dispersion, section, fields, contact, dict.fromkeys(shown, solution))
-    figure.draw_without_rendering()
+    require_legible(figure)
+    for above, beneath in zip(figure.axes[: len(shown)], figure.axes[min(len(shown), 3) :], strict=False):
+        if beneath.get_xlabel():
+            assert above.get_position().intervalx == pytest.approx(beneath.get_position().intervalx, abs=1e-3)
     labels = axis_labels(figure)
     assert labels.count(("x (mm)", "Traction (kPa)")) >= 1
     assert len(figure.axes) == 2 * len(shown) + 1
@@ -305,7 +314,7 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, dispersion: s
     assert "%" in labels[-1][1]
     text = words(figure)
     assert device.title in text
-    assert f"n = {len(shown)} conditions" in text
+    assert f"n = {len(shown)} condition" in text
     tractions = next(axes for axes in figure.axes if axes.get_ylabel() == "Traction (kPa)")
     assert max(line.get_ydata().max() for line in tractions.lines if len(line.get_xdata()) > 2) == pytest.approx(30.0)
 

@@ -13,6 +13,7 @@ import numpy as np
 from fingerpad.scene import Condition, Scene
 
 PACKAGE = "fingerpad"
+THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def reached_modules(script: Path, source: Path) -> list[str]:

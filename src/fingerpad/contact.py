@@ -51,6 +51,14 @@ class Status(IntEnum):
     SLIP_BACKWARD = 3
 
 
+class _NotConvergedError(Exception):
+    """An increment did not converge: it is to be halved."""
+
+    def __init__(self, residual: float) -> None:
+        super().__init__(residual)
+        self.residual = residual
+
+
 SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 
@@ -160,18 +168,19 @@ def follow(problem: ContactProblem, state: ContactState, target: FloatArray, inc
     smallest = step / 2.0**problem.max_cuts
     while done < 1.0:
         goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
-        advanced = _solve_increment(problem, state, start + goal * (target - start))
-        if advanced is not None:
-            state, done = advanced, goal
+        try:
+            state, done = _solve_increment(problem, state, start + goal * (target - start)), goal
             step = min(2.0 * step, 1.0 / increments)
-            continue
-        step /= 2.0
-        state = replace(state, cuts=state.cuts + 1)
-        if step < smallest:
-            raise ContactError(
-                f"contact did not converge: {done:.1%} of the way, increment {int(done * increments) + 1}/{increments}"
-                f" halved {problem.max_cuts} times; try more increments or a finer mesh at the actuators' edges"
-            )
+        except _NotConvergedError as failure:
+            step /= 2.0
+            state = replace(state, cuts=state.cuts + 1)
+            if step < smallest:
+                raise ContactError(
+                    f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
+                    f" increment {int(done * increments) + 1}/{increments} halved {problem.max_cuts} times, residual"
+                    f" {failure.residual:.1e} > {problem.tolerance:.0e}; try more increments or a finer mesh at the"
+                    " actuators' edges"
+                ) from failure
     return state
 
 
@@ -260,8 +269,13 @@ def face_shape(body: CondensedBody, at: FloatArray) -> FloatArray:
     return shape
 
 
-def _solve_increment(problem: ContactProblem, start: ContactState, actuator: FloatArray) -> ContactState | None:
-    """One increment of the path by semismooth Newton; None if it does not converge."""
+def _located(actuator: FloatArray) -> str:
+    """Where the actuators stand, in few words: (x, y) of the first."""
+    return f"({actuator[0, 0]:.4g}, {actuator[0, 1]:.4g})"
+
+
+def _solve_increment(problem: ContactProblem, start: ContactState, actuator: FloatArray) -> ContactState:
+    """One increment of the path by semismooth Newton. Raises _NotConvergedError."""
     increment = _set_up(problem, start, actuator)
     trial = _at(increment, start.force)
     length = float(np.abs(actuator - start.actuator).max())
@@ -269,10 +283,11 @@ def _solve_increment(problem: ContactProblem, start: ContactState, actuator: Flo
     foreseen = start.gap + start.drift[:, 1] * length if start.drift.any() else trial.gap
     status = np.where((start.status == Status.OPEN) & (foreseen < 0.0), _touched(problem), start.status)
     released = np.zeros(status.shape, dtype=bool)
+    residual = float("inf")
     for iteration in range(MAX_ITERATIONS):
         step = _newton_step(increment, trial, status)
         if step is None:
-            return None
+            break
         settling = iteration >= SIMULTANEOUS
         trial = _searched(increment, trial, step, status) if settling else _at(increment, step)
         following = _next_status(increment, trial, status, released)
@@ -288,7 +303,7 @@ def _solve_increment(problem: ContactProblem, start: ContactState, actuator: Flo
         status = status.copy()
         status[changed] = following[changed]
         released[changed] |= status[changed] == Status.OPEN
-    return None
+    raise _NotConvergedError(residual)
 
 
 def _set_up(problem: ContactProblem, start: ContactState, actuator: FloatArray) -> _Increment:

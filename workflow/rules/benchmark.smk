@@ -16,30 +16,30 @@ rule benchmark_steps:
         code=code("benchmark.py"),
     output:
         timings="results/benchmark/timings.csv",
-    params:
-        repeats=5,
     log:
         "results/logs/benchmark_steps.log",
-    threads: workflow.cores
     conda:
         ENVIRONMENT
+    threads: workflow.cores
+    params:
+        repeats=5,
     script:
         "../scripts/benchmark.py"
 
 
 rule benchmark_graph:
     input:
+        snakefile=BASE / "Snakefile",
         scripts=sorted((BASE / "workflow").glob("**/*.*")),
         code=sorted(SOURCE.glob("**/*.py")),
     output:
         graph="results/benchmark/graph.csv",
-    params:
-        base=str(BASE),
-        repeats=3,
     log:
         "results/logs/benchmark_graph.log",
-    threads: workflow.cores
     conda:
         ENVIRONMENT
+    threads: workflow.cores
+    params:
+        repeats=3,
     script:
         "../scripts/benchmark_graph.py"

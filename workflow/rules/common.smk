@@ -4,12 +4,11 @@
 from difflib import get_close_matches
 
 from fingerpad.errors import FingerpadError
+from fingerpad.perception import read_ratings, read_stated_order
 from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
-
-import support
 
 SCENES = Path(config.get("scenes", BASE / "config"))
 CONFIG = SCENES / "config.yaml"
@@ -22,6 +21,16 @@ try:
     for name in DEVICES:
         check_device(SCENES / "devices" / f"{name}.yaml", BASE / "workflow" / "schemas", CONFIG)
     SCENE = {name: load_scene(CONFIG, SCENES / "devices" / f"{name}.yaml") for name in DEVICES}
+    # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
+    SHIPPED = {
+        path.stem: load_scene(BASE / "config" / "config.yaml", path)
+        for path in sorted((BASE / "config" / "devices").glob("*.yaml"))
+    }
+    KNOWN = {
+        name: [condition.name for condition in scene.device.conditions] for name, scene in (SHIPPED | SCENE).items()
+    }
+    read_ratings(DATA / "ratings.csv", KNOWN)
+    read_stated_order(DATA / "stated_order.csv", KNOWN)
 except FingerpadError as error:
     raise WorkflowError(str(error)) from None
 
@@ -47,6 +56,12 @@ def condition_of(wildcards):
 def device_file(wildcards):
     """The scene file of the wildcard device."""
     return SCENES / "devices" / f"{scene_of(wildcards).device.name}.yaml"
+
+
+def solution_of(wildcards):
+    """The solution of the first condition with the wildcard condition's stimulus: equal stimuli are solved once."""
+    first = scene_of(wildcards).device.first_with_stimulus_of(condition_of(wildcards).name)
+    return f"results/{wildcards.device}/{first.name}/{wildcards.interface}/solution.npz"
 
 
 def code(script):

@@ -10,14 +10,14 @@ rule condense:
         code=code("condense.py"),
     output:
         condensed="results/{device}/condensed.npz",
-    params:
-        scene=lambda w: support.fingerprint(scene_of(w).model.readout, support.stroke(scene_of(w))),
     log:
         "results/logs/{device}/condense.log",
     benchmark:
         "results/benchmarks/{device}/condense.tsv"
     conda:
         ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model.readout, support.stroke(scene_of(w))),
     script:
         "../scripts/condense.py"
 
@@ -29,13 +29,13 @@ rule condense_body:
         code=code("condense_body.py"),
     output:
         body="results/{device}/body.npz",
-    params:
-        scene=lambda w: support.fingerprint(scene_of(w).device.actuators, scene_of(w).model.numerics),
     log:
         "results/logs/{device}/condense_body.log",
     benchmark:
         "results/benchmarks/{device}/condense_body.tsv"
     conda:
         ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).device.actuators, scene_of(w).model.numerics),
     script:
         "../scripts/condense_body.py"

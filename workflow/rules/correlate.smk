@@ -15,5 +15,7 @@ rule correlate:
         "results/logs/correlate.log",
     conda:
         ENVIRONMENT
+    params:
+        conditions=support.fingerprint(KNOWN),
     script:
         "../scripts/correlate.py"

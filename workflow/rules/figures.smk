@@ -65,12 +65,12 @@ rule figure_receptors:
     output:
         png="results/figures/figure_4_receptors.png",
         pdf="results/figures/figure_4_receptors.pdf",
-    params:
-        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     log:
         "results/logs/figures/figure_4_receptors.log",
     conda:
         ENVIRONMENT
+    params:
+        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_receptors.py"
 
@@ -86,12 +86,12 @@ rule figure_correlation:
     output:
         png="results/figures/figure_5_correlation.png",
         pdf="results/figures/figure_5_correlation.pdf",
-    params:
-        titles=[SCENE[name].device.title for name in DEVICES],
     log:
         "results/logs/figures/figure_5_correlation.log",
     conda:
         ENVIRONMENT
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
     script:
         "../scripts/figure_correlation.py"
 
@@ -106,12 +106,12 @@ rule figure_ablation:
     output:
         png="results/figures/ablation_shear.png",
         pdf="results/figures/ablation_shear.pdf",
-    params:
-        titles=[SCENE[name].device.title for name in DEVICES],
     log:
         "results/logs/figures/ablation_shear.log",
     conda:
         ENVIRONMENT
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
     script:
         "../scripts/figure_ablation.py"
 
@@ -125,12 +125,12 @@ rule figure_section:
     output:
         png="results/figures/section.png",
         pdf="results/figures/section.pdf",
-    params:
-        scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
     log:
         "results/logs/figures/section.log",
     conda:
         ENVIRONMENT
+    params:
+        scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_section.py"
 
@@ -151,8 +151,6 @@ rule figure_map:
     output:
         png="results/figures/map_{device}_{dispersion}.png",
         pdf="results/figures/map_{device}_{dispersion}.pdf",
-    params:
-        scene=lambda w: support.fingerprint(scene_of(w).device),
     log:
         "results/logs/figures/map_{device}_{dispersion}.log",
     wildcard_constraints:
@@ -160,6 +158,8 @@ rule figure_map:
         dispersion="|".join(sorted({dispersion for names in DISPERSIONS.values() for dispersion in names})),
     conda:
         ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).device),
     script:
         "../scripts/figure_map.py"
 
@@ -180,12 +180,12 @@ if LATERAL:
         output:
             png="results/figures/figure_3_workflow.png",
             pdf="results/figures/figure_3_workflow.pdf",
-        params:
-            scene=support.fingerprint(SCENE[LATERAL].device, SCENE[LATERAL].model.gabor, SCENE[LATERAL].model.readout),
         log:
             "results/logs/figures/figure_3_workflow.log",
         conda:
             ENVIRONMENT
+        params:
+            scene=support.fingerprint(SCENE[LATERAL].device, SCENE[LATERAL].model.gabor, SCENE[LATERAL].model.readout),
         script:
             "../scripts/figure_workflow.py"
 
@@ -200,11 +200,11 @@ if LATERAL:
         output:
             png="results/figures/figure_6_shear.png",
             pdf="results/figures/figure_6_shear.pdf",
-        params:
-            title=SCENE[LATERAL].device.title,
         log:
             "results/logs/figures/figure_6_shear.log",
         conda:
             ENVIRONMENT
+        params:
+            title=SCENE[LATERAL].device.title,
         script:
             "../scripts/figure_shear.py"

@@ -6,18 +6,15 @@ rule filter:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
-        solution=lambda w: (
-            f"results/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition_of(w).name).name}"
-            f"/{w.interface}/solution.npz"
-        ),
+        solution=solution_of,
         code=code("filter.py"),
     output:
         filtered="results/{device}/{condition}/{interface}/filtered.npz",
-    params:
-        scene=lambda w: support.fingerprint(scene_of(w).model.gabor),
     log:
         "results/logs/{device}/{condition}/{interface}/filter.log",
     conda:
         ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model.gabor),
     script:
         "../scripts/filter.py"

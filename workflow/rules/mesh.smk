@@ -9,6 +9,12 @@ rule mesh:
         code=code("mesh.py"),
     output:
         mesh="results/{device}/mesh.npz",
+    log:
+        "results/logs/{device}/mesh.log",
+    benchmark:
+        "results/benchmarks/{device}/mesh.tsv"
+    conda:
+        ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
@@ -16,11 +22,5 @@ rule mesh:
             scene_of(w).model.numerics,
             scene_of(w).device.actuators,
         ),
-    log:
-        "results/logs/{device}/mesh.log",
-    benchmark:
-        "results/benchmarks/{device}/mesh.tsv"
-    conda:
-        ENVIRONMENT
     script:
         "../scripts/mesh.py"

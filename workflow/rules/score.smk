@@ -10,6 +10,10 @@ rule score:
         code=code("score.py"),
     output:
         score="results/{device}/{condition}/{interface}/score.csv",
+    log:
+        "results/logs/{device}/{condition}/{interface}/score.log",
+    conda:
+        ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
             scene_of(w).device.actuators,
@@ -17,10 +21,6 @@ rule score:
             condition_of(w).dispersion,
             condition_of(w).phase_deg,
         ),
-    log:
-        "results/logs/{device}/{condition}/{interface}/score.log",
-    conda:
-        ENVIRONMENT
     script:
         "../scripts/score.py"
 
@@ -33,11 +33,11 @@ rule scores:
         code=code("scores.py"),
     output:
         scores="results/scores.csv",
-    params:
-        devices=DEVICES,
     log:
         "results/logs/scores.log",
     conda:
         ENVIRONMENT
+    params:
+        devices=DEVICES,
     script:
         "../scripts/scores.py"

@@ -12,6 +12,12 @@ rule solve:
         code=code("solve.py"),
     output:
         solution="results/{device}/{condition}/{interface}/solution.npz",
+    log:
+        "results/logs/{device}/{condition}/{interface}/solve.log",
+    benchmark:
+        "results/benchmarks/{device}/{condition}/{interface}/solve.tsv"
+    conda:
+        ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
             scene_of(w).device.actuators,
@@ -19,11 +25,5 @@ rule solve:
             scene_of(w).model.numerics,
             support.path_of(condition_of(w)),
         ),
-    log:
-        "results/logs/{device}/{condition}/{interface}/solve.log",
-    benchmark:
-        "results/benchmarks/{device}/{condition}/{interface}/solve.tsv"
-    conda:
-        ENVIRONMENT
     script:
         "../scripts/solve.py"

@@ -61,4 +61,4 @@ def main(base: Path, cores: int, repeats: int, table: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.params.base), job.threads, job.params.repeats, Path(job.output.graph))
+    main(Path(job.input.snakefile).parent, job.threads, job.params.repeats, Path(job.output.graph))

@@ -1,5 +1,6 @@
 """Correlate scores with perceived roughness."""
 
+import json
 from pathlib import Path
 
 import pandas as pd
@@ -7,12 +8,15 @@ import pandas as pd
 from fingerpad.perception import correlation_table, read_published, read_ratings, read_stated_order
 
 
-def main(scores: Path, ratings: Path, order: Path, published: Path, correlations: Path) -> None:
-    """Read scores and literature data, correlate, write the table."""
-    table = pd.read_csv(scores)
-    conditions = {device: list(dict.fromkeys(rows)) for device, rows in table.groupby("device")["condition"]}
+def main(
+    scores: Path, ratings: Path, order: Path, published: Path, conditions: dict[str, list[str]], correlations: Path
+) -> None:
+    """Read scores and literature data, correlate, write the table. conditions: of every known device."""
     correlation_table(
-        table, read_ratings(ratings, conditions), read_stated_order(order, conditions), read_published(published)
+        pd.read_csv(scores),
+        read_ratings(ratings, conditions),
+        read_stated_order(order, conditions),
+        read_published(published),
     ).to_csv(correlations, index=False, lineterminator="\n")
 
 
@@ -23,5 +27,6 @@ if __name__ == "__main__":
         Path(job.input.ratings),
         Path(job.input.order),
         Path(job.input.published),
+        json.loads(job.params.conditions)[0],
         Path(job.output.correlations),
     )

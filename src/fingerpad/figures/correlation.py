@@ -38,7 +38,7 @@ PADDING = 0.12  # of the axes beyond the outermost points, relative to their spr
 CAPTION = (
     "{interface}n: conditions; those with one and the same stimulus coincide. Line: least squares. Ratings: {kinds}."
     " range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R²."
-    " spread: of the scores, relative to their mean."
+    " spread: of the scores, over their mean."
 )
 
 

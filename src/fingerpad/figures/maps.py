@@ -50,6 +50,8 @@ TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; lab
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = "{counted}, at the end of the stimulus; displacements to scale. Tractions: means over skin elements."
 BOLD = 1.2  # width of bold letters, of plain ones [1]
+NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
+SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
 COVERED = 99.5  # per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
@@ -77,14 +79,16 @@ def strain_map_figure(
     conditions = [condition for condition in device.conditions if condition.dispersion == dispersion]
     distinct = [c.name for c in device.conditions if device.first_with_stimulus_of(c.name) is c]
     face = max(solution.indentation for solution in solutions.values())
+    bottom, top = face - BELOW, pad + ABOVE
     reach = max(abs(x) for x in device.actuators.positions) + device.actuators.width / 2.0 + ASIDE
-    window = ((-reach, reach), (face - BELOW, pad + ABOVE))
+    reach = max(reach, (top - bottom) * NARROWEST / 2.0)
+    window = ((-reach, reach), (bottom, top))
     end = colour_end(fields, window)
 
     columns = min(len(conditions), len(WIDTHS))
     blocks = math.ceil(len(conditions) / columns)
     width = WIDTHS[columns - 1]
-    map_height = ((width - SIDE + GAP) / columns - GAP) * (window[1][1] - window[1][0]) / (2.0 * reach)
+    map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (window[1][1] - window[1][0]) / (2.0 * reach)
     height = blocks * (map_height + TRACTION_HEIGHT + FURNITURE) + BASE
     figure = new_figure(width, height)
     grid = figure.subplots(

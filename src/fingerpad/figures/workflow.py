@@ -69,7 +69,7 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         places = np.arange(len(heights))
         colours = [styles.series[device.name, name].colour for name in heights.index]
         drawn = bars.bar(places, heights, color=colours, width=0.65)
-        bars.bar_label(drawn, labels=[f"{height:.4g}" for height in heights], padding=1.0)
+        bars.bar_label(drawn, labels=[f"{height:#.4g}" for height in heights], padding=1.0)
         labels = [styles.series[device.name, name].label for name in heights.index]
         long = max(map(len, labels)) > LONG
         bars.set_xticks(places, labels, rotation=30.0 if long else 0.0, ha="right" if long else "center")
