@@ -14,7 +14,6 @@ import sys
 import textwrap
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,7 +23,18 @@ from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run
 
 pytestmark = pytest.mark.workflow
 
-DIRECTIVES = ["input", "output", "params", "log", "benchmark", "threads", "conda", "script", "shell"]
+DIRECTIVES = [
+    "input",
+    "output",
+    "wildcard_constraints",
+    "params",
+    "log",
+    "benchmark",
+    "threads",
+    "conda",
+    "script",
+    "shell",
+]
 SOLVER = {"mesh", "condense", "condense_body", "solve", "filter", "score"}
 TABLES = {"scores", "correlate", "claims"}
 CONFIG, DEVICE = "config/config.yaml", "config/devices/device2.yaml"
@@ -162,12 +172,11 @@ def test_every_output_can_be_a_target(project: Project, plan: Run, nothing: Path
 def test_every_rule_is_planned_by_a_target(project: Project, plan: Run, nothing: Path) -> None:
     targets = set(project.snakemake("--list-target-rules").text.splitlines()) & set(RULES) - {"all"}
     assert targets >= TABLES
-    with ThreadPoolExecutor(CORES) as pool:
-        runs = list(pool.map(lambda target: project.snakemake("-n", target, "--directory", nothing), sorted(targets)))
-    for target, run in zip(sorted(targets), runs, strict=True):
-        assert run.status == 0, run.text
-        assert target in {job.rule for job in run.jobs}
-    assert {job.rule for run in (plan, *runs) for job in run.jobs} == set(RULES)
+    run = project.snakemake("-n", *sorted(targets), "--directory", nothing)
+    assert run.status == 0, run.text
+    planned = {job.rule for job in run.jobs}
+    assert targets <= planned
+    assert planned | {job.rule for job in plan.jobs} == set(RULES)
 
 
 # What reruns
