@@ -76,11 +76,12 @@ def strain_map_figure(
     condition, for all of the dispersion. The colours are common to all figures of one device.
     """
     device, pad = scene.device, scene.model.finger.pad_thickness
+    row = device.actuators
     conditions = [condition for condition in device.conditions if condition.dispersion == dispersion]
     distinct = [c.name for c in device.conditions if device.first_with_stimulus_of(c.name) is c]
     face = max(solution.indentation for solution in solutions.values())
     bottom, top = face - BELOW, pad + ABOVE
-    reach = max(abs(x) for x in device.actuators.positions) + device.actuators.width / 2.0 + ASIDE
+    reach = max(abs(x) for x in row.positions) + row.width / 2.0 + ASIDE
     reach = max(reach, (top - bottom) * NARROWEST / 2.0)
     window = ((-reach, reach), (bottom, top))
     end = colour_end(fields, window)
@@ -88,7 +89,7 @@ def strain_map_figure(
     columns = min(len(conditions), len(WIDTHS))
     blocks = math.ceil(len(conditions) / columns)
     width = WIDTHS[columns - 1]
-    map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (window[1][1] - window[1][0]) / (2.0 * reach)
+    map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (top - bottom) / (2.0 * reach)
     height = blocks * (map_height + TRACTION_HEIGHT + FURNITURE) + BASE
     figure = new_figure(width, height)
     grid = figure.subplots(
@@ -97,7 +98,6 @@ def strain_map_figure(
     maps, tractions = grid[0::2].ravel(), grid[1::2].ravel()
     table = conditions_of([device])
     styles = condition_styles(table[table["dispersion"] == dispersion])
-    row = device.actuators
     means = [
         element_means(row, contact, KILO * nodal)[1] for s in solutions.values() for nodal in (s.pressure, s.shear)
     ]
@@ -108,22 +108,21 @@ def strain_map_figure(
         drawn = _draw_map(axes, section, fields, loading, end)
         rise = np.array([0.0, solution.indentation])
         offsets = np.stack([condition.tangential[-1], condition.normal[-1]], axis=1) + rise
-        draw_actuators(axes, device.actuators, offsets, 2.0 * BELOW)
+        draw_actuators(axes, row, offsets, 2.0 * BELOW)
         axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
         axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
         axes.set_title(styles.series[device.name, condition.name].label, loc="left")
         axes.tick_params(labelleft=False)
         beneath.tick_params(labelleft=False, labelbottom=True)
-        _draw_tractions(beneath, device.actuators, contact, solution, condition)
+        _draw_tractions(beneath, row, contact, solution, condition)
         beneath.set_ylim(*limits)
         beneath.set_xlabel("x (mm)")
     for axes in (*maps[len(conditions) :], *tractions[len(conditions) :]):
         axes.remove()
-    for axes in (*maps[::columns], *tractions[::columns]):
-        axes.tick_params(labelleft=True)
-    for first, beneath in zip(maps[::columns], tractions[::columns], strict=True):
-        first.set_ylabel("y (mm)")
-        beneath.set_ylabel("Traction (kPa)")
+    for leftmost, label in ((maps[::columns], "y (mm)"), (tractions[::columns], "Traction (kPa)")):
+        for axes in leftmost:
+            axes.tick_params(labelleft=True)
+            axes.set_ylabel(label)
     figure.colorbar(
         drawn, ax=list(maps[:columns]), extend="max", aspect=14, pad=0.01,
         label="Max. principal strain\n(%, square-root scale)",
