@@ -41,10 +41,10 @@ class Certificate:
 class Solution:
     """A solved condition.
 
-    indentation: height of the faces above the lowest point of the undeformed pad [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2)
-    [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the end. place: (n,) x of the skin nodes from their
-    actuator's centre at the end [mm]. status: (n,) at the end. arc: (m,) receptors [mm]. strain, change_of_strain: (m,)
-    [1]. iterations, cuts: of the whole path. certificate.
+    indentation: height of the faces above the lowest point of the undeformed pad [mm]. indented_force: (n, 2) [N/mm]
+    after pre-indentation. force: (n_times, n, 2) [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the
+    end. place: (n,) x of the skin nodes from their actuator's centre at the end [mm]. status: (n,) at the end. arc:
+    (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts: of the whole path. certificate.
     """
 
     indentation: float
