@@ -17,7 +17,12 @@ rule condense:
     conda:
         ENVIRONMENT
     params:
-        scene=lambda w: support.fingerprint(scene_of(w).model.readout, support.stroke(scene_of(w))),
+        scene=lambda w: support.fingerprint(
+            scene_of(w).model.finger,
+            scene_of(w).model.readout,
+            scene_of(w).device.actuators,
+            support.stroke(scene_of(w)),
+        ),
     script:
         "../scripts/condense.py"
 

@@ -47,6 +47,10 @@ rule fields:
         "results/benchmarks/{device}/fields.tsv"
     conda:
         ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(
+            scene_of(w).model.finger, scene_of(w).device.actuators, support.stroke(scene_of(w))
+        ),
     script:
         "../scripts/fields.py"
 
