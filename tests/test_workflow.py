@@ -23,8 +23,19 @@ from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run
 
 pytestmark = pytest.mark.workflow
 
-# in the order in which snakefmt writes them
-DIRECTIVES = "input output log benchmark wildcard_constraints conda threads params script shell".split()
+# The order in which snakefmt writes them
+DIRECTIVES = [
+    "input",
+    "output",
+    "log",
+    "benchmark",
+    "wildcard_constraints",
+    "conda",
+    "threads",
+    "params",
+    "script",
+    "shell",
+]
 SOLVER = {"mesh", "condense", "condense_body", "solve", "filter", "score"}
 TABLES = {"scores", "correlate", "claims"}
 CONFIG, DEVICE = "config/config.yaml", "config/devices/device2.yaml"

@@ -13,7 +13,7 @@ rule benchmark_steps:
     input:
         config=CONFIG,
         devices=[SCENES / "devices" / f"{name}.yaml" for name in DEVICES],
-        code=code("benchmark.py"),
+        code=code("benchmark_steps.py"),
     output:
         timings="results/benchmark/timings.csv",
     log:
@@ -24,7 +24,7 @@ rule benchmark_steps:
     params:
         repeats=5,
     script:
-        "../scripts/benchmark.py"
+        "../scripts/benchmark_steps.py"
 
 
 rule benchmark_graph:
