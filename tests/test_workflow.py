@@ -29,6 +29,7 @@ DIRECTIVES = [
     "output",
     "log",
     "benchmark",
+    "priority",
     "wildcard_constraints",
     "conda",
     "threads",

@@ -23,7 +23,6 @@ from enum import IntEnum
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import LinAlgError, solve
 
 from .compliance import CondensedBody
 from .errors import ContactError
@@ -411,8 +410,8 @@ def _newton_step(increment: _Increment, trial: _Trial, status: np.ndarray) -> Fl
         matrix[active.size :, : active.size] = increment.xy[along] + increment.xx[along] * drag[active]
         matrix[active.size :, active.size :] = increment.xx[np.ix_(stick, stick)]
     try:
-        change = solve(matrix, right, check_finite=False, overwrite_a=True, overwrite_b=True)
-    except LinAlgError:
+        change = np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
         return None
     if not np.all(np.isfinite(change)):
         return None

@@ -13,6 +13,7 @@ rule correlate:
         correlations="results/correlations.csv",
     log:
         "results/logs/correlate.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:

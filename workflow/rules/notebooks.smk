@@ -17,6 +17,7 @@ rule notebook:
         page="results/notebooks/{notebook}.html",
     log:
         "results/logs/notebook_{notebook}.log",
+    priority: 1
     conda:
         ENVIRONMENT
     script:

@@ -35,6 +35,7 @@ rule scores:
         scores="results/scores.csv",
     log:
         "results/logs/scores.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:
