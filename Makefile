@@ -33,7 +33,7 @@ lint: environment  ## Check formats, lint and types.
 	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/snakemake --lint
 
 lock:  ## Pin all dependencies with their hashes (needs uv).
-	uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header \
+	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
 		--no-annotate pyproject.toml --extra test --output-file requirements.lock
 
 clean:  ## Remove results and the environment.

@@ -1,8 +1,10 @@
-"""Results on disk: frozen dataclasses of arrays and numbers as npz archives, without pickles, byte-stable."""
+"""Results on disk: frozen dataclasses as npz archives without pickles, tables as CSV; byte-stable."""
 
 from __future__ import annotations
 
+import csv
 import dataclasses
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
@@ -23,6 +25,14 @@ def load(path: Path, kind: type[Record]) -> Record:
     """Read a dataclass that `save` wrote."""
     with np.load(path, allow_pickle=False) as archive:
         return _built(kind, archive, "")
+
+
+def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Write rows that share their keys as a CSV table."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def _flattened(record: Any, prefix: str) -> dict[str, Any]:

@@ -1,6 +1,5 @@
 """Time `snakemake all` from nothing, and the same graph of jobs with empty scripts, one after the other."""
 
-import csv
 import os
 import shutil
 import subprocess
@@ -8,6 +7,8 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+from fingerpad.store import write_rows
 
 COPIED = ("Snakefile", "workflow", "src", "config", "data", "notebooks", "profiles", "environment.yml")
 EMPTY_SCRIPT = '''"""An empty job: it makes its outputs and does nothing."""
@@ -53,10 +54,7 @@ def main(base: Path, cores: int, repeats: int, table: Path) -> None:
                 "ratio": round(found["real"] / found["empty scripts"], 2),
             }
         )
-    with table.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(table, rows)
 
 
 if __name__ == "__main__":

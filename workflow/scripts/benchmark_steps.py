@@ -1,6 +1,5 @@
 """Time set-up and solution of every device in one process, each step repeated, and write medians and spreads."""
 
-import csv
 import resource
 import statistics
 import time
@@ -15,6 +14,7 @@ from fingerpad.roughness import score_rows
 from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution, solve_condition
+from fingerpad.store import write_rows
 
 MEBIBYTE = 1024.0  # KiB in one; the system counts peak memory in KiB
 
@@ -70,10 +70,7 @@ def main(config: Path, devices: list[Path], repeats: int, timings: Path) -> None
                     "peak_MiB_so_far": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MEBIBYTE),
                 }
             )
-    with timings.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(timings, rows)
 
 
 if __name__ == "__main__":
