@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fingerpad.elasticity import displacement_basis
-from fingerpad.errors import MeshError
+from fingerpad.errors import MeshError, SceneError
 from fingerpad.mesh import load_section, mesh_section, mesh_strip, save_section
 from scenes import scene, section
 
@@ -92,6 +92,13 @@ def test_strip_mirrors_and_is_fine_at_its_ends() -> None:
     assert x[2] - x[0] <= base.model.numerics.edge_size * (1.0 + 1e-12)
     with pytest.raises(MeshError, match="rigid"):
         mesh_strip(scene("device1").device.actuators, base.model.numerics)
+
+
+def test_a_nail_around_the_finger_is_refused() -> None:
+    """The nail must leave a pad; the message says how much it may take."""
+    finger = scene("device2").model.finger
+    with pytest.raises(SceneError, match=r"nail_width 30 mm must be less than half the outline, 22\.8 mm"):
+        replace(finger, nail_width=30.0)
 
 
 def test_other_layers_and_outlines_mesh_too() -> None:

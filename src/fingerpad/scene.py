@@ -125,6 +125,12 @@ class Finger:
             f"finger: the layers leave no bone: pad {self.pad_thickness:g} mm + dorsal {self.dorsal_thickness:g} mm"
             f" >= height {self.height:g} mm",
         )
+        half_outline = math.pi * (self.width + self.height) / 4.0
+        _require(
+            self.nail_width < half_outline,
+            f"finger: nail_width {self.nail_width:g} mm must be less than half the outline, {half_outline:.1f} mm:"
+            " the pad is the rest",
+        )
         offset = self.parallel_depth
         smallest_radius = min(self.height**2 / self.width, self.width**2 / self.height) / 2.0
         _require(
