@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from blocks import block, block_problem, graded, lift
-from fingerpad.contact import ContactProblem, ContactState, Status, follow, rest, touching_height
+from fingerpad.contact import ContactProblem, ContactState, Status, rest, touching_height
 from fingerpad.errors import ContactError
+from fingerpad.path import follow
 from fingerpad.scene import ActuatorRow, FloatArray, Material
 
 HALF_PLANE = 60.0  # mm; contact is 1 mm wide: its local field sees the far boundary by less than (1/60)^2

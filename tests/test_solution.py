@@ -114,7 +114,7 @@ def test_normal_and_lateral_histories_combine() -> None:
     tangential = np.array([[0.01, 0.0, 0.0, 0.0], [0.0, 0.0, -0.01, 0.0], [0.02, 0.0, 0.0, 0.0]])
     solution = solve("device2", Condition("free", "test", 0.0, time, normal, tangential), Interface.SHEAR)
     problem = contact_problem(scene("device2"), *condensed("device2"), Interface.SHEAR)
-    pressed = [solution.force[-1][problem.actuator_of() == pin, 1].sum() for pin in range(4)]
+    pressed = [solution.force[-1][problem.actuator_of == pin, 1].sum() for pin in range(4)]
     assert solution.force.shape[0] == 3
     assert pressed[3] == 0.0
     assert min(pressed[:3]) > 0.01

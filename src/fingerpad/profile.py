@@ -30,5 +30,5 @@ def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     on_circle = np.minimum(beyond, wall)
     root = np.sqrt(radius**2 - on_circle**2)
     steepness = on_circle / root
-    drop = radius - root + (beyond - on_circle) * steepness
+    drop = on_circle**2 / (radius + root) + (beyond - on_circle) * steepness  # r - root without its cancellation
     return drop, np.sign(x) * steepness

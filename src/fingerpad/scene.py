@@ -383,14 +383,27 @@ class Numerics:
 
 
 @dataclass(frozen=True)
+class Skips:
+    """What a scene may skip; each switch turns one saving off for comparison (docs/skipping.md).
+
+    mirrored_half: pre-indentation of a row that mirrors solves one half. frictionless_path: without friction the path
+    leaves no trace, so it is followed in a few increments.
+    """
+
+    mirrored_half: bool
+    frictionless_path: bool
+
+
+@dataclass(frozen=True)
 class Model:
-    """Everything but the device: finger, contact, filter, read-out and numerics."""
+    """Everything but the device: finger, contact, filter, read-out, numerics and what is skipped."""
 
     finger: Finger
     contact: ContactLaw
     gabor: GaborFilter
     readout: ReadoutRule
     numerics: Numerics
+    skips: Skips
 
     def __post_init__(self) -> None:
         names = [layer.name for layer in self.finger.pad[:-1]]

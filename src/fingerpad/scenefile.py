@@ -31,6 +31,7 @@ from .scene import (
     ReadoutRule,
     Scene,
     Side,
+    Skips,
 )
 
 CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; source: 16 per period, linear between
@@ -102,6 +103,7 @@ def build_model(config: dict[str, Any]) -> Model:
         GaborFilter(**_values(config["filter"])),
         ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
         Numerics(**_values(config["numerics"])),
+        Skips(**_values(config["skips"])),
     )
 
 

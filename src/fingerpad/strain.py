@@ -30,9 +30,9 @@ def receptor_readouts(strain_map: FloatArray, indented: FloatArray, actuated: Fl
     (n_times, n, 2) forces along the stimulus. Of several times the one is read at which the strain has changed most
     (largest root mean square): the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
     """
-    before = maximum_principal(strain_map @ indented.ravel())
-    strains = np.array([maximum_principal(strain_map @ force.ravel()) for force in actuated])
-    changes = strains - before
+    forces = np.stack([indented, *actuated]).reshape(1 + len(actuated), -1)
+    before, *strains = (maximum_principal(components) for components in forces @ strain_map.T)
+    changes = [strain - before for strain in strains]
     peak = int(np.argmax(np.linalg.norm(changes, axis=1)))
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 

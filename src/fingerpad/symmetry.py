@@ -11,7 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .contact import ContactProblem, ContactState, Status, indent
+from .contact import ContactProblem, ContactState, Status
+from .indentation import indent
 from .scene import Criterion
 
 MIRROR = np.array([-1.0, 1.0])  # of the components x and y
@@ -19,7 +20,7 @@ MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Sta
 
 
 def indent_by_halves(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
-    """`contact.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
+    """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
     if not mirrors(problem):
         return indent(problem, criterion, increments, limit)
     return _unfolded(indent(_folded(problem), criterion, increments, limit))
@@ -66,6 +67,8 @@ def _unfolded(state: ContactState) -> ContactState:
         status=np.concatenate([MIRRORED_STATUS[state.status[::-1]], state.status]),
         place=np.concatenate([-state.place[::-1], state.place]),
         gap=np.concatenate([state.gap[::-1], state.gap]),
+        heading=np.concatenate([state.heading[::-1] * MIRROR, state.heading]),
         drift=np.concatenate([state.drift[::-1] * MIRROR, state.drift]),
+        trend=np.concatenate([state.trend[::-1] * MIRROR, state.trend]),
         dissipation=2.0 * state.dissipation,
     )

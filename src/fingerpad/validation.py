@@ -39,7 +39,7 @@ FACTORS: Mapping[tuple[str, str], float] = {
 }
 WORDS: Mapping[str, str] = {
     **{"object": "a mapping", "array": "a list", "string": "text"},
-    **{"number": "a finite number", "integer": "a whole number"},
+    **{"number": "a finite number", "integer": "a whole number", "boolean": "true or false"},
     **{"minimum": ">= {}", "exclusiveMinimum": "> {}", "maximum": "<= {}", "exclusiveMaximum": "< {}"},
     **{"minItems": "at least {} long", "maxItems": "at most {} long", "uniqueItems": "without repeats"},
     **{"minLength": "at least {} long", "maxLength": "at most {} long", "minProperties": "at least {} long"},

@@ -23,6 +23,7 @@ rule solve:
             scene_of(w).device.actuators,
             scene_of(w).model.contact,
             scene_of(w).model.numerics,
+            scene_of(w).model.skips,
             support.path_of(condition_of(w)),
         ),
     script:

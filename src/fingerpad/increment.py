@@ -1,0 +1,420 @@
+"""One increment of a path: a semismooth Newton method in the form of a primal-dual active set.
+
+Every node is open, sticks or slips; the equations of that state are solved; forces and gaps then decide the next
+state (Alart and Curnier 1991; Christensen et al. 1998; Hueeber and Wohlmuth 2005). What the states prescribe are
+displacements: both components of a node that sticks, the one along the profile of a node that slips. So the equations
+are written with the stiffness K = C^-1 of a patch: the nodes in contact, and some that soon may be. Of the patch's
+forces f = K u only few unknowns remain,
+    slip:  f_x + z mu f_y = 0   for q_x, with u_y = -(y0 + d(q_x)) following the profile; z the sign of slip
+    open:  f_x = f_y = 0        for u_x and u_y
+and a change of state costs a small dense system, while K serves until contact leaves the patch.
+
+If states do not settle, steps are damped by a line search and one node at a time changes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .contact import ContactProblem, ContactState, Face, Status, displacement, faces, unloaded
+from .profile import profile
+from .scene import FloatArray
+
+MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: usual count is 2-6 (measured)
+SIMULTANEOUS = 12  # iterations in which all nodes may change state at once [1]; after that, the worst one alone
+MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is below any step that was ever needed
+SETTLED = 1e-6  # relative residual [1] below which forces are good enough to judge a single node's state
+EACH = 0.01  # share [1] of the tolerance for each force, as errors add up in a gap; source: some 100 nodes
+FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
+STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; source: rounding
+
+OPEN, STICK, SLIP_FORWARD = int(Status.OPEN), int(Status.STICK), int(Status.SLIP_FORWARD)
+SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
+
+
+class NotConvergedError(Exception):
+    """An increment did not converge: it is to be halved."""
+
+    def __init__(self, residual: float) -> None:
+        super().__init__(residual)
+        self.residual = residual
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Contact nodes (b,) by ascending index and the stiffness K (2b, 2b) [N/mm per mm] of skin and faces between them,
+    ordered x0, x1, ..., y0, y1, ...
+    """
+
+    nodes: np.ndarray
+    stiffness: FloatArray
+
+
+@dataclass(frozen=True)
+class _Increment:
+    """What does not change while one increment is solved, of the patch's nodes.
+
+    origin: (2, b) unloaded nodes from their actuator [mm]. bias: (2b,) displacements [mm] that take no force.
+    gap_scale: [mm]. force_floor: [N/mm], the rounding of forces over the tolerance.
+    """
+
+    problem: ContactProblem
+    patch: Patch
+    origin: FloatArray
+    bias: FloatArray
+    gap_scale: float
+    force_floor: float
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Displacements (2b,) [mm] of the patch's nodes and the forces (2b,) [N/mm] they take, ordered x0, x1, ..., y0, y1,
+    ...; places (b,), gaps (b,) [mm], slopes (b,) [1] of the profile there.
+    """
+
+    moved: FloatArray
+    force: FloatArray
+    place: FloatArray
+    gap: FloatArray
+    slope: FloatArray
+
+
+def solve_increment(
+    problem: ContactProblem, start: ContactState, actuator: FloatArray, patch: Patch | None
+) -> tuple[ContactState, Patch]:
+    """The state with the actuators at `actuator` (n_actuators, 2) [mm], and the patch it was found with.
+
+    patch: one from earlier on this path, which serves if contact can still lie within it. Raises NotConvergedError.
+    """
+    length = float(np.abs(actuator - start.actuator).max())
+    heading = (actuator - start.actuator) / length
+    straight = bool(np.abs(heading - start.heading).max() < STRAIGHT)
+    status, ahead = _foreseen(problem, start, length, straight)
+    reference = start.place + _drifted(start, length) if straight else start.place.copy()
+    gap_scale = length + float(np.abs(actuator).max())
+    origin = unloaded(problem, actuator)
+    needed = np.flatnonzero(status != OPEN)
+    if needed.size == 0:
+        needed = np.array([int(np.argmin(start.gap - heading[problem.actuator_of, 1] * length))])
+    # faces give way where the last increment promises that the skin will be
+    guess = start.place + start.drift[:, 0] * length if straight else start.place
+    body = faces(problem, guess)
+    if body:
+        patch = None
+    iterations, residual, bias = 0, float("inf"), None
+    while iterations < MAX_ITERATIONS:
+        if patch is None or not np.isin(needed, patch.nodes).all():
+            patch, bias = _patch(problem, np.union1d(needed, np.flatnonzero(ahead)), body), None
+        nodes = patch.nodes
+        bias = np.zeros(2 * nodes.size) if bias is None else bias
+        increment = _Increment(problem, patch, origin[nodes].T, bias, gap_scale, _rounding(problem, patch, gap_scale))
+        trial, status_there, count = _settle(increment, start, guess[nodes], status[nodes], reference, iterations)
+        iterations += count
+        force = np.zeros((status.size, 2))
+        force[nodes] = trial.force.reshape(2, -1).T
+        status = np.full(status.size, OPEN)
+        status[nodes] = status_there
+        moved = displacement(problem, force, body)
+        place = origin[:, 0] + moved[:, 0]
+        gap = origin[:, 1] + moved[:, 1] + profile(problem.row, place)[0]
+        guess = place
+        missed = (status == OPEN) & (gap < -problem.tolerance * gap_scale)
+        missed[nodes] = False
+        if missed.any():
+            _touch(reference, start, place, gap, missed)
+            status[missed] = _touched(problem)
+            needed, ahead = np.flatnonzero(status != OPEN), ahead | missed
+            continue
+        left = _residuals(problem, gap_scale, force.T.ravel(), place - reference, gap, status)
+        residual = float(np.abs(left).max(initial=0.0))
+        if residual <= problem.tolerance:
+            slip = np.where(status > STICK, place - reference, 0.0)
+            state = ContactState(
+                actuator,
+                force,
+                status,
+                place,
+                gap,
+                heading,
+                np.stack([place - start.place, gap - start.gap], axis=1) / length,
+                (force - start.force) / length,
+                start.dissipation - float(force[:, 0] @ slip),
+                max(start.residual, residual),
+                start.iterations + iterations,
+                start.cuts,
+            )
+            return state, patch
+        bias = bias + moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left: once more
+    raise NotConvergedError(residual)
+
+
+def _foreseen(
+    problem: ContactProblem, start: ContactState, length: float, straight: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """States (n,) that the last increment promises for this one, and the nodes (n,) that a patch should hold.
+
+    Where the path turns, all that was in contact sticks first: friction opposes the new direction from zero slip.
+    """
+    status = start.status.copy()
+    if not straight:
+        if problem.friction > 0.0:
+            status[status > STICK] = STICK
+        return status, (status != OPEN) | (start.gap < FORESIGHT * length)
+    closing = start.gap + start.drift[:, 1] * length < 0.0
+    force = start.force + start.trend * length
+    opening = (status != OPEN) & (force[:, 1] < 0.0)
+    sliding = (status == STICK) & (np.abs(force[:, 0]) > problem.friction * force[:, 1])
+    status[sliding] = np.where(force[sliding, 0] < 0.0, SLIP_FORWARD, int(Status.SLIP_BACKWARD))
+    status[(status == OPEN) & closing] = _touched(problem)
+    status[opening] = OPEN
+    ahead = (status != OPEN) | (start.gap + FORESIGHT * start.drift[:, 1] * length < 0.0)
+    return status, ahead
+
+
+def _touched(problem: ContactProblem) -> int:
+    """State in which a node begins its contact; without friction all slip is alike."""
+    return STICK if problem.friction > 0.0 else SLIP_FORWARD
+
+
+def _drifted(start: ContactState, length: float) -> FloatArray:
+    """Way (n,) [mm] along x that a node goes before it touches, which is no slip: zero for nodes in contact.
+
+    An open node touches at the fraction of the increment at which its gap, extrapolated from the last increment,
+    vanishes.
+    """
+    closing = -start.drift[:, 1] * length
+    with np.errstate(divide="ignore", invalid="ignore"):
+        fraction = np.where(closing > 0.0, np.clip(start.gap / closing, 0.0, 1.0), 0.0)
+    return np.where(start.status == OPEN, fraction * start.drift[:, 0] * length, 0.0)
+
+
+def _touch(reference: FloatArray, start: ContactState, place: FloatArray, gap: FloatArray, nodes: np.ndarray) -> None:
+    """Set the slip reference of nodes (n,) not foreseen: they touch on their way to `place` and `gap` (n,) [mm]."""
+    came = nodes & (start.status == OPEN)
+    fraction = np.clip(start.gap[came] / (start.gap[came] - gap[came]), 0.0, 1.0)
+    reference[came] = start.place[came] + fraction * (place[came] - start.place[came])
+
+
+def _patch(problem: ContactProblem, nodes: np.ndarray, body: list[Face]) -> Patch:
+    """Stiffness of some nodes, all other nodes unloaded. Raises NotConvergedError if their compliance is singular."""
+    unknowns = np.concatenate([nodes, problem.position.shape[0] + nodes])
+    compliance = problem.by_component.take(unknowns, 0).take(unknowns, 1)
+    for face in body:
+        _, here, there = np.intersect1d(nodes, face.nodes, assume_unique=True, return_indices=True)
+        rows = np.concatenate([here, nodes.size + here])
+        own = np.concatenate([there, face.nodes.size + there])
+        compliance[np.ix_(rows, rows)] += face.compliance[np.ix_(own, own)]
+    held = np.flatnonzero(np.diag(compliance) == 0.0)
+    compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
+    try:
+        return Patch(nodes, _inverse(compliance))
+    except np.linalg.LinAlgError:
+        raise NotConvergedError(float("inf")) from None
+
+
+def _rounding(problem: ContactProblem, patch: Patch, gap_scale: float) -> float:
+    """Force [N/mm] whose tolerance is what rounding leaves of K u where all forces vanish."""
+    return float(np.finfo(float).eps * np.abs(np.diag(patch.stiffness)).max() * gap_scale / problem.tolerance)
+
+
+def _inverse(matrix: FloatArray) -> FloatArray:
+    """Inverse of a symmetric positive definite matrix (n, n) by halves: three fifths of the time of a general one."""
+    half = matrix.shape[0] // 2
+    across = matrix[:half, half:]
+    first = np.linalg.inv(matrix[:half, :half])
+    carried = first @ across
+    second = np.linalg.inv(matrix[half:, half:] - across.T @ carried)
+    back = carried @ second
+    return np.block([[first + back @ carried.T, -back], [-back.T, second]])
+
+
+def _settle(
+    increment: _Increment,
+    start: ContactState,
+    guess: FloatArray,
+    status: np.ndarray,
+    reference: FloatArray,
+    done: int,
+) -> tuple[_Trial, np.ndarray, int]:
+    """Trial and states (b,) that agree, and the iterations it took; sets references (n,) of nodes that touch.
+
+    guess: places (b,) [mm] to begin with. Raises NotConvergedError after MAX_ITERATIONS, those `done` before included.
+    """
+    problem, nodes = increment.problem, increment.patch.nodes
+    moved = np.concatenate([guess - increment.origin[0], np.zeros(nodes.size)])
+    trial = _at(increment, moved, status, reference[nodes])
+    released = np.zeros(nodes.size, dtype=bool)
+    residual = float("inf")
+    for iteration in range(MAX_ITERATIONS - done):
+        step = _newton_step(increment, trial, status)
+        if step is None:
+            break
+        settling = iteration >= SIMULTANEOUS
+        trial = (_searched if settling else _stepped)(increment, trial, step, status, reference[nodes])
+        slip = trial.place - reference[nodes]
+        following = _next_status(increment, trial, slip, status, released)
+        changed = np.flatnonzero(following != status)
+        left = np.abs(_cone(problem, trial.force, status, increment.force_floor))
+        before, residual = residual, float(left.max(initial=0.0))
+        if changed.size == 0:
+            # a residual that one more step did not lower is rounding
+            if residual <= EACH * problem.tolerance or before <= residual <= problem.tolerance:
+                return _obeying(problem, trial, status), status, iteration + 1
+        elif settling:
+            if residual > SETTLED:
+                continue
+            changed = changed[[int(np.argmax(_violation(increment, trial, slip, status)[changed]))]]
+        opened = following[changed] == OPEN
+        touching = changed[(status[changed] == OPEN) & ~released[changed]]
+        status = status.copy()
+        status[changed] = following[changed]
+        released[changed[opened]] = True
+        if touching.size:
+            _touch_there(reference, start, nodes, trial, touching)
+        trial = _at(increment, trial.moved, status, reference[nodes])
+    raise NotConvergedError(residual)
+
+
+def _touch_there(
+    reference: FloatArray, start: ContactState, nodes: np.ndarray, trial: _Trial, touching: np.ndarray
+) -> None:
+    """Set the slip reference (n,) of the patch's nodes that touch now."""
+    place, gap = start.place.copy(), start.gap.copy()
+    place[nodes], gap[nodes] = trial.place, trial.gap
+    mask = np.zeros(start.place.size, dtype=bool)
+    mask[nodes[touching]] = True
+    _touch(reference, start, place, gap, mask)
+
+
+def _at(increment: _Increment, moved: FloatArray, status: np.ndarray, reference: FloatArray) -> _Trial:
+    """The trial in which nodes that stick lie at their reference (b,), nodes in contact on the profile."""
+    x, y = increment.origin
+    count = status.size
+    place = np.where(status == STICK, reference, x + moved[:count])
+    drop, slope = profile(increment.problem.row, place)
+    touching = -(y + drop)
+    height = np.where(status == OPEN, moved[count:], touching)
+    moved = np.concatenate([place - x, height])
+    return _Trial(moved, increment.patch.stiffness @ (moved - increment.bias), place, height - touching, slope)
+
+
+def _newton_step(increment: _Increment, trial: _Trial, status: np.ndarray) -> FloatArray | None:
+    """Change (2b,) [mm] of the displacements in one Newton step within the given states; None if it is singular."""
+    stiffness, force, count = increment.patch.stiffness, trial.force, status.size
+    slip, open_ = np.flatnonzero(status > STICK), np.flatnonzero(status == OPEN)
+    unknown = np.concatenate([slip, open_, count + open_])
+    pressing = count + slip
+    # the stiffness is symmetric: its rows, which lie in memory one after the other, serve as columns
+    columns = stiffness.take(unknown, 0)
+    columns[: slip.size] -= trial.slope[slip, None] * stiffness.take(pressing, 0)
+    transposed = columns.take(unknown, 1)
+    right = -force[unknown]
+    if increment.problem.friction > 0.0:
+        drag = SLIP_SIGN[status[slip]] * increment.problem.friction
+        transposed[:, : slip.size] += drag * columns.take(pressing, 1)
+        right[: slip.size] -= drag * force[pressing]
+    try:
+        change = np.linalg.solve(transposed.T, right)
+    except np.linalg.LinAlgError:
+        return None
+    if not np.all(np.isfinite(change)):
+        return None
+    step = np.zeros(2 * count)
+    step[unknown] = change
+    return step
+
+
+def _stepped(
+    increment: _Increment, trial: _Trial, step: FloatArray, status: np.ndarray, reference: FloatArray
+) -> _Trial:
+    """The trial after a whole step."""
+    return _at(increment, trial.moved + step, status, reference)
+
+
+def _searched(
+    increment: _Increment, trial: _Trial, step: FloatArray, status: np.ndarray, reference: FloatArray
+) -> _Trial:
+    """The first point on the way back from `step` to `trial` where the residuals have become smaller."""
+    before = np.linalg.norm(_cone(increment.problem, trial.force, status, increment.force_floor))
+    for halvings in range(MAX_HALVINGS + 1):
+        there = _at(increment, trial.moved + step / 2.0**halvings, status, reference)
+        if np.linalg.norm(_cone(increment.problem, there.force, status, increment.force_floor)) < before:
+            break
+    return there
+
+
+def _obeying(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> _Trial:
+    """The trial with the forces that the states prescribe, to the last bit."""
+    shearing, pressing = np.where(status == OPEN, 0.0, trial.force.reshape(2, -1))
+    shearing = np.where(status > STICK, -SLIP_SIGN[status] * problem.friction * pressing, shearing)
+    return replace(trial, force=np.concatenate([shearing, pressing]))
+
+
+def _cone(problem: ContactProblem, force: FloatArray, status: np.ndarray, floor: float) -> FloatArray:
+    """Residuals of slipping and open nodes' equations [1], of forces (2n,) [N/mm]: over the largest."""
+    shearing, pressing = force.reshape(2, -1)
+    open_ = status == OPEN
+    excess = (shearing + SLIP_SIGN[status] * problem.friction * pressing)[status > STICK]
+    return np.concatenate([excess, shearing[open_], pressing[open_]]) / _largest(force, floor)
+
+
+def _residuals(
+    problem: ContactProblem,
+    gap_scale: float,
+    force: FloatArray,
+    slip: FloatArray,
+    gap: FloatArray,
+    status: np.ndarray,
+) -> FloatArray:
+    """Residuals of all equations [1]: gaps and slips over the load, forces over the largest."""
+    return np.concatenate(
+        [gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, _cone(problem, force, status, 0.0)]
+    )
+
+
+def _largest(force: FloatArray, floor: float) -> float:
+    """Largest nodal force component [N/mm], or the floor; never zero."""
+    return max(float(np.abs(force).max(initial=0.0)), floor, np.finfo(float).tiny)
+
+
+def _next_status(
+    increment: _Increment, trial: _Trial, slip: FloatArray, status: np.ndarray, released: np.ndarray
+) -> np.ndarray:
+    """State (b,) that forces, gaps and slips ask for; what lies within the tolerance asks for nothing.
+
+    A node that touches sticks, unless it was released before in this increment (b,): then it was pulled along the
+    face, and slips the way it went.
+    """
+    problem = increment.problem
+    shearing, pressing = trial.force.reshape(2, -1)
+    small_force = problem.tolerance * _largest(trial.force, increment.force_floor)
+    small_gap = problem.tolerance * increment.gap_scale
+    following = status.copy()
+    following[(status != OPEN) & (pressing < -small_force)] = OPEN
+    touching = (status == OPEN) & (trial.gap < -small_gap)
+    following[touching] = _touched(problem)
+    if problem.friction > 0.0:
+        again = touching & released
+        following[again] = np.where(slip[again] > 0.0, SLIP_FORWARD, int(Status.SLIP_BACKWARD))
+        limit = problem.friction * pressing + small_force
+        stick = (status == STICK) & (following == STICK)
+        # the skin is dragged towards +x where the actuator's shear on it would point to -x beyond the limit
+        following[stick & (shearing < -limit)] = SLIP_FORWARD
+        following[stick & (shearing > limit)] = int(Status.SLIP_BACKWARD)
+        back = SLIP_SIGN[status] * slip < -small_gap
+        following[back & (following == status)] = STICK
+    return following
+
+
+def _violation(increment: _Increment, trial: _Trial, slip: FloatArray, status: np.ndarray) -> FloatArray:
+    """How far (b,) [mm] each node is beyond its state: gaps and slips as such, forces as the motion they cause."""
+    friction = increment.problem.friction
+    shearing, pressing = trial.force.reshape(2, -1)
+    along, across = 1.0 / np.diag(increment.patch.stiffness).reshape(2, -1)
+    tension = np.maximum(-pressing, 0.0) * across
+    excess = np.maximum(np.abs(shearing) - friction * np.maximum(pressing, 0.0), 0.0) * along
+    reverse = np.maximum(-SLIP_SIGN[status] * slip, 0.0) * (friction > 0.0)
+    in_contact = np.maximum(tension, np.where(status == STICK, excess, reverse))
+    return np.where(status == OPEN, np.maximum(-trial.gap, 0.0), in_contact)

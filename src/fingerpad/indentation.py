@@ -1,0 +1,90 @@
+"""Pre-indentation: the actuators rise together until they are in contact as the criterion asks."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .contact import ContactProblem, ContactState, Status, rest, touching_height
+from .errors import ContactError
+from .path import advance
+from .profile import profile
+from .scene import Criterion, FloatArray
+
+END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
+END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: 1e-4 of the indentation
+
+
+def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
+    """Raise all actuators together until the criterion holds.
+
+    FULL: contact reaches both ends of every flat face. TOUCH: every actuator carries some skin. increments: number for
+    the way from first touch to where the undeformed skin over the outermost face would lie. limit: largest
+    indentation [mm].
+
+    Raises ContactError if the criterion is not met within the limit.
+    """
+    touch = touching_height(problem)
+    state = rest(problem, touch)
+    patch = None
+    over_face = np.abs(state.place) <= problem.row.half_face
+    stride = (float(problem.position[over_face, 1].max()) - touch) / increments
+    missing, step = _missing(problem, state, criterion), stride
+    beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
+    weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
+    while missing > END_TOLERANCE:
+        height = float(state.actuator[0, 1]) + step
+        if height - touch > limit:
+            raise ContactError(
+                f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm:"
+                f" {missing:.3g} mm are missing at {height - step - touch:.3g} mm"
+            )
+        target = state.actuator.copy()
+        target[:, 1] = height
+        advanced, patch = advance(problem, state, target, 1, patch)
+        left = _missing(problem, advanced, criterion)
+        if left < -END_TOLERANCE and step > END_STEP:
+            weight = weight / 2.0 if beyond else 1.0
+            beyond = height, left  # too far: again from the same state
+        else:
+            closed = (missing - left) / step if np.isfinite(missing) else 0.0
+            state, missing = advanced, left
+            step = min(stride, left / closed) if closed > 0.0 else stride
+            weight = 2.0 * weight
+        if beyond:
+            step = (beyond[0] - float(state.actuator[0, 1])) * weight * missing / (weight * missing - beyond[1])
+    return state
+
+
+def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion) -> float:
+    """What the criterion still waits for [mm]: face that is not covered, or gap that is not closed; < 0 beyond."""
+    index = problem.actuator_of
+    actuators = [np.flatnonzero(index == number) for number in range(len(problem.row.positions))]
+    if criterion is Criterion.TOUCH:
+        return max(
+            0.0 if np.any(state.status[nodes] != Status.OPEN) else float(state.gap[nodes].min()) for nodes in actuators
+        )
+    height = state.gap - profile(problem.row, state.place)[0]
+    touching = state.status != Status.OPEN
+    covered = min(
+        _front(direction * state.place[nodes], height[nodes], touching[nodes])
+        for left_to_right in actuators
+        for direction, nodes in ((1.0, left_to_right), (-1.0, left_to_right[::-1]))
+    )
+    return problem.row.half_face - covered
+
+
+def _front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
+    """Place [mm] up to which one actuator's skin is in contact in the direction of ascending place (n,).
+
+    Where skin leaves a flat face its height grows with distance to the power 3/2 (Hertz), so the front is where
+    height^(2/3) of the first two open nodes extrapolates to zero: smooth in the load, though nodes close one by one.
+    """
+    closed = np.flatnonzero(active)
+    if closed.size == 0:
+        return float("-inf")  # not even touched
+    last = int(closed[-1])
+    near, far = np.maximum(height[last + 1 : last + 3], 0.0) ** (2.0 / 3.0) if last + 2 < place.size else (0.0, 0.0)
+    if far <= near:
+        return float(place[min(last + 1, place.size - 1)])
+    beyond = (place[last + 2] - place[last + 1]) * near / (far - near)
+    return float(max(place[last + 1] - beyond, place[last]))

@@ -1,0 +1,55 @@
+"""A path of contact: increments in a straight line, halved where they do not converge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .contact import ContactProblem, ContactState
+from .errors import ContactError
+from .increment import NotConvergedError, Patch, solve_increment
+from .scene import FloatArray
+
+
+def follow(
+    problem: ContactProblem, state: ContactState, target: FloatArray, increments: int, patch: Patch | None = None
+) -> ContactState:
+    """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
+
+    Raises ContactError if an increment does not converge after problem.max_cuts halvings.
+    """
+    return advance(problem, state, target, increments, patch)[0]
+
+
+def advance(
+    problem: ContactProblem, state: ContactState, target: FloatArray, increments: int, patch: Patch | None
+) -> tuple[ContactState, Patch | None]:
+    """`follow` that starts from a patch already condensed, if there is one, and gives the last one back."""
+    start = state.actuator
+    if np.array_equal(start, target):
+        return state, patch
+    done, step = 0.0, 1.0 / increments
+    smallest = step / 2.0**problem.max_cuts
+    while done < 1.0:
+        goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
+        try:
+            state, patch = solve_increment(problem, state, start + goal * (target - start), patch)
+            done = goal
+            step = min(2.0 * step, 1.0 / increments)
+        except NotConvergedError as failure:
+            step /= 2.0
+            state = replace(state, cuts=state.cuts + 1)
+            if step < smallest:
+                raise ContactError(
+                    f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
+                    f" increment {int(done * increments) + 1}/{increments} halved {problem.max_cuts} times, residual"
+                    f" {failure.residual:.1e} > {problem.tolerance:.0e}; try more increments or a finer mesh at the"
+                    " actuators' edges"
+                ) from failure
+    return state, patch
+
+
+def _located(actuator: FloatArray) -> str:
+    """Where the actuators stand, in few words: (x, y) of the first."""
+    return f"({actuator[0, 0]:.4g}, {actuator[0, 1]:.4g})"
