@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,13 +35,6 @@ class Block:
     unknowns: int
 
 
-def graded(length: float, fine: float, growth: float) -> FloatArray:
-    """Coordinates [mm] from 0 to `length`; the first step is at most `fine`, each further one 1 + growth times wider."""
-    count = int(np.ceil(np.log1p(growth * length / fine) / np.log1p(growth)))
-    distance = np.expm1(np.arange(count + 1) * np.log1p(growth))
-    return np.asarray(length * distance / distance[-1])
-
-
 def block_mesh(x: FloatArray, y: FloatArray) -> MeshTri2:
     """Second-order triangles on a tensor grid from x = 0, and their mirror image at x < 0; x and y ascending."""
     return _mirrored(MeshTri.init_tensor(x, y))
@@ -52,15 +46,25 @@ def half_plane_mesh(spacing: float, edge_spacing: float) -> MeshTri2:
     Elements on the face are at most `spacing` [mm] long in contact and at most `edge_spacing` at its edges,
     x = +-HALF_WIDTH, which are vertices; they grow from there.
     """
-    half = MeshTri.init_tensor(np.array([0.0, FAR]), np.array([0.0, FAR]))
-    while True:
-        corners = half.p[:, half.t]
-        size = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
-        x, y = corners.mean(axis=1)
+
+    def size(x: FloatArray, y: FloatArray) -> FloatArray:
         to_face = np.hypot(np.maximum(x - HALF_WIDTH, 0.0), y)
         to_edge = np.hypot(x - HALF_WIDTH, y)
-        wanted = DIAGONAL * np.minimum(spacing + GROWTH * to_face, edge_spacing + GROWTH * to_edge)
-        marked = np.flatnonzero(size > wanted * (1.0 + SLACK))
+        return np.asarray(np.minimum(spacing + GROWTH * to_face, edge_spacing + GROWTH * to_edge))
+
+    return refined_block(np.array([0.0, FAR]), np.array([0.0, FAR]), size)
+
+
+def refined_block(x: FloatArray, y: FloatArray, size: Callable[[FloatArray, FloatArray], FloatArray]) -> MeshTri2:
+    """Second-order triangles that keep the lines of a tensor grid from x = 0, and their mirror image at x < 0.
+
+    Triangles are halved until their legs are at most `size` (n,) [mm] at their centres x, y (n,) [mm].
+    """
+    half = MeshTri.init_tensor(x, y)
+    while True:
+        corners = half.p[:, half.t]
+        longest = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
+        marked = np.flatnonzero(longest > DIAGONAL * size(*corners.mean(axis=1)) * (1.0 + SLACK))
         if marked.size == 0:
             return _mirrored(half)
         half = half.refined(marked)

@@ -9,6 +9,8 @@ import numpy as np
 
 from ..scene import FloatArray
 
+ORDER_OF = "order, "  # before the name of a quantity whose error falls with it
+
 
 @dataclass(frozen=True)
 class Comparison:

@@ -29,18 +29,15 @@ def bulk(poisson: float) -> list[Comparison]:
     basis = displacement_basis(mesh)
     dofs = node_dofs(basis)
     matrix = stiffness(basis, [Material(1.0, poisson)], np.zeros(mesh.t.shape[1], dtype=int))
-    exact = GRADIENT @ mesh.doflocs
     field = np.zeros(basis.N)
-    field[dofs] = exact
+    field[dofs] = GRADIENT @ mesh.doflocs
     field = solved(matrix, field, basis.get_dofs().all(), np.zeros(basis.N))
     _, strain = facet_strain(mesh, np.arange(mesh.facets.shape[1]), mesh.f2t[0])
     wanted = np.array([GRADIENT[0, 0], GRADIENT[1, 1], GRADIENT[0, 1] + GRADIENT[1, 0]])
     found = strain @ field
-    case, grid = f"bulk patch, nu = {poisson:g}", (1.0 / DIVISIONS, int(basis.N))
-    return [
-        compare(case, "displacement", grid, field[dofs].ravel(), exact.ravel(), ROUNDING),
-        compare(case, "strain", grid, found, np.tile(wanted, found.size // wanted.size), ROUNDING),
-    ]
+    mesh_size = 1.0 / DIVISIONS, int(basis.N)
+    exact = np.tile(wanted, found.size // wanted.size)
+    return [compare("patch tests", f"strain, nu = {poisson:g}", mesh_size, found, exact, ROUNDING)]
 
 
 def contact() -> list[Comparison]:
@@ -51,7 +48,7 @@ def contact() -> list[Comparison]:
     pressure = pressed(block.problem, depth, 1).force[:, 1] / block.weight
     lam, mu = lame(SOFT)
     exact = np.full(pressure.size, (lam + 2.0 * mu) * depth / height)
-    return [compare("contact patch", "pressure", (1.0 / divisions, block.unknowns), pressure, exact, ROUNDING)]
+    return [compare("patch tests", "contact pressure", (1.0 / divisions, block.unknowns), pressure, exact, ROUNDING)]
 
 
 def solved(matrix: csc_matrix, field: FloatArray, held: np.ndarray, load: FloatArray) -> FloatArray:
@@ -59,7 +56,7 @@ def solved(matrix: csc_matrix, field: FloatArray, held: np.ndarray, load: FloatA
     free = np.setdiff1d(np.arange(field.size), held)
     answer = field.copy()
     right = load - matrix[:, held] @ field[held]
-    answer[free] = spsolve(matrix[free][:, free].tocsc(), right[free])
+    answer[free] = spsolve(matrix[free][:, free].tocsc(), right[free], permc_spec="MMD_AT_PLUS_A")
     return answer
 
 

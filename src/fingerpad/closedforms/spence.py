@@ -21,15 +21,14 @@ from scipy.special import ellipk, ellipkm1
 
 from ..contact import ContactProblem, Status
 from ..scene import FloatArray
-from .blocks import HALF_WIDTH, graded, pressed
+from .blocks import HALF_WIDTH, pressed
 from .comparison import Comparison, compare, refined
-from .punch import DEPTH, SPACINGS, punched
+from .punch import DEPTH, punched
 
 CASES = ((0.3, 0.2), (0.0, 0.4))  # Poisson's ratio and friction [1]: weak coupling and the strongest, both half stuck
 FRONT_NODES = 4  # nodes next to the front from which it is extrapolated [1]
-# The front is found to a share of the distance between nodes, half an element: a quarter of that distance at SPACINGS'
-# last is 0.5 % of the smallest c
-TOLERANCE = 0.005  # [1]
+SPACINGS = (1 / 32, 1 / 64, 1 / 128)  # mm
+FRONT_TOLERANCE = 0.25  # of an element [1]: half the distance between the two nodes that the front lies between
 BRACKET = (0.05, 0.95)  # c / b [1]; source: holds the eigenvalues of CASES
 FINE = 1e-6  # shortest panel over the zone it belongs to [1]; source: 1e-8 changes c by less than 1e-5
 PANEL_GROWTH = 0.2  # of neighbouring panels [1]; source: 0.05 changes c by less than 1e-4
@@ -69,9 +68,16 @@ class _Panels:
 
 def _panels(ratio: float) -> _Panels:
     """Panels that shorten towards both sides of c and towards b, where tractions are not smooth."""
-    inside = ratio - graded(ratio, FINE * ratio, PANEL_GROWTH)[::-1]
-    half = graded((1.0 - ratio) / 2.0, FINE * (1.0 - ratio), PANEL_GROWTH)
+    inside = ratio - _graded(ratio, FINE * ratio)[::-1]
+    half = _graded((1.0 - ratio) / 2.0, FINE * (1.0 - ratio))
     return _Panels(np.concatenate([inside, ratio + half[1:], 1.0 - half[-2::-1]]), inside.size - 1)
+
+
+def _graded(length: float, fine: float) -> FloatArray:
+    """Coordinates from 0 to `length`; the first step is at most `fine`, each further one 1 + PANEL_GROWTH times wider."""
+    count = int(np.ceil(np.log1p(PANEL_GROWTH * length / fine) / np.log1p(PANEL_GROWTH)))
+    distance = np.expm1(np.arange(count + 1) * np.log1p(PANEL_GROWTH))
+    return np.asarray(length * distance / distance[-1])
 
 
 def _imbalance(panels: _Panels, gamma: float, friction: float, lift: bool) -> float:
@@ -130,7 +136,8 @@ def spence(spacing: float) -> list[Comparison]:
             ("stick zone", block.problem, coupled_ratio(gamma, friction)),
         ):
             front = _stick_front(problem, block.weight)
-            found.append(compare(case, quantity, mesh, front, exact * HALF_WIDTH, TOLERANCE))
+            wanted = exact * HALF_WIDTH
+            found.append(compare(case, quantity, mesh, front, wanted, FRONT_TOLERANCE * spacing / wanted))
     return found
 
 
