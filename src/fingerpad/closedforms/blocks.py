@@ -72,7 +72,8 @@ def refined_block(x: FloatArray, y: FloatArray, size: Callable[[FloatArray, Floa
 
 def _mirrored(half: MeshTri) -> MeshTri2:
     """The mesh at x >= 0 together with its mirror image, diagonals included, second-order."""
-    return MeshTri2.from_mesh(half + MeshTri(half.p * np.array([[-1.0], [1.0]]), half.t))
+    mirror = MeshTri(np.ascontiguousarray(half.p * np.array([[-1.0], [1.0]])), half.t)
+    return MeshTri2.from_mesh(half + mirror)
 
 
 def block_contact(
@@ -105,7 +106,7 @@ def half_plane(spacing: float, edge_spacing: float, poisson: float, row: Actuato
 
 
 def element_means(block: Block, nodal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Middles (m,) [mm] of the face's elements, and means (m,) over each of a quantity given at nodes (n,) (Simpson)."""
+    """Middles (m,) [mm] of the face's elements, and means (m,) over each of a nodal quantity (n,) (Simpson)."""
     x = block.problem.position[:, 0]
     return x[1::2], (nodal[:-1:2] + 4.0 * nodal[1::2] + nodal[2::2]) / 6.0
 

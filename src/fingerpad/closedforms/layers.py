@@ -45,6 +45,9 @@ class Load(StrEnum):
     SHEAR = "shear"
 
 
+PARTICIPLE = {Load.PRESSURE: "Pressed", Load.SHEAR: "Sheared"}
+
+
 @dataclass(frozen=True)
 class Surface:
     """Strain (m, 3) [1] at depth, exx, eyy and gxy, and displacement [mm] along the load in its middle."""
@@ -92,7 +95,7 @@ def _harmonic(layers: Sequence[Layer], above: int, k: float, traction: FloatArra
     top = [stiffnesses[-1][:2, :2]]  # of everything from a layer's face downwards; the base does not move
     for matrix in stiffnesses[-2::-1]:
         top.insert(0, matrix[:2, :2] - matrix[:2, 2:] @ np.linalg.solve(matrix[2:, 2:] + top[0], matrix[2:, :2]))
-    surface = np.linalg.solve(top[0], traction)
+    surface = np.asarray(np.linalg.solve(top[0], traction))
     moved = surface
     for number in range(above):
         matrix = stiffnesses[number]
@@ -102,16 +105,17 @@ def _harmonic(layers: Sequence[Layer], above: int, k: float, traction: FloatArra
 
 
 def layer_stiffness(layer: Layer, k: float) -> FloatArray:
-    """Stiffness (4, 4) [N/mm^3] of a layer at wave number k [1/mm]: tractions on its upper and lower face by U, V there."""
+    """Stiffness (4, 4) [N/mm^3] of a layer at wave number k [1/mm]: tractions on both faces, upper first, by U, V."""
     _, mu = lame(layer.material)
     kappa = 3.0 - 4.0 * layer.material.poisson
     mirror = np.diag([1.0, -1.0])
 
     def moved(s: float) -> FloatArray:
-        return np.exp(-s) * np.array([[1.0, s], [1.0, s + kappa]])
+        return np.asarray(np.exp(-s) * np.array([[1.0, s], [1.0, s + kappa]]))
 
     def stress(s: float) -> FloatArray:  # sigma_xy, sigma_yy
-        return mu * k * np.exp(-s) * np.array([[-2.0, 1.0 - kappa - 2.0 * s], [-2.0, -1.0 - kappa - 2.0 * s]])
+        shape = np.array([[-2.0, 1.0 - kappa - 2.0 * s], [-2.0, -1.0 - kappa - 2.0 * s]])
+        return np.asarray(mu * k * np.exp(-s) * shape)
 
     thick = k * layer.thickness
     displacement = np.block([[moved(0.0), mirror @ moved(thick)], [moved(thick), mirror @ moved(0.0)]])
@@ -148,7 +152,7 @@ def layered(name: str, layers: Sequence[Layer], load: Load, spacing: float) -> l
     wanted = exact(layers, ABOVE, load, points[0])
     middle = int(np.argmin(np.abs(x[face])))
     moved = (compliance @ force).reshape(-1, 2)[middle, 1 if load is Load.PRESSURE else 0]
-    case, grid = f"{name}, {load}", (spacing, int(basis.N))
+    case, grid = f"{PARTICIPLE[load]} {name}", (spacing, int(basis.N))
     return [
         *(
             compare(case, component, grid, found[:, i], wanted.strain[:, i], TOLERANCE)
@@ -180,4 +184,6 @@ def _nodal_load(mesh: MeshTri2, load: Load) -> FloatArray:
     loaded = np.flatnonzero(
         np.all(mesh.p[1, mesh.facets] == 0.0, axis=0) & (np.abs(mesh.p[0, mesh.facets].mean(axis=0)) < HALF_LOAD)
     )
-    return np.asarray(work.assemble(FacetBasis(mesh, ElementVector(ElementTriP2()), facets=loaded, intorder=LOAD_ORDER)))
+    return np.asarray(
+        work.assemble(FacetBasis(mesh, ElementVector(ElementTriP2()), facets=loaded, intorder=LOAD_ORDER))
+    )

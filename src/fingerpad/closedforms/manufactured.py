@@ -46,7 +46,7 @@ def rows(scene: Scene) -> list[Comparison]:
     found = [manufactured(scene, spacing) for spacing in SPACINGS]
     orders = []
     for coarse, fine in zip(found[-2], found[-1], strict=True):
-        ratio = np.sqrt(fine.unknowns / coarse.unknowns)  # of element sizes: they are alike on the whole, not one by one
+        ratio = np.sqrt(fine.unknowns / coarse.unknowns)  # of element sizes, on the whole
         order = float(np.log(coarse.error / fine.error) / np.log(ratio))
         wanted = ORDERS[fine.quantity]
         shortfall = max(1.0 - order / wanted, 0.0)  # what falls faster is no error
@@ -86,8 +86,8 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     mesh = spacing, int(basis.N)
     moved, wanted = np.asarray(found) * root, displacement(x, y) * root
     return [
-        compare("manufactured", "displacement", mesh, moved.ravel(), wanted.ravel(), None),
-        compare("manufactured", "energy", mesh, energy(sym_grad(found)), energy(exact), None),
+        compare("Manufactured solution", "displacement", mesh, moved.ravel(), wanted.ravel(), None),
+        compare("Manufactured solution", "energy", mesh, energy(sym_grad(found)), energy(exact), None),
     ]
 
 

@@ -45,7 +45,7 @@ def flat_punch(spacing: float, poisson: float = TISSUE) -> list[Comparison]:
     exact[under] = pressure(load, x[under])
     (middle, mean), (_, exact_mean) = element_means(block, nodal), element_means(block, exact)
     within = np.abs(middle) < INNER
-    case = f"flat punch, nu = {poisson:g}"
+    case = f"Flat punch, nu = {poisson:g}"
     return [
         compare(case, "nodal pressure", mesh, nodal[inner], exact[inner], TOLERANCE),
         compare(case, "element pressure", mesh, mean[within], exact_mean[within], TOLERANCE),

@@ -74,7 +74,7 @@ def _panels(ratio: float) -> _Panels:
 
 
 def _graded(length: float, fine: float) -> FloatArray:
-    """Coordinates from 0 to `length`; the first step is at most `fine`, each further one 1 + PANEL_GROWTH times wider."""
+    """Coordinates from 0 to `length`; the first step is at most `fine`, each further one wider by PANEL_GROWTH."""
     count = int(np.ceil(np.log1p(PANEL_GROWTH * length / fine) / np.log1p(PANEL_GROWTH)))
     distance = np.expm1(np.arange(count + 1) * np.log1p(PANEL_GROWTH))
     return np.asarray(length * distance / distance[-1])
