@@ -72,8 +72,7 @@ def refined_block(x: FloatArray, y: FloatArray, size: Callable[[FloatArray, Floa
 
 def _mirrored(half: MeshTri) -> MeshTri2:
     """The mesh at x >= 0 together with its mirror image, diagonals included, second-order."""
-    mirror = MeshTri(np.ascontiguousarray(half.p * np.array([[-1.0], [1.0]])), half.t)
-    return MeshTri2.from_mesh(half + mirror)
+    return MeshTri2.from_mesh(half + MeshTri(half.p * np.array([[-1.0], [1.0]]), half.t))
 
 
 def block_contact(

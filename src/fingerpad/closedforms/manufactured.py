@@ -19,7 +19,7 @@ from ..scene import FloatArray, Scene
 from .comparison import ORDER_OF, Comparison, compare
 from .patch import solved
 
-WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is about the section's width
+WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is two thirds of the section's width
 AMPLITUDE = 0.01  # of the exact displacement [mm]; linear, so any
 SPACINGS = (0.8, 0.4, 0.2)  # mm; source: 0.8 is the section's coarsest (config/config.yaml)
 ORDERS = {"displacement": 3.0, "energy": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
