@@ -26,6 +26,7 @@ rule closed_forms:
     params:
         scene=support.fingerprint(
             SCENE[DEVICES[0]].model.finger,
+            SCENE[DEVICES[0]].model.readout,
             SCENE[DEVICES[0]].model.numerics,
             SCENE[DEVICES[0]].device.actuators,
         ),

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from ..scene import Finger, Layer
+from ..scene import Layer, Model
 from . import hertz, layers, punch
 from .comparison import Comparison, refined
 
@@ -20,19 +20,19 @@ SWINGING = "nodal pressure"
 DISPLACEMENT = "displacement"
 
 
-def rows(finger: Finger) -> list[Comparison]:
+def rows(model: Model) -> list[Comparison]:
     """Flat punch, Hertz, and the pad's layers with their Poisson ratios replaced."""
-    soft = [replace(la, material=replace(la.material, poisson=POISSON)) for la in finger.pad]
+    soft = [replace(la, material=replace(la.material, poisson=POISSON)) for la in model.finger.pad]
     return [
         *_without(refined(partial(punch.flat_punch, poisson=POISSON), punch.SPACINGS), {SWINGING}),
         *_without(refined(partial(hertz.hertz, poisson=POISSON), hertz.SPACINGS), {SWINGING}),
-        *(row for load in layers.Load for row in _layered(soft, load)),
+        *(row for load in layers.Load for row in _layered(soft, layers.layers_above(model), load)),
     ]
 
 
-def _layered(soft: Sequence[Layer], load: layers.Load) -> list[Comparison]:
+def _layered(soft: Sequence[Layer], above: int, load: layers.Load) -> list[Comparison]:
     """The layers under one load; only displacement has a tolerance."""
-    case = partial(layers.layered, f"layers, nu = {POISSON:g}", soft, load)
+    case = partial(layers.layered, f"layers, nu = {POISSON:g}", soft, above, load)
     found = refined(case, layers.SPACINGS)
     return _without(found, {row.quantity for row in found} - {DISPLACEMENT})
 

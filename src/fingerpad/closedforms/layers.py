@@ -2,7 +2,7 @@
 
 With u_x = U(y) sin(kx), u_y = V(y) cos(kx), y into the strip and s = ky, equilibrium has the solutions
     (U, V) = e^-s (1, 1)  and  e^-s (s, s + kappa),    kappa = 3 - 4 nu,
-and the same two from the layer's other face, mirrored (Muki 1960; Kausel and Roësset 1981). From them follows the
+and the same two from the layer's other face, mirrored (Kausel and Roësset 1981). From them follows the
 stiffness of a layer: tractions on its faces by their displacements. No exponential grows, so no layer is too thick; the
 layers' stiffnesses are eliminated from the base upwards. The sides of the strip are planes of (anti-)symmetry, so the
 series k = n pi / L is exact for a strip of length 2 L.
@@ -20,7 +20,7 @@ from skfem import ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri2
 
 from ..condensation import condense
 from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
-from ..scene import Finger, FloatArray, Layer
+from ..scene import FloatArray, Layer, Model
 from .blocks import refined_block
 from .comparison import Comparison, compare, refined
 
@@ -32,7 +32,6 @@ WINDOW = 1.0  # |x| up to which strain is compared [mm]; source: two half-widths
 SPACINGS = (1 / 8, 1 / 16, 1 / 32)  # mm; the load ends at a vertex
 GROWTH = 0.3  # of element size with distance from load and receptors [1]; source: config/config.yaml
 COARSEST = 16.0  # element size, of the smallest [1]: the whole mesh is refined, not only its fine part
-ABOVE = 2  # layers above the receptors [1]: stratum corneum and viable epidermis (config/config.yaml)
 TOLERANCE = 0.002  # [1]; source: below half the accuracy that scores are to have
 FLAT = 1e-9  # mm by which a node may miss an interface; source: rounding
 LOAD_ORDER = 4  # degree of parabola times shape function: exact
@@ -123,14 +122,23 @@ def layer_stiffness(layer: Layer, k: float) -> FloatArray:
     return np.asarray(np.linalg.solve(displacement.T, traction.T).T)
 
 
-def rows(finger: Finger) -> list[Comparison]:
+def layers_above(model: Model) -> int:
+    """How many of the pad's layers lie above the receptors."""
+    return [layer.name for layer in model.finger.pad].index(model.readout.layer_above) + 1
+
+
+def rows(model: Model) -> list[Comparison]:
     """Strain and displacement in the pad's layers under both loads."""
-    return [row for load in Load for row in refined(partial(layered, "layers", finger.pad, load), SPACINGS)]
+    return [
+        row
+        for load in Load
+        for row in refined(partial(layered, "layers", model.finger.pad, layers_above(model), load), SPACINGS)
+    ]
 
 
-def layered(name: str, layers: Sequence[Layer], load: Load, spacing: float) -> list[Comparison]:
+def layered(name: str, layers: Sequence[Layer], above: int, load: Load, spacing: float) -> list[Comparison]:
     """Strain at the receptors, read in the layer below them, and displacement in the load's middle."""
-    mesh = _strip_mesh(layers, spacing)
+    mesh = _strip_mesh(layers, above, spacing)
     lines = np.cumsum([layer.thickness for layer in layers])
     number = np.searchsorted(lines, mesh.p[1, mesh.t].mean(axis=0))
     basis = displacement_basis(mesh)
@@ -143,13 +151,13 @@ def layered(name: str, layers: Sequence[Layer], load: Load, spacing: float) -> l
     force = _nodal_load(mesh, load)[dofs[:, face].T.ravel()]
 
     ends = mesh.p[:, mesh.facets]
-    on_line = np.all(np.abs(ends[1] - lines[ABOVE - 1]) < FLAT, axis=0)
+    on_line = np.all(np.abs(ends[1] - lines[above - 1]) < FLAT, axis=0)
     interface = np.flatnonzero(on_line & np.all(np.abs(ends[0]) <= WINDOW, axis=0))
     adjacent = mesh.f2t[:, interface]
-    points, read = facet_strain(mesh, interface, np.where(number[adjacent[0]] == ABOVE, adjacent[0], adjacent[1]))
+    points, read = facet_strain(mesh, interface, np.where(number[adjacent[0]] == above, adjacent[0], adjacent[1]))
     compliance, strain, _ = condense(matrix, dofs, fixed, face, read)
     found = (strain @ force).reshape(-1, 3)
-    wanted = exact(layers, ABOVE, load, points[0])
+    wanted = exact(layers, above, load, points[0])
     middle = int(np.argmin(np.abs(x[face])))
     moved = (compliance @ force).reshape(-1, 2)[middle, 1 if load is Load.PRESSURE else 0]
     case, grid = f"{PARTICIPLE[load]} {name}", (spacing, int(basis.N))
@@ -162,9 +170,9 @@ def layered(name: str, layers: Sequence[Layer], load: Load, spacing: float) -> l
     ]
 
 
-def _strip_mesh(layers: Sequence[Layer], spacing: float) -> MeshTri2:
+def _strip_mesh(layers: Sequence[Layer], above: int, spacing: float) -> MeshTri2:
     """Mesh of the strip: fine under the load and down to the receptors, conforming to every interface."""
-    depth = sum(layer.thickness for layer in layers[:ABOVE])
+    depth = sum(layer.thickness for layer in layers[:above])
     lines = np.concatenate([[0.0], np.cumsum([layer.thickness for layer in layers])])
 
     def size(x: FloatArray, y: FloatArray) -> FloatArray:

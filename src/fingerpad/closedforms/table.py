@@ -15,6 +15,6 @@ CASES: dict[str, Callable[[Scene], list[Comparison]]] = {
     "hertz": lambda scene: hertz.rows(),
     "cattaneo": lambda scene: cattaneo.rows(),
     "spence": lambda scene: spence.rows(),
-    "layers": lambda scene: layers.rows(scene.model.finger),
-    "incompressible": lambda scene: incompressible.rows(scene.model.finger),
+    "layers": lambda scene: layers.rows(scene.model),
+    "incompressible": lambda scene: incompressible.rows(scene.model),
 }
