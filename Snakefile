@@ -26,6 +26,7 @@ include: "workflow/rules/correlate.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/notebooks.smk"
+include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/benchmark.smk"
 
 

@@ -1,4 +1,4 @@
-"""Contact against closed forms on an elastic half-plane (a large block), and the laws that every solution obeys."""
+"""The laws that every contact solution obeys, on an elastic half-plane (closed forms: test_closedforms.py)."""
 
 from __future__ import annotations
 
@@ -8,117 +8,25 @@ from functools import cache
 import numpy as np
 import pytest
 
-from blocks import block, block_problem, graded, lift
-from fingerpad.contact import ContactProblem, ContactState, Status, rest, touching_height
+from fingerpad.closedforms.blocks import half_plane, lift, pressed
+from fingerpad.contact import ContactProblem, ContactState, Status, rest
 from fingerpad.errors import ContactError
 from fingerpad.path import follow
-from fingerpad.scene import ActuatorRow, FloatArray, Material
+from fingerpad.scene import ActuatorRow
 
-HALF_PLANE = 60.0  # mm; contact is 1 mm wide: its local field sees the far boundary by less than (1/60)^2
+SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
 
 
 @cache
-def half_plane(
-    radius: float, width: float, poisson: float, friction: float, fine: float = 0.02
-) -> tuple[ContactProblem, FloatArray]:
-    """Large block, fine where it is touched; modulus 1 MPa."""
-    side = graded(fine, 0.8, 1.25, HALF_PLANE)
-    mesh = block(np.concatenate([-side[:0:-1], side]), graded(fine, 5 * fine, 1.25, HALF_PLANE))
-    row = ActuatorRow((0.0,), width, radius)
-    return block_problem(mesh, Material(1.0, poisson), row, friction, 0.8)
-
-
-def pressed(problem: ContactProblem, depth: float, increments: int = 8) -> ContactState:
-    """State after pressing by `depth` [mm] from first touch."""
-    height = touching_height(problem)
-    return follow(problem, rest(problem, height), lift(problem, 0.0, height + depth), increments)
-
-
-def test_contact_patch_uniform_pressure_is_exact() -> None:
-    """A flat face on a confined block: pressure (lambda + 2 mu) d / H everywhere, to rounding."""
-    material = Material(0.08, 0.48)
-    mesh = block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
-    problem, weight = block_problem(
-        mesh, material, ActuatorRow((0.0,), 6.0, 0.0), friction=0.0, reach=1.0, confined=True
-    )
-    state = pressed(problem, 0.01)
-    nu = material.poisson
-    oedometric = material.modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
-    assert np.abs(state.force[:, 1] / weight / (oedometric * 0.01) - 1.0).max() < 1e-9
-    assert np.all(state.status != Status.OPEN)
-
-
-def test_hertz() -> None:
-    """Cylinder on half-plane: p0 = 2 P / (pi a), a^2 = 4 P R / (pi E*), p = p0 sqrt(1 - x^2/a^2), each within 0.5 %."""
-    radius, poisson = 100.0, 0.3  # a / R = 0.005: what Hertz neglects is of that order times 1 - 2 nu
-    problem, weight = half_plane(radius, 2 * radius, poisson, 0.0)
-    state = pressed(problem, 0.008)
-    load = state.force[:, 1].sum()
-    plane = 1.0 / (1 - poisson**2)
-    a = np.sqrt(4 * load * radius / (np.pi * plane))
-    assert 0.3 < a < 0.7  # well inside the fine zone
-    x = problem.position[:, 0]
-    exact = 2 * load / (np.pi * a) * np.sqrt(np.maximum(1 - (x / a) ** 2, 0.0))
-    # forces, not pressures, are what the nodes carry; compare where the exact pressure is not vanishing
-    inner = np.abs(x) < 0.9 * a
-    assert np.linalg.norm((state.force[:, 1] / weight - exact)[inner]) < 5e-3 * np.linalg.norm(exact[inner])
-    # the contact's edge lies between the last closed and the first open node
-    closed = np.abs(x[state.status != Status.OPEN]).max()
-    assert closed - 1e-9 <= a * 1.005
-    assert closed + 0.021 >= a * 0.995
-
-
-def test_flat_punch() -> None:
-    """Sharp flat punch: p = P / (pi sqrt(b^2 - x^2)) over the inner four fifths.
-
-    The singular edge is smeared over one node spacing h, so the punch seems wider or narrower by a share of h: the
-    relative error is below h / b, whatever the place of the nodes.
-    """
-    half, errors = 0.5, []
-    for fine in (0.016, 0.008):
-        problem, weight = half_plane(0.0, 2 * half, 0.3, 0.0, fine)
-        state = pressed(problem, 0.01)
-        load = state.force[:, 1].sum()
-        x = problem.position[:, 0]
-        inner = np.abs(x) < 0.8 * half
-        exact = load / (np.pi * np.sqrt(half**2 - x[inner] ** 2))
-        errors.append(np.linalg.norm(state.force[inner, 1] / weight[inner] - exact) / np.linalg.norm(exact))
-        assert errors[-1] < fine / 2 / half
-
-
-def test_cattaneo_mindlin() -> None:
-    """Partial slip: stick half-width c = a sqrt(1 - Q / (mu P)), within one node spacing; slip obeys Coulomb."""
-    radius, poisson, friction = 100.0, 0.3, 0.5
-    problem, weight = half_plane(radius, 2 * radius, poisson, friction, fine=0.01)
-    # the theory lets pressure move nothing sideways (Goodman), presses without shear, and lets friction act from there
-    uncoupled = problem.compliance.copy()
-    uncoupled[0::2, 1::2] = uncoupled[1::2, 0::2] = 0.0
-    problem = replace(problem, compliance=uncoupled)
-    normal = pressed(replace(problem, friction=0.0), 0.008)
-    normal = replace(normal, status=np.where(normal.status == Status.OPEN, Status.OPEN, Status.STICK))
-    state = follow(problem, normal, normal.actuator + np.array([[0.0025, 0.0]]), 20)
-    load, shear = state.force[:, 1].sum(), state.force[:, 0].sum()
-    ratio = abs(shear) / (friction * load)
-    assert 0.3 < ratio < 0.9  # partial slip, neither stuck nor sliding
-    a = np.sqrt(4 * load * radius * (1 - poisson**2) / np.pi)
-    stick = np.abs(problem.position[state.status == Status.STICK, 0])
-    assert stick.max() == pytest.approx(a * np.sqrt(1 - ratio), abs=0.006)  # one node spacing
-    # traction: mu p outside the stick zone, less a smaller Hertzian inside
-    x = problem.position[:, 0]
-    c = a * np.sqrt(1 - ratio)
-    p0 = 2 * load / (np.pi * a)
-    exact = friction * p0 * np.sqrt(np.maximum(1 - (x / a) ** 2, 0))
-    exact -= friction * p0 * c / a * np.sqrt(np.maximum(1 - (x / c) ** 2, 0))
-    # behind the slip front's kink the forces of vertices and midpoints swing about the traction: take them together
-    inner = np.flatnonzero(np.abs(x) < 0.9 * a)[: x[np.abs(x) < 0.9 * a].size // 2 * 2].reshape(-1, 2)
-    found, wanted = np.abs(state.force[inner, 0]).sum(axis=1), (exact * weight)[inner].sum(axis=1)
-    assert np.linalg.norm(found - wanted) < 0.005 * np.linalg.norm(wanted)
+def touched(radius: float, width: float, friction: float) -> ContactProblem:
+    """Half-plane under an actuator."""
+    return half_plane(SPACING, SPACING, 0.3, ActuatorRow((0.0,), width, radius), friction).problem
 
 
 def test_large_friction_equals_tied() -> None:
     """With more friction than any shear needs, moving the punch sideways is a linear, tied problem."""
-    problem, _ = half_plane(0.1, 1.0, 0.3, 1e6)
-    before = pressed(problem, 0.01)
+    problem = touched(0.1, 1.0, 1e6)
+    before = pressed(problem, 0.01, 8)
     after = follow(problem, before, before.actuator + np.array([[0.005, 0.0]]), 1)
     stuck = np.flatnonzero(before.status == Status.STICK)
     unknowns = (2 * stuck[:, None] + np.arange(2)).ravel()
@@ -131,13 +39,13 @@ def test_large_friction_equals_tied() -> None:
 
 def test_frictionless_limit() -> None:
     """As friction goes to zero the solution goes to the frictionless one, in proportion."""
-    reference, _ = half_plane(0.1, 1.0, 0.3, 0.0)
-    base = pressed(reference, 0.01)
+    reference = touched(0.1, 1.0, 0.0)
+    base = pressed(reference, 0.01, 8)
     base = follow(reference, base, base.actuator + np.array([[0.01, 0.0]]), 4)
     distances = []
     for friction in (1e-2, 1e-4):
         problem = replace(reference, friction=friction)
-        state = pressed(problem, 0.01)
+        state = pressed(problem, 0.01, 8)
         state = follow(problem, state, state.actuator + np.array([[0.01, 0.0]]), 4)
         distances.append(np.abs(state.force - base.force).max() / np.abs(base.force).max())
     assert distances[1] < 1.5e-2 * distances[0]
@@ -146,8 +54,8 @@ def test_frictionless_limit() -> None:
 
 def test_mirrored_motion_gives_mirrored_forces() -> None:
     """Moving the punch left is the mirror image of moving it right."""
-    problem, _ = half_plane(0.1, 1.0, 0.3, 0.5)
-    before = pressed(problem, 0.02)
+    problem = touched(0.1, 1.0, 0.5)
+    before = pressed(problem, 0.02, 8)
     right, left = (follow(problem, before, before.actuator + np.array([[d, 0.0]]), 4) for d in (0.008, -0.008))
     mirrored = left.force[::-1] * np.array([-1.0, 1.0])
     assert np.abs(right.force - mirrored).max() < 1e-7 * np.abs(right.force).max()
@@ -155,7 +63,7 @@ def test_mirrored_motion_gives_mirrored_forces() -> None:
 
 def test_energy_balance_and_dissipation() -> None:
     """Work of the punch = elastic energy + frictional dissipation, the better the finer the increments; none < 0."""
-    problem, _ = half_plane(100.0, 200.0, 0.3, 0.3)  # nearly flat: the force along the face is the force on the skin
+    problem = touched(100.0, 200.0, 0.3)  # nearly flat: the force along the face is the force on the skin
     errors = []
     for increments in (5, 20):
         state = pressed(problem, 0.008, 4)
@@ -183,8 +91,8 @@ def _elastic(problem: ContactProblem, state: ContactState) -> float:
 
 def test_sliding_punch_carries_contact_along() -> None:
     """Finite sliding: without friction the pressure pattern moves with the punch, node by node."""
-    problem, _ = half_plane(0.1, 0.8, 0.3, 0.0)
-    before = pressed(problem, 0.01)
+    problem = touched(0.1, 0.8, 0.0)
+    before = pressed(problem, 0.01, 8)
     after = follow(problem, before, before.actuator + np.array([[0.1, 0.0]]), 10)
     x = problem.position[:, 0]
     centre = [float(x @ state.force[:, 1] / state.force[:, 1].sum()) for state in (before, after)]
@@ -195,8 +103,8 @@ def test_sliding_punch_carries_contact_along() -> None:
 
 def test_separation_and_return() -> None:
     """A punch that lets go carries nothing, and comes back to the state it left (no friction)."""
-    problem, _ = half_plane(0.1, 1.0, 0.3, 0.0)
-    down = pressed(problem, 0.01)
+    problem = touched(0.1, 1.0, 0.0)
+    down = pressed(problem, 0.01, 8)
     free = follow(problem, down, lift(problem, 0.0, -0.02), 5)
     assert not free.force.any()
     again = follow(problem, free, down.actuator, 5)
@@ -205,7 +113,7 @@ def test_separation_and_return() -> None:
 
 def test_a_path_that_cannot_be_followed_is_a_named_error() -> None:
     """No compliance, no solution: the error says where."""
-    problem, _ = half_plane(0.1, 1.0, 0.3, 0.5)
+    problem = touched(0.1, 1.0, 0.5)
     broken = replace(problem, compliance=np.zeros_like(problem.compliance), max_cuts=2)
     with pytest.raises(ContactError, match=r"increment 1/3 halved 2 times, residual .* > 1e-10"):
         follow(broken, rest(broken, 0.0), lift(broken, 0.0, 0.01), 3)

@@ -17,6 +17,7 @@ from fingerpad.compliance import CondensedSection
 from fingerpad.contact import Status
 from fingerpad.fields import Fields
 from fingerpad.figures.ablation import ablation_figure
+from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.maps import element_means, strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
@@ -216,6 +217,27 @@ def test_ablation_says_where_there_is_no_prediction(correlations: pd.DataFrame) 
         assert len(forced.patches) == len(FORCED.conditions)
     for unrated in figure.axes[4:]:
         assert [label.get_text() for label in unrated.get_xticklabels()] == ["push", "shove"]
+
+
+def test_accuracy_has_a_panel_a_case_and_shows_what_is_held_to_a_tolerance() -> None:
+    rows = [
+        (f"Case {case}, nu = 0.3", quantity, h, 100, 1.0, 1.0, h**2, 0.005 if h == 0.1 else math.nan)
+        for case in range(5)
+        for h in (0.4, 0.2, 0.1)
+        for quantity in ("displacement", "element pressure", "exx", "eyy")[: case + 1]
+    ]
+    rows.append(("Case 0, nu = 0.3", "order, displacement", 0.1, 100, 2.0, 2.0, 0.0, 0.05))
+    names = ["case", "quantity", "spacing", "unknowns", "computed", "exact", "error", "tolerance"]
+    figure = accuracy_figure(pd.DataFrame(rows, columns=names))
+    require_legible(figure)
+    titles = [f"Case {number}, \N{GREEK SMALL LETTER NU} = 0.3" for number in range(5)]
+    assert [axes.get_title(loc="left") for axes in figure.axes[:5]] == titles
+    assert axis_labels(figure)[0] == ("Element length (mm)", "Relative error")
+    assert "displacement: order 2.00" in words(figure)
+    curve, held, tolerance = figure.axes[0].lines
+    np.testing.assert_allclose(curve.get_xydata(), [[0.4, 0.16], [0.2, 0.04], [0.1, 0.01]])
+    np.testing.assert_allclose(held.get_xydata(), [[0.1, 0.01]])
+    assert set(tolerance.get_ydata()) == {0.005}
 
 
 def test_receptor_figure_has_a_row_a_device() -> None:

@@ -204,10 +204,14 @@ def arc_length(points: FloatArray) -> FloatArray:
 
 
 def skin_weights(section: SectionMesh) -> FloatArray:
-    """Length of skin (n_skin,) [mm] of each skin node: integral of its shape function (Simpson: 1/6, 4/6, 1/6)."""
-    points = section.mesh.doflocs[:, section.skin]
+    """Length of skin (n_skin,) [mm] of each skin node."""
+    return node_weights(section.mesh.doflocs[:, section.skin])
+
+
+def node_weights(points: FloatArray) -> FloatArray:
+    """Length (n,) [mm] of each node of a line (2, n): integral of its shape function (Simpson: 1/6, 4/6, 1/6)."""
     length = np.hypot(*(points[:, 2::2] - points[:, :-2:2]))
-    weight = np.zeros(section.skin.size)
+    weight = np.zeros(points.shape[1])
     weight[1::2] = 4.0 / 6.0 * length
     weight[:-1:2] += length / 6.0
     weight[2::2] += length / 6.0

@@ -1,0 +1,122 @@
+"""Elastic blocks on which closed forms are computed, and their contact problems: the touched face lies on y = 0."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from skfem import MeshTri, MeshTri2
+
+from ..condensation import condense, node_weights
+from ..contact import ContactProblem, ContactState, rest, touching_height
+from ..elasticity import displacement_basis, node_dofs, stiffness
+from ..path import follow
+from ..scene import ActuatorRow, FloatArray, Material
+
+TOLERANCE = 1e-10  # of the contact equations [1]; source: far below any error that is measured
+MAX_CUTS = 10  # halvings of an increment [1]; source: config/config.yaml
+GROWTH = 0.5  # of element size with distance [1]; source: 0.25 changes pressures and stick zones by less than 1e-3
+HALF_WIDTH = 1.0  # of contact on a half-plane [mm]
+# The surface strain that a half-plane's boundary sends back is of the order of the half-width over its distance, and
+# partial slip feels it: at 100 half-widths a stick zone is 5 % too wide (measured).
+FAR = 4096.0 * HALF_WIDTH  # to a half-plane's boundary [mm]; a power of two, so that halving meets the contact's edge
+REACH = 1.125 * HALF_WIDTH  # of contact nodes [mm]; source: contact ends at its half-width
+DIAGONAL = np.sqrt(2.0)  # longest edge of a triangle over its legs [1]
+SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block in contact: the problem, length of face (n,) [mm] that belongs to each contact node, unknowns [1]."""
+
+    problem: ContactProblem
+    weight: FloatArray
+    unknowns: int
+
+
+def block_mesh(x: FloatArray, y: FloatArray) -> MeshTri2:
+    """Second-order triangles on a tensor grid from x = 0, and their mirror image at x < 0; x and y ascending."""
+    return _mirrored(MeshTri.init_tensor(x, y))
+
+
+def half_plane_mesh(spacing: float, edge_spacing: float) -> MeshTri2:
+    """Mesh of a half-plane: a block so large that its boundary does not matter.
+
+    Elements on the face are at most `spacing` [mm] long in contact and at most `edge_spacing` at its edges,
+    x = +-HALF_WIDTH, which are vertices; they grow from there.
+    """
+
+    def size(x: FloatArray, y: FloatArray) -> FloatArray:
+        to_face = np.hypot(np.maximum(x - HALF_WIDTH, 0.0), y)
+        to_edge = np.hypot(x - HALF_WIDTH, y)
+        return np.asarray(np.minimum(spacing + GROWTH * to_face, edge_spacing + GROWTH * to_edge))
+
+    return refined_block(np.array([0.0, FAR]), np.array([0.0, FAR]), size)
+
+
+def refined_block(x: FloatArray, y: FloatArray, size: Callable[[FloatArray, FloatArray], FloatArray]) -> MeshTri2:
+    """Second-order triangles that keep the lines of a tensor grid from x = 0, and their mirror image at x < 0.
+
+    Triangles are halved until their legs are at most `size` (n,) [mm] at their centres x, y (n,) [mm].
+    """
+    half = MeshTri.init_tensor(x, y)
+    while True:
+        corners = half.p[:, half.t]
+        longest = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
+        marked = np.flatnonzero(longest > DIAGONAL * size(*corners.mean(axis=1)) * (1.0 + SLACK))
+        if marked.size == 0:
+            return _mirrored(half)
+        half = half.refined(marked)
+
+
+def _mirrored(half: MeshTri) -> MeshTri2:
+    """The mesh at x >= 0 together with its mirror image, diagonals included, second-order."""
+    return MeshTri2.from_mesh(half + MeshTri(half.p * np.array([[-1.0], [1.0]]), half.t))
+
+
+def block_contact(
+    mesh: MeshTri2, material: Material, row: ActuatorRow, friction: float, reach: float, confined: bool = False
+) -> Block:
+    """Contact problem of a block that is fixed at its top.
+
+    reach: nodes with |x| <= reach [mm] are candidates. confined: the sides do not move sideways.
+    """
+    basis = displacement_basis(mesh)
+    dofs = node_dofs(basis)
+    x, y = mesh.doflocs
+    fixed = dofs[:, y == y.max()].ravel()
+    if confined:
+        fixed = np.union1d(fixed, dofs[0, (x == x.min()) | (x == x.max())])
+    face = np.flatnonzero((y == 0.0) & (np.abs(x) <= reach))
+    face = face[np.argsort(x[face])]
+    vertex = np.flatnonzero(face < mesh.nvertices)
+    face = face[vertex[0] : vertex[-1] + 1]  # whole elements: vertices and midpoints alternate
+    matrix = stiffness(basis, [material], np.zeros(mesh.t.shape[1], dtype=int))
+    compliance, _, _ = condense(matrix, dofs, fixed, face, csr_matrix((0, matrix.shape[0])))
+    position = mesh.doflocs[:, face]
+    problem = ContactProblem(position.T, compliance, row, None, friction, TOLERANCE, MAX_CUTS)
+    return Block(problem, node_weights(position), int(basis.N))
+
+
+def half_plane(spacing: float, edge_spacing: float, poisson: float, row: ActuatorRow, friction: float) -> Block:
+    """Contact problem of a half-plane of modulus 1 MPa, touched over about 2 HALF_WIDTH."""
+    return block_contact(half_plane_mesh(spacing, edge_spacing), Material(1.0, poisson), row, friction, REACH)
+
+
+def element_means(block: Block, nodal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Middles (m,) [mm] of the face's elements, and means (m,) over each of a nodal quantity (n,) (Simpson)."""
+    x = block.problem.position[:, 0]
+    return x[1::2], (nodal[:-1:2] + 4.0 * nodal[1::2] + nodal[2::2]) / 6.0
+
+
+def lift(problem: ContactProblem, x: float, y: float) -> FloatArray:
+    """Actuator displacements (n_actuators, 2) [mm], the same for all."""
+    return np.tile([x, y], (len(problem.row.positions), 1))
+
+
+def pressed(problem: ContactProblem, depth: float, increments: int) -> ContactState:
+    """State after pressing by `depth` [mm] from first touch."""
+    height = touching_height(problem)
+    return follow(problem, rest(problem, height), lift(problem, 0.0, height + depth), increments)

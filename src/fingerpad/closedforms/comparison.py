@@ -1,0 +1,60 @@
+"""One comparison of a computed number or field with its closed form, and how many make a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..scene import FloatArray
+
+ORDER_OF = "order, "  # before the name of a quantity whose error falls with it
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One row of the accuracy table.
+
+    case, quantity: what is compared. spacing: length of an element where it matters [mm]. unknowns: of the mesh [1].
+    computed, exact: the number, or a field's root mean square. error: relative [1]; of a field, the root mean square of
+    the difference over that of the exact field. tolerance: largest error allowed [1]; None where nothing is asked.
+    """
+
+    case: str
+    quantity: str
+    spacing: float
+    unknowns: int
+    computed: float
+    exact: float
+    error: float
+    tolerance: float | None
+
+
+def compare(
+    case: str,
+    quantity: str,
+    mesh: tuple[float, int],
+    computed: FloatArray | float,
+    exact: FloatArray | float,
+    tolerance: float | None,
+) -> Comparison:
+    """Compare a number, or a field (n,), with its exact value. mesh: spacing [mm] and unknowns [1]."""
+    found, wanted = np.atleast_1d(computed), np.atleast_1d(exact)
+    if wanted.size == 1:
+        values = float(found[0]), float(wanted[0])
+    else:
+        values = root_mean_square(found), root_mean_square(wanted)
+    error = root_mean_square(found - wanted) / root_mean_square(wanted)
+    return Comparison(case, quantity, *mesh, *values, error, tolerance)
+
+
+def root_mean_square(values: FloatArray) -> float:
+    """Root mean square of a field (n,)."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def refined(case: Callable[[float], list[Comparison]], spacings: Iterable[float]) -> list[Comparison]:
+    """A case on ever finer meshes: tolerances hold on the finest, the others show how the error falls."""
+    rows = [case(spacing) for spacing in sorted(spacings, reverse=True)]
+    return [replace(row, tolerance=None) for coarse in rows[:-1] for row in coarse] + rows[-1]

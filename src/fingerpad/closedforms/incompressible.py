@@ -1,0 +1,42 @@
+"""Near incompressibility: the same closed forms at nu = 0.4999, where an element that locks would be far too stiff.
+
+Nodal pressures of vertices and midpoints swing about the exact pressure there, and strain converges late; both stand
+in the table without a tolerance. What a receptor or an actuator feels as a whole does not suffer: displacement, fronts
+of contact and the mean pressure of elements keep theirs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
+from ..scene import Layer, Model
+from . import hertz, layers, punch
+from .comparison import Comparison, refined
+
+POISSON = 0.4999
+SWINGING = "nodal pressure"
+DISPLACEMENT = "displacement"
+
+
+def rows(model: Model) -> list[Comparison]:
+    """Flat punch, Hertz, and the pad's layers with their Poisson ratios replaced."""
+    soft = [replace(la, material=replace(la.material, poisson=POISSON)) for la in model.finger.pad]
+    return [
+        *_without(refined(partial(punch.flat_punch, poisson=POISSON), punch.SPACINGS), {SWINGING}),
+        *_without(refined(partial(hertz.hertz, poisson=POISSON), hertz.SPACINGS), {SWINGING}),
+        *(row for load in layers.Load for row in _layered(soft, layers.layers_above(model), load)),
+    ]
+
+
+def _layered(soft: Sequence[Layer], above: int, load: layers.Load) -> list[Comparison]:
+    """The layers under one load; only displacement has a tolerance."""
+    case = partial(layers.layered, f"layers, nu = {POISSON:g}", soft, above, load)
+    found = refined(case, layers.SPACINGS)
+    return _without(found, {row.quantity for row in found} - {DISPLACEMENT})
+
+
+def _without(rows: Sequence[Comparison], quantities: set[str]) -> list[Comparison]:
+    """The rows, those of some quantities without tolerance."""
+    return [replace(row, tolerance=None) if row.quantity in quantities else row for row in rows]

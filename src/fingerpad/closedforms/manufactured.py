@@ -1,0 +1,97 @@
+"""Manufactured solution on the finger's curved, layered section: errors fall with the orders of second-order elements.
+
+A smooth displacement u that is no polynomial is made the exact solution by its own load, int sigma(u) : eps(v) dA over
+all layers: the body force and the jumps of traction at interfaces and faces that u needs. On the bone u is prescribed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from skfem import Basis, ElementTriP2, ElementVector, LinearForm
+from skfem.helpers import ddot, eye, sym_grad, trace
+
+from ..condensation import section_stiffness
+from ..elasticity import lame
+from ..mesh import mesh_section
+from ..scene import FloatArray, Scene
+from .comparison import ORDER_OF, Comparison, compare
+from .patch import solved
+
+WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is two thirds of the section's width
+AMPLITUDE = 0.01  # of the exact displacement [mm]; linear, so any
+SPACINGS = (0.8, 0.4, 0.2)  # mm; source: 0.8 is the section's coarsest (config/config.yaml)
+ORDERS = {"displacement": 3.0, "energy": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
+SHORTFALL = 0.05  # of an order [1]; source: layers keep their thickness, so meshes are no scaled copies of each other
+EXACT_ORDER = 8  # of quadrature; source: the exact fields are smooth: its error is far below the elements'
+
+
+def displacement(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Exact displacement (2, ...) [mm]."""
+    return AMPLITUDE * np.array([np.sin(WAVE * x) * np.cos(WAVE * y / 2.0), np.exp(WAVE * x / 4.0) * np.sin(WAVE * y)])
+
+
+def strain(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Exact strain tensor (2, 2, ...) [1]."""
+    exx = WAVE * np.cos(WAVE * x) * np.cos(WAVE * y / 2.0)
+    eyy = WAVE * np.exp(WAVE * x / 4.0) * np.cos(WAVE * y)
+    twice = -WAVE / 2.0 * np.sin(WAVE * x) * np.sin(WAVE * y / 2.0)
+    twice += WAVE / 4.0 * np.exp(WAVE * x / 4.0) * np.sin(WAVE * y)
+    return AMPLITUDE * np.array([[exx, twice / 2.0], [twice / 2.0, eyy]])
+
+
+def rows(scene: Scene) -> list[Comparison]:
+    """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
+    found = [manufactured(scene, spacing) for spacing in SPACINGS]
+    orders = []
+    for coarse, fine in zip(found[-2], found[-1], strict=True):
+        ratio = np.sqrt(fine.unknowns / coarse.unknowns)  # of element sizes, on the whole
+        order = float(np.log(coarse.error / fine.error) / np.log(ratio))
+        wanted = ORDERS[fine.quantity]
+        shortfall = max(1.0 - order / wanted, 0.0)  # what falls faster is no error
+        quantity = ORDER_OF + fine.quantity
+        orders.append(
+            replace(fine, quantity=quantity, computed=order, exact=wanted, error=shortfall, tolerance=SHORTFALL)
+        )
+    return [row for mesh in found for row in mesh] + orders
+
+
+def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
+    """Errors in L2 and in energy on elements of at most that size [mm]."""
+    section = mesh_section(_uniform(scene, spacing))
+    matrix, dofs = section_stiffness(section, scene)
+    basis = Basis(section.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
+    finger = scene.model.finger
+    layers = np.array([lame(layer.material) for layer in (*finger.pad, *finger.dorsal)])
+    lam, mu = layers[section.layer].T[..., None]
+    x, y = np.asarray(basis.global_coordinates())
+    exact = strain(x, y)
+
+    @LinearForm
+    def work(v, w):  # type: ignore[no-untyped-def]  # skfem's forms are untyped
+        return ddot(w.lam * eye(trace(exact), 2) + 2.0 * w.mu * exact, sym_grad(v))
+
+    field = np.zeros(basis.N)
+    field[dofs] = displacement(*section.mesh.doflocs)
+    points = np.ones_like(x)
+    load = work.assemble(basis, lam=lam * points, mu=mu * points)
+    found = basis.interpolate(solved(matrix, field, dofs[:, section.fixed].ravel(), load))
+    root = np.sqrt(basis.dx)  # a sum of squares times dx is an integral
+
+    def energy(tensor: FloatArray) -> FloatArray:  # its square is the energy density, twice
+        parts = [np.sqrt(lam) * trace(tensor), *(np.sqrt(2.0 * mu) * tensor[i, j] for i in (0, 1) for j in (0, 1))]
+        return np.asarray(np.stack(parts) * root).ravel()
+
+    mesh = spacing, int(basis.N)
+    moved, wanted = np.asarray(found) * root, displacement(x, y) * root
+    return [
+        compare("Manufactured solution", "displacement", mesh, moved.ravel(), wanted.ravel(), None),
+        compare("Manufactured solution", "energy", mesh, energy(sym_grad(found)), energy(exact), None),
+    ]
+
+
+def _uniform(scene: Scene, size: float) -> Scene:
+    """The scene, meshed with elements of one size [mm]."""
+    numerics = replace(scene.model.numerics, edge_size=size, face_size=size, receptor_size=size, largest_size=size)
+    return replace(scene, model=replace(scene.model, numerics=numerics))

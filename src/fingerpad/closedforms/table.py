@@ -1,0 +1,20 @@
+"""All comparisons with closed forms, in the order in which they are told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..scene import Scene
+from . import cattaneo, hertz, incompressible, layers, manufactured, patch, punch, spence
+from .comparison import Comparison
+
+CASES: dict[str, Callable[[Scene], list[Comparison]]] = {
+    "patch": lambda scene: patch.rows(),
+    "manufactured": manufactured.rows,
+    "punch": lambda scene: punch.rows(),
+    "hertz": lambda scene: hertz.rows(),
+    "cattaneo": lambda scene: cattaneo.rows(),
+    "spence": lambda scene: spence.rows(),
+    "layers": lambda scene: layers.rows(scene.model),
+    "incompressible": lambda scene: incompressible.rows(scene.model),
+}

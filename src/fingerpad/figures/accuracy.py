@@ -1,0 +1,79 @@
+"""Error of every closed form against the size of elements, with its tolerance."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator
+
+from ..closedforms.comparison import ORDER_OF
+from .style import COLOURS, GREY, MARKERS, WIDE, legend_below, letter, new_figure, styled
+
+COLUMNS = 3
+NU, MU = "\N{GREEK SMALL LETTER NU}", "\N{GREEK SMALL LETTER MU}"
+ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 10.0  # mm
+LETTER_OFFSET = (-26.0, 4.0)  # pt
+LABELS = 3  # of a legend in one column [1]; more are short, and stand in two
+LABEL_HEIGHT, MARGIN = 0.145, 0.06  # of a label of a legend, and around all, of a panel's height [1]
+
+
+@styled
+def accuracy_figure(rows: pd.DataFrame) -> Figure:
+    """One panel a case, one curve a quantity. rows: the table of closed forms."""
+    cases = list(dict.fromkeys(rows["case"]))
+    lines = -(-len(cases) // COLUMNS)
+    figure = new_figure(WIDE, ROW_HEIGHT * lines + LEGEND_HEIGHT)
+    grid = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
+    for axes, case, name in zip(grid, cases, "ABCDEFGHIJKLMNOPQRSTUVWXYZ", strict=False):
+        _panel(axes, rows[rows["case"] == case])
+        axes.set_title(_typeset(case), loc="left")
+        letter(axes, name, LETTER_OFFSET)
+    for axes in grid[len(cases) :]:
+        axes.set_axis_off()
+    legend_below(
+        figure,
+        [
+            Line2D([], [], color=GREY, marker="o", label="held to the tolerance"),
+            Line2D([], [], color=GREY, marker="o", markerfacecolor="white", label="coarser mesh, or not held to any"),
+            Line2D([], [], color=GREY, linestyle="--", label="tolerance"),
+        ],
+    )
+    return figure
+
+
+def _panel(axes: Axes, rows: pd.DataFrame) -> None:
+    """Errors of one case."""
+    ordered = rows[rows["quantity"].str.startswith(ORDER_OF)]
+    order = {row.quantity.removeprefix(ORDER_OF): row.computed for row in ordered.itertuples()}
+    curves = rows.drop(ordered.index)
+    for number, (quantity, curve) in enumerate(curves.groupby("quantity", sort=False)):
+        label = _typeset(str(quantity))
+        label += f": order {order[quantity]:.2f}" if quantity in order else ""
+        look: dict[str, Any] = {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
+        asked = curve["tolerance"].notna()
+        axes.plot(curve["spacing"], curve["error"], markerfacecolor="white", label=label, **look)
+        axes.plot(curve.loc[asked, "spacing"], curve.loc[asked, "error"], linestyle="none", **look)
+    for tolerance in curves["tolerance"].dropna().unique():
+        axes.axhline(tolerance, color=GREY, linestyle="--", zorder=0)
+    axes.set(xscale="log", yscale="log", xlabel="Element length (mm)", ylabel="Relative error")
+    every = pd.concat([curves["error"], curves["tolerance"].dropna()])
+    columns = 1 if curves["quantity"].nunique() <= LABELS else 2
+    below = LABEL_HEIGHT * np.ceil(curves["quantity"].nunique() / columns) + MARGIN  # where the legend stands
+    decades = np.log10(every.max() / every.min()) / (1.0 - below - MARGIN)
+    axes.set_ylim(every.min() / 10.0 ** (decades * below), every.max() * 10.0 ** (decades * MARGIN))
+    spacings = sorted(curves["spacing"].unique())
+    axes.set_xticks(spacings, [f"{spacing:.3g}" for spacing in spacings])
+    axes.yaxis.set_major_locator(LogLocator(numticks=6))
+    axes.minorticks_off()
+    axes.margins(x=0.15)
+    axes.legend(loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.0)
+
+
+def _typeset(name: str) -> str:
+    """A name with the Greek letters that it spells out."""
+    return name.replace("nu = ", f"{NU} = ").replace("mu = ", f"{MU} = ")

@@ -1,0 +1,19 @@
+"""Compute every closed form with the library and write how far it is off."""
+
+from dataclasses import asdict
+from pathlib import Path
+
+from fingerpad.closedforms.table import CASES
+from fingerpad.scenefile import load_scene
+from fingerpad.store import write_rows
+
+
+def main(config: Path, device: Path, table: Path) -> None:
+    """Read the scene (its finger has the layers), compute all cases, write one row a quantity and mesh."""
+    scene = load_scene(config, device)
+    write_rows(table, [asdict(row) for case in CASES.values() for row in case(scene)])
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(Path(job.input.config), Path(job.input.device), Path(job.output.table))
