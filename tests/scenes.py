@@ -8,7 +8,8 @@ from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.condensation import condense_body, condense_section
-from fingerpad.mesh import SectionMesh, mesh_section
+from fingerpad.edges import mesh_device
+from fingerpad.mesh import SectionMesh
 from fingerpad.scene import Condition, Interface, Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution, solve_condition
@@ -25,7 +26,7 @@ def scene(device: str) -> Scene:
 @cache
 def section(device: str) -> SectionMesh:
     """Its mesh."""
-    return mesh_section(scene(device))
+    return mesh_device(scene(device))
 
 
 @cache

@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
-from fingerpad.condensation import condense, contact_skin, receptor_strain, section_stiffness
+from fingerpad.condensation import condense, contact_tractions, receptor_strain, section_stiffness
 from fingerpad.errors import CondensationError
 from fingerpad.fields import recover_fields
 from fingerpad.scene import Interface
@@ -20,14 +20,15 @@ def test_maps_equal_a_direct_solve_of_the_whole_section() -> None:
     mesh, base = section("device2"), scene("device2")
     found, _ = condensed("device2")
     matrix, dofs = section_stiffness(mesh, base)
-    nodes = mesh.skin[contact_skin(mesh, base)]
-    load = np.random.default_rng(1).standard_normal(2 * nodes.size)
+    tractions = contact_tractions(mesh, base)
+    nodes, loads = tractions.nodes, tractions.by_component()
+    load = np.random.default_rng(1).standard_normal(loads.shape[1])
     free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, mesh.fixed].ravel())
     right = np.zeros(matrix.shape[0])
-    right[dofs[:, nodes].T.ravel()] = load
+    right[dofs[:, nodes].T.ravel()] = loads @ load
     field = np.zeros_like(right)
     field[free] = spsolve(matrix[free][:, free].tocsc(), right[free])
-    exact = field[dofs[:, nodes].T.ravel()]
+    exact = loads.T @ field[dofs[:, nodes].T.ravel()]
     assert np.abs(found.compliance @ load - exact).max() < 1e-8 * np.abs(exact).max()
     points, strain = receptor_strain(mesh, base)
     assert np.array_equal(points, found.receptor)
@@ -57,10 +58,10 @@ def test_global_equilibrium_bone_carries_what_the_pins_press() -> None:
     mesh, base = section("device2"), scene("device2")
     solution = solved("device2", "alternate_090", Interface.SHEAR)
     matrix, dofs = section_stiffness(mesh, base)
-    nodes = mesh.skin[contact_skin(mesh, base)]
+    tractions = contact_tractions(mesh, base)
     free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, mesh.fixed].ravel())
     right = np.zeros(matrix.shape[0])
-    right[dofs[:, nodes].T.ravel()] = solution.force[-1].ravel()
+    right[dofs[:, tractions.nodes].T.ravel()] = tractions.by_component() @ solution.force[-1].ravel()
     field = np.zeros_like(right)
     field[free] = spsolve(matrix[free][:, free].tocsc(), right[free])
     reaction = (matrix @ field)[dofs[:, mesh.fixed]].sum(axis=1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from fingerpad.figures.section import section_figure
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.style import MIDDLE, NARROW, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
-from fingerpad.mesh import SectionMesh, mesh_section
+from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
 from fingerpad.perception import correlation_table
 from fingerpad.scene import (
     ActuatorRow,
@@ -131,8 +132,7 @@ def make_readouts(device: Device) -> DeviceReadouts:
 @pytest.fixture(scope="module")
 def section() -> SectionMesh:
     model = build_model(read_yaml(ROOT / "config/config.yaml"))
-    coarse = type(model)(model.finger, model.contact, model.gabor, model.readout, COARSE)
-    return mesh_section(Scene(coarse, PHASED))
+    return mesh_section(Scene(replace(model, numerics=COARSE), PHASED), nominal_edges(PHASED.actuators))
 
 
 def words(figure: Figure) -> str:

@@ -13,10 +13,11 @@ VOIGT = 3  # strain components [1]: exx, eyy, gxy = 2 exy
 class CondensedSection:
     """What a contact problem needs of the finger.
 
-    position: (n, 2) undeformed contact nodes [mm], by ascending x. weight: (n,) length of skin that belongs to each
-    node [mm]. compliance: (2n, 2n) [mm per N/mm], ordered x0, y0, x1, y1, ... receptor: (m, 2) undeformed receptor
-    points [mm], and arc: (m,) their arc length from the mid-line [mm]. strain: (3m, 2n) [1 per N/mm], ordered exx,
-    eyy, gxy point by point. residual: relative equilibrium residual of the factorisation [1].
+    position: (n, 2) undeformed contact nodes [mm], by ascending x: means of the skin under a linear traction's hats
+    (`traction`). weight: (n,) length of skin that belongs to each node [mm]; force over weight is the traction there.
+    compliance: (2n, 2n) [mm per N/mm], ordered x0, y0, x1, y1, ... receptor: (m, 2) undeformed receptor points [mm],
+    and arc: (m,) their arc length from the mid-line [mm]. strain: (3m, 2n) [1 per N/mm], ordered exx, eyy, gxy point
+    by point. residual: relative equilibrium residual of the factorisation [1].
     """
 
     position: FloatArray

@@ -1,7 +1,7 @@
 """Condensation: the tissue's stiffness, factorised once, reduced to two small dense maps.
 
-With the contact nodes' forces f and everything else unloaded, linear tissue answers
-    u_c = C f            contact-node displacement; C compliance
+With the contact forces f (`traction`) and everything else unloaded, linear tissue answers
+    u_c = C f            displacement of the skin in contact; C compliance
     eps_r = E f          strain along the receptor line.
 Both come out of one sparse factorisation: the unknowns are ordered [interior, receptors, contact], so that the
 trailing blocks of K = L U are factors of the Schur complement S of receptors and contact; C and E follow from them
@@ -22,20 +22,22 @@ from .elasticity import displacement_basis, facet_strain, node_dofs, stiffness
 from .errors import CondensationError, MeshError
 from .mesh import SectionMesh, mesh_strip
 from .scene import FloatArray, Scene, Side
+from .traction import Tractions, linear_tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
 
 
-def contact_skin(section: SectionMesh, scene: Scene) -> np.ndarray:
-    """Which skin nodes (n_skin,) an actuator can reach: under a face, or within a margin and the stroke of one."""
+def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
+    """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one."""
     row = scene.device.actuators
     stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
-    x, y = section.mesh.doflocs[:, section.skin]
+    points = section.mesh.doflocs[:, section.skin]
+    x, y = points[:, 1::2]
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
     near = distance <= row.width / 2.0 + stroke + CONTACT_MARGIN
-    return np.asarray(near & (y < scene.model.finger.height / 2.0))
+    return linear_tractions(section.skin, points, near & (y < scene.model.finger.height / 2.0))
 
 
 def section_stiffness(
@@ -63,7 +65,8 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     matrix, dofs = section_stiffness(section, scene, elements)
     points, strain = receptor_strain(section, scene)
     row_place, row_side = _folded(np.ones(points.shape[0], dtype=bool))
-    near = contact_skin(section, scene)
+    tractions = contact_tractions(section, scene)
+    near = np.isin(section.skin, tractions.nodes)
     either = near | near[::-1]
     place, side = _folded(either)
     right = section.skin[either][side > 0]
@@ -75,13 +78,16 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     columns = _Unfolding(place, side, np.array([-1.0, 1.0]))
     rows = _Unfolding(row_place, row_side, np.array([1.0, 1.0, -1.0]))
     keep = np.repeat(near[either], 2)
+    loads = tractions.by_component()
+    compliance = _unfold(parts[0][0], parts[1][0], columns, columns)[np.ix_(keep, keep)]
+    compliance = loads.T @ (compliance @ loads)
     return CondensedSection(
-        section.mesh.doflocs[:, section.skin[near]].T,
-        skin_weights(section)[near],
-        _unfold(parts[0][0], parts[1][0], columns, columns)[np.ix_(keep, keep)],
+        tractions.position,
+        tractions.weight,
+        (compliance + compliance.T) / 2.0,  # Betti, but for rounding
         points,
         arc_length(points),
-        _unfold(parts[0][1], parts[1][1], rows, columns)[:, keep],
+        _unfold(parts[0][1], parts[1][1], rows, columns)[:, keep] @ loads,
         max(part[2] for part in parts),
     )
 
@@ -201,21 +207,6 @@ def arc_length(points: FloatArray) -> FloatArray:
     middle = int(np.argmin(np.abs(points[:, 0])))
     around = slice(max(middle - 1, 0), middle + 2)
     return arc - float(np.interp(0.0, points[around, 0], arc[around]))
-
-
-def skin_weights(section: SectionMesh) -> FloatArray:
-    """Length of skin (n_skin,) [mm] of each skin node."""
-    return node_weights(section.mesh.doflocs[:, section.skin])
-
-
-def node_weights(points: FloatArray) -> FloatArray:
-    """Length (n,) [mm] of each node of a line (2, n): integral of its shape function (Simpson: 1/6, 4/6, 1/6)."""
-    length = np.hypot(*(points[:, 2::2] - points[:, :-2:2]))
-    weight = np.zeros(points.shape[1])
-    weight[1::2] = 4.0 / 6.0 * length
-    weight[:-1:2] += length / 6.0
-    weight[2::2] += length / 6.0
-    return weight
 
 
 def _fill_reducing(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) -> np.ndarray:

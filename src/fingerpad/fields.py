@@ -9,7 +9,7 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from skfem import Basis
 
-from .condensation import contact_skin, section_stiffness
+from .condensation import contact_tractions, section_stiffness
 from .elasticity import displacement_basis, node_dofs
 from .mesh import SectionMesh
 from .scene import FloatArray, Scene
@@ -36,9 +36,9 @@ def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fi
     """Fields under contact forces (n_loadings, n_contact, 2) [N/mm]: K u = f, one factorisation for all."""
     matrix, dofs = section_stiffness(section, scene)
     free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, section.fixed].ravel())
-    loaded = dofs[:, section.skin[contact_skin(section, scene)]].T.ravel()
+    tractions = contact_tractions(section, scene)
     right = np.zeros((matrix.shape[0], forces.shape[0]))
-    right[loaded] = forces.reshape(forces.shape[0], -1).T
+    right[dofs[:, tractions.nodes].T.ravel()] = tractions.by_component() @ forces.reshape(forces.shape[0], -1).T
     factors = splu(
         csc_matrix(matrix[free][:, free]),
         permc_spec="MMD_AT_PLUS_A",

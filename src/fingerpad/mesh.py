@@ -21,6 +21,7 @@ from .errors import MeshError
 from .scene import ActuatorRow, Finger, FloatArray, Numerics, Scene
 
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
+ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
 SIZE_SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
 
 
@@ -74,12 +75,12 @@ class _Outline:
         return np.asarray(offset + np.maximum(logical[1] - depth, 0.0) * (bone - offset))
 
 
-def mesh_section(scene: Scene) -> SectionMesh:
+def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
     """Mesh of the finger's section, graded towards the actuators' edges and the receptor line.
 
-    Element size h [mm] (longest edge) at distance r from the nearest actuator edge on the skin is at most
-    edge_size + growth * max(r - edge_zone, 0): the skin shifts while it is indented, so the edge may end up anywhere in
-    its zone. On the skin under the row at most face_size + growth * depth, and at most receptor_size +
+    edges: (k, 2) intervals of |x| [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
+    size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
+    0). On the skin under the row it is at most face_size + growth * depth, and at most receptor_size +
     growth * distance at the receptor line. The mesh is refined for both signs of x, and so symmetric.
 
     Raises MeshError if an element is inverted.
@@ -90,7 +91,7 @@ def mesh_section(scene: Scene) -> SectionMesh:
     for _ in range(MAX_REFINEMENTS):
         corners = outline.physical(logical.p)[:, logical.t]
         size = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
-        wanted = _size(scene, corners.mean(axis=1), logical.p[1, logical.t].mean(axis=0))
+        wanted = _size(scene, edges, corners.mean(axis=1), logical.p[1, logical.t].mean(axis=0))
         marked = np.flatnonzero(size > wanted * (1.0 + SIZE_SLACK))
         if marked.size == 0:
             break
@@ -163,16 +164,22 @@ def _subdivided(lines: FloatArray, largest: float) -> FloatArray:
     return np.concatenate(pieces)
 
 
-def _size(scene: Scene, centre: FloatArray, zeta: FloatArray) -> FloatArray:
+def nominal_edges(row: ActuatorRow) -> FloatArray:
+    """Intervals (k, 2) of |x| [mm] under the rounded edges of a row, where undeformed skin lies."""
+    outer = np.abs(np.add.outer(np.asarray(row.positions), np.array([-1.0, 1.0]) * row.width / 2.0)).ravel()
+    inner = np.abs(np.add.outer(np.asarray(row.positions), np.array([-1.0, 1.0]) * row.half_face)).ravel()
+    return np.unique(np.round(np.sort(np.stack([inner, outer], axis=1), axis=1), ROUNDED), axis=0)
+
+
+def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray) -> FloatArray:
     """Largest allowed element size (n,) [mm] at element centres (2, n) [mm] of logical depth zeta (n,)."""
     finger, numerics, row = scene.model.finger, scene.model.numerics, scene.device.actuators
-    positions = np.asarray(row.positions)
-    half = row.width / 2.0
-    edges = np.unique(np.round(np.abs(np.concatenate([positions - half, positions + half])), 9))
     a, b = finger.width / 2.0, finger.height / 2.0
-    skin_y = b - b * np.sqrt(1.0 - (edges / a) ** 2)
-    to_edge = np.min(np.hypot(centre[0] - edges[:, None], centre[1] - skin_y[:, None]), axis=0)
-    beyond = np.maximum(np.abs(centre[0]) - edges.max(), 0.0)
+    start, stop = edges.T[..., None]
+    x = np.clip(np.abs(centre[0]), start, stop)
+    to_edge = np.min(np.hypot(np.abs(centre[0]) - x, centre[1] - b + b * np.sqrt(1.0 - (x / a) ** 2)), axis=0)
+    outermost = max(abs(position) for position in row.positions) + row.width / 2.0
+    beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
     depth = np.minimum(zeta, finger.parallel_depth) + np.maximum(zeta - finger.parallel_depth, 0.0) * (
         finger.pad_thickness - finger.parallel_depth
     )

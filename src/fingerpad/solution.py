@@ -97,6 +97,17 @@ def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
     return solve(problem, scene.model.contact.criterion, count, scene.model.finger.pad_thickness)
 
 
+def follow_condition(
+    scene: Scene, problem: ContactProblem, before: ContactState, condition: Condition
+) -> list[ContactState]:
+    """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
+    states, (_, count) = [before], increments(scene, problem)
+    for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
+        target = before.actuator + np.stack([tangential, normal], axis=1)
+        states.append(follow(problem, states[-1], target, count))
+    return states[1:]
+
+
 def solve_condition(
     scene: Scene,
     section: CondensedSection,
@@ -112,10 +123,7 @@ def solve_condition(
     problem = contact_problem(scene, section, body, interface)
     try:
         before = indented_state(scene, problem)
-        states, (_, count) = [before], increments(scene, problem)
-        for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
-            target = before.actuator + np.stack([tangential, normal], axis=1)
-            states.append(follow(problem, states[-1], target, count))
+        states = [before, *follow_condition(scene, problem, before, condition)]
         last = states[-1]
         certificate = certify(problem, section, last)
     except ContactError as error:

@@ -19,8 +19,11 @@ rule mesh:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             scene_of(w).model.readout.layer_above,
+            scene_of(w).model.contact,
             scene_of(w).model.numerics,
+            scene_of(w).device.control,
             scene_of(w).device.actuators,
+            [support.path_of(condition) for condition in scene_of(w).device.conditions],
         ),
     script:
         "../scripts/mesh.py"

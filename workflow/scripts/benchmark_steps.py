@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from fingerpad.condensation import condense_body, condense_section
+from fingerpad.edges import mesh_device
 from fingerpad.gabor import filtered_readouts
-from fingerpad.mesh import mesh_section
 from fingerpad.roughness import score_rows
 from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
@@ -34,7 +34,7 @@ def main(config: Path, devices: list[Path], repeats: int, timings: Path) -> None
     rows: list[dict[str, Any]] = []
     for path in devices:
         scene = load_scene(config, path)
-        section, mesh_seconds = timed(repeats, lambda scene=scene: mesh_section(scene))
+        section, mesh_seconds = timed(repeats, lambda scene=scene: mesh_device(scene))
         condensed, condense_seconds = timed(
             repeats, lambda section=section, scene=scene: condense_section(section, scene)
         )

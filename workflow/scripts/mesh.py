@@ -2,13 +2,14 @@
 
 from pathlib import Path
 
-from fingerpad.mesh import mesh_section, save_section
+from fingerpad.edges import mesh_device
+from fingerpad.mesh import save_section
 from fingerpad.scenefile import load_scene
 
 
 def main(config: Path, device: Path, mesh: Path) -> None:
     """Read the scene, mesh its section, write it."""
-    save_section(mesh, mesh_section(load_scene(config, device)))
+    save_section(mesh, mesh_device(load_scene(config, device)))
 
 
 if __name__ == "__main__":

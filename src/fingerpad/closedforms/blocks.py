@@ -9,11 +9,12 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from skfem import MeshTri, MeshTri2
 
-from ..condensation import condense, node_weights
+from ..condensation import condense
 from ..contact import ContactProblem, ContactState, rest, touching_height
 from ..elasticity import displacement_basis, node_dofs, stiffness
 from ..path import follow
 from ..scene import ActuatorRow, FloatArray, Material
+from ..traction import linear_tractions
 
 TOLERANCE = 1e-10  # of the contact equations [1]; source: far below any error that is measured
 MAX_CUTS = 10  # halvings of an increment [1]; source: config/config.yaml
@@ -81,7 +82,7 @@ def block_contact(
 ) -> Block:
     """Contact problem of a block that is fixed at its top.
 
-    reach: nodes with |x| <= reach [mm] are candidates. confined: the sides do not move sideways.
+    reach: elements with |x| < reach [mm] may come into contact. confined: the sides do not move sideways.
     """
     basis = displacement_basis(mesh)
     dofs = node_dofs(basis)
@@ -89,15 +90,16 @@ def block_contact(
     fixed = dofs[:, y == y.max()].ravel()
     if confined:
         fixed = np.union1d(fixed, dofs[0, (x == x.min()) | (x == x.max())])
-    face = np.flatnonzero((y == 0.0) & (np.abs(x) <= reach))
+    face = np.flatnonzero(y == 0.0)
     face = face[np.argsort(x[face])]
-    vertex = np.flatnonzero(face < mesh.nvertices)
-    face = face[vertex[0] : vertex[-1] + 1]  # whole elements: vertices and midpoints alternate
+    tractions = linear_tractions(face, mesh.doflocs[:, face], np.abs(x[face[1::2]]) < reach)
     matrix = stiffness(basis, [material], np.zeros(mesh.t.shape[1], dtype=int))
-    compliance, _, _ = condense(matrix, dofs, fixed, face, csr_matrix((0, matrix.shape[0])))
-    position = mesh.doflocs[:, face]
-    problem = ContactProblem(position.T, compliance, row, None, friction, TOLERANCE, MAX_CUTS)
-    return Block(problem, node_weights(position), int(basis.N))
+    compliance, _, _ = condense(matrix, dofs, fixed, tractions.nodes, csr_matrix((0, matrix.shape[0])))
+    loads = tractions.by_component()
+    problem = ContactProblem(
+        tractions.position, loads.T @ (compliance @ loads), row, None, friction, TOLERANCE, MAX_CUTS
+    )
+    return Block(problem, tractions.weight, int(basis.N))
 
 
 def half_plane(spacing: float, edge_spacing: float, poisson: float, row: ActuatorRow, friction: float) -> Block:
@@ -105,10 +107,10 @@ def half_plane(spacing: float, edge_spacing: float, poisson: float, row: Actuato
     return block_contact(half_plane_mesh(spacing, edge_spacing), Material(1.0, poisson), row, friction, REACH)
 
 
-def element_means(block: Block, nodal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Middles (m,) [mm] of the face's elements, and means (m,) over each of a nodal quantity (n,) (Simpson)."""
+def element_means(block: Block, traction: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Middles (m,) [mm] of the face's elements, and means (m,) over each of a traction that is linear (n,)."""
     x = block.problem.position[:, 0]
-    return x[1::2], (nodal[:-1:2] + 4.0 * nodal[1::2] + nodal[2::2]) / 6.0
+    return (x[:-1] + x[1:]) / 2.0, (traction[:-1] + traction[1:]) / 2.0
 
 
 def lift(problem: ContactProblem, x: float, y: float) -> FloatArray:

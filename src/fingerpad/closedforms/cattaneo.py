@@ -67,7 +67,7 @@ def cattaneo_mindlin(spacing: float) -> list[Comparison]:
     middle, shear = element_means(block, np.abs(state.force[:, 0]) / block.weight)
     _, normal_pressure = element_means(block, state.force[:, 1] / block.weight)
     held = state.status == Status.STICK
-    all_held = held[:-1:2] & held[1::2] & held[2::2]
+    all_held = held[:-1] & held[1:]
     found = root_front(middle[all_held], (FRICTION * normal_pressure - shear)[all_held])
     inner = np.abs(middle) < INNER * width
     _, exact = element_means(block, traction(load, width, stick, block.problem.position[:, 0]))

@@ -30,13 +30,12 @@ def pressure(load: float, width: float, x: FloatArray) -> FloatArray:
 
 
 def front(block: Block, state: ContactState) -> float:
-    """Half-width of contact [mm] between nodes, from the first two vertices that are open on the right.
+    """Half-width of contact [mm] between nodes, from the first two nodes that are open on the right.
 
     Beyond the contact the gap opens with the distance to the power 3/2, so gap^(2/3) is linear.
     """
     x = block.problem.position[:, 0]
-    last = int(np.flatnonzero(state.status != Status.OPEN)[-1])
-    near = last + 2 - last % 2 + np.array([0, 2])  # vertices stand at even places
+    near = int(np.flatnonzero(state.status != Status.OPEN)[-1]) + np.array([1, 2])
     opening = state.gap[near] ** (2.0 / 3.0)
     return float(x[near[0]] - opening[0] * (x[near[1]] - x[near[0]]) / (opening[1] - opening[0]))
 

@@ -14,7 +14,7 @@ from skfem.helpers import ddot, eye, sym_grad, trace
 
 from ..condensation import section_stiffness
 from ..elasticity import lame
-from ..mesh import mesh_section
+from ..mesh import mesh_section, nominal_edges
 from ..scene import FloatArray, Scene
 from .comparison import ORDER_OF, Comparison, compare
 from .patch import solved
@@ -59,7 +59,8 @@ def rows(scene: Scene) -> list[Comparison]:
 
 def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     """Errors in L2 and in energy on elements of at most that size [mm]."""
-    section = mesh_section(_uniform(scene, spacing))
+    uniform = _uniform(scene, spacing)
+    section = mesh_section(uniform, nominal_edges(uniform.device.actuators))
     matrix, dofs = section_stiffness(section, scene)
     basis = Basis(section.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
     finger = scene.model.finger

@@ -28,7 +28,7 @@ from .punch import DEPTH, punched
 CASES = ((0.3, 0.2), (0.0, 0.4))  # Poisson's ratio and friction [1]: weak coupling and the strongest, both half stuck
 FRONT_NODES = 4  # nodes next to the front from which it is extrapolated [1]
 SPACINGS = (1 / 32, 1 / 64, 1 / 128)  # mm
-FRONT_TOLERANCE = 0.25  # of an element [1]: half the distance between the two nodes that the front lies between
+FRONT_TOLERANCE = 0.5  # of an element [1]: half the distance between the two nodes that the front lies between
 BRACKET = (0.05, 0.95)  # c / b [1]; source: holds the eigenvalues of CASES
 FINE = 1e-6  # shortest panel over the zone it belongs to [1]; source: 1e-8 changes c by less than 1e-5
 PANEL_GROWTH = 0.2  # of neighbouring panels [1]; source: 0.05 changes c by less than 1e-4

@@ -1,0 +1,96 @@
+"""Where the actuators' edges will lie on the skin: the mesh is fine there, and only there.
+
+Skin moves sideways while it is indented, under an outer actuator by a quarter of a millimetre, so the edges do not end
+up where undeformed skin lies over them. A coarse solution of all conditions finds where they do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .condensation import condense_body, condense_section
+from .contact import ContactProblem, ContactState
+from .errors import ContactError
+from .mesh import SectionMesh, mesh_section, nominal_edges
+from .scene import Condition, FloatArray, Scene
+from .solution import contact_problem, follow_condition, indented_state
+
+COARSER = 3.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.02 mm (measured)
+REACH = 0.3  # mm by which edges may lie off their nominal place; source: largest shift in the shipped devices
+
+
+def mesh_device(scene: Scene) -> SectionMesh:
+    """Mesh of the finger's section for a device, fine where the actuators' edges will lie. Raises MeshError."""
+    return mesh_section(scene, edge_intervals(scene))
+
+
+def edge_intervals(scene: Scene) -> FloatArray:
+    """Intervals (k, 2) of |x| [mm] on the undeformed skin over which rounded edges lie in any condition.
+
+    If the coarse solution does not find its way, the nominal intervals and REACH around them.
+    """
+    nominal = nominal_edges(scene.device.actuators)
+    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    coarse = _coarser(scene)
+    section = condense_section(mesh_section(coarse, wide), coarse)
+    body = condense_body(coarse) if scene.device.actuators.body else None
+    found: list[FloatArray] = []
+    try:
+        for interface in scene.device.interfaces():
+            problem = contact_problem(coarse, section, body, interface)
+            before = indented_state(coarse, problem)
+            found.append(_under_edges(problem, before))
+            for condition in _distinct(scene):
+                states = follow_condition(coarse, problem, before, condition)
+                found.extend(_under_edges(problem, state) for state in states)
+    except ContactError:
+        return wide
+    start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
+    both = np.stack([start, stop], axis=1)
+    return _joined(np.concatenate([both, -both[:, ::-1]]))
+
+
+def _coarser(scene: Scene) -> Scene:
+    """The scene with sizes and strides that are COARSER."""
+    numerics = scene.model.numerics
+    larger = replace(
+        numerics,
+        edge_size=COARSER * numerics.edge_size,
+        face_size=COARSER * numerics.face_size,
+        receptor_size=COARSER * numerics.receptor_size,
+        largest_size=COARSER * numerics.largest_size,
+        indentation_increments=int(np.ceil(numerics.indentation_increments / COARSER)),
+        stimulus_increments=1,
+    )
+    return replace(scene, model=replace(scene.model, numerics=larger))
+
+
+def _distinct(scene: Scene) -> list[Condition]:
+    """One condition of every stimulus."""
+    device = scene.device
+    return [each for each in device.conditions if device.first_with_stimulus_of(each.name) is each]
+
+
+def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
+    """Intervals (2 n_actuators, 2) of undeformed x [mm] of the skin that lies over the rounded edges."""
+    row, x = problem.row, problem.position[:, 0]
+    found = []
+    for number in range(len(row.positions)):
+        nodes = problem.actuator_of == number
+        for edge in ((-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)):
+            found.append(np.interp(edge, state.place[nodes], x[nodes]))
+    return np.array(found)
+
+
+def _joined(intervals: FloatArray) -> FloatArray:
+    """Intervals (k, 2) of |x| [mm], those that overlap joined."""
+    positive = np.maximum(intervals[intervals[:, 1] > 0.0], 0.0)
+    joined: list[list[float]] = []
+    for start, stop in positive[np.argsort(positive[:, 0])]:
+        if joined and start <= joined[-1][1]:
+            joined[-1][1] = max(joined[-1][1], float(stop))
+        else:
+            joined.append([float(start), float(stop)])
+    return np.array(joined)
