@@ -23,10 +23,12 @@ from .scene import ActuatorRow, Condition, FloatArray, Layer, Material, Numerics
 ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its sagitta is 2e-3 of the edge radius
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly
 WALL_LENGTH = 2.0  # edge radii [1]; how far the wall beyond a rigid edge goes on: the skin does not get there
-RIGID_DEPTH = 5.0  # edge radii [1]; of a rigid actuator's elements, which only carry their surface
+RIGID_DEPTH = 0.5  # mm; of a rigid actuator's elements, which only carry their surface
 EDGE_ELEMENTS = 8  # of a deformable actuator along the radius of its edge [1]; source: as fine as an arc of 7 degrees
 # any finite values will do: every node of a rigid actuator is prescribed
 RIGID = Material(2.0e5, 0.3)  # MPa, 1; source: steel
+LARGEST_COUNT = 100000  # increments [1] that a step may take, and after which it writes: only at its end
+SMALLEST_INCREMENT = 1.0e-6  # of a step [1]; source: below it no cut-back has ever helped
 PER_LINE = 8  # numbers a data line [1]; source: Abaqus allows 16
 READ_NODES = "RECEPTOR_NODES"
 FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on later: the keyword wants a positive one
@@ -39,6 +41,8 @@ class DeckSettings:
     indentation: height [mm] of the faces above the pad's lowest point. friction: [1] during the stimulus, and during
     pre-indentation if `friction_while_indenting`. pressure_slope, stick_slope: penalties [MPa/mm], pressure over
     penetration and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step.
+    rest_increments: of a step at rest after each of them: CalculiX looks only at the start of an increment where the
+    surfaces face each other, and in which direction.
     """
 
     indentation: float
@@ -48,6 +52,12 @@ class DeckSettings:
     stick_slope: float
     indentation_increments: int
     stimulus_increments: int
+    rest_increments: int
+
+    @property
+    def steps_a_move(self) -> int:
+        """Steps [1] of each move of the actuators: the move, and the rest after it if there is one."""
+        return 2 if self.rest_increments else 1
 
 
 @dataclass(frozen=True)
@@ -99,17 +109,18 @@ def actuator_part(scene: Scene, number: int) -> _Part:
 
 
 def _rigid(name: str, row: ActuatorRow, centre: float) -> _Part:
-    """One row of second-order quadrilaterals under the profile, all prescribed."""
-    radius = max(row.edge_radius, SHARP_RADIUS)
+    """One row of second-order quadrilaterals under the profile, all prescribed; a sharp edge ends the surface."""
+    radius = row.edge_radius
     flat = row.width / 2.0 - radius
-    arc = np.linspace(0.0, WALL_ANGLE, 1 + int(np.ceil(WALL_ANGLE / ARC_STEP)))
-    halves = np.linspace(0.0, WALL_ANGLE, 2 * arc.size - 1)  # ends and middles of the arc's elements
-    wall = flat + radius * np.sin(WALL_ANGLE) + WALL_LENGTH * radius * np.cos(WALL_ANGLE) * np.array([0.5, 1.0])
-    right = np.concatenate([flat + radius * np.sin(halves), wall])
-    face = np.linspace(-flat, flat, 1 + 2 * int(np.ceil(2.0 * flat / FACE_STEP)))
-    x = np.concatenate([-right[::-1], face[1:-1], right])
-    top = np.stack([x, -profile(row, x)[0]])
-    bottom = top - np.array([[0.0], [RIGID_DEPTH * radius]])
+    x = np.linspace(-flat, flat, 1 + 2 * int(np.ceil(2.0 * flat / FACE_STEP)))
+    if radius > 0.0:
+        count = int(np.ceil(WALL_ANGLE / ARC_STEP))
+        arc = flat + radius * np.sin(np.linspace(0.0, WALL_ANGLE, 1 + 2 * count))  # ends and middles of elements
+        wall = arc[-1] + WALL_LENGTH * radius * np.cos(WALL_ANGLE) * np.array([0.5, 1.0])
+        right = np.concatenate([arc[1:], wall])
+        x = np.concatenate([-right[::-1], x, right])
+    top = np.stack([x, -profile(row, x)[0] if radius > 0.0 else np.zeros_like(x)])
+    bottom = top - np.array([[0.0], [RIGID_DEPTH]])
     middle = (top + bottom)[:, ::2] / 2.0
     count = x.size
     element = np.arange(0, count - 2, 2)
@@ -251,36 +262,59 @@ def _contact(scene: Scene, section: SectionMesh, settings: DeckSettings) -> list
 
 def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[str]:
     count = len(scene.device.actuators.positions)
-    indented = [(0.0, settings.indentation)] * count
-    lines = _step("pre-indentation", indented, settings.indentation_increments, [])
-    switch: list[str] = []
-    if settings.friction > 0.0 and not settings.friction_while_indenting:
-        switch = ["*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR", "*FRICTION"]
-        switch += [f"{settings.friction:g}, {settings.stick_slope:g}"]
+    moves = [("pre-indentation", [(0.0, settings.indentation)] * count)]
     for time, tangential, normal in zip(condition.time, condition.tangential, condition.normal, strict=True):
         moved = [(x, settings.indentation + y) for x, y in zip(tangential.tolist(), normal.tolist(), strict=True)]
-        lines += _step(f"stimulus at time {time:g}", moved, settings.stimulus_increments, switch)
-        switch = []
+        moves.append((f"stimulus at time {time:g}", moved))
+    switched = settings.friction > 0.0 and not settings.friction_while_indenting
+    lines = []
+    for number, (title, move) in enumerate(moves):
+        increments = settings.stimulus_increments if number else settings.indentation_increments
+        change = _change_friction(settings) if switched and number == 1 else []
+        lines += _step(title, move, increments, change)
+        if settings.rest_increments:
+            lines += _step(f"at rest after {title}", move, settings.rest_increments, [])
     return lines
+
+
+def _change_friction(settings: DeckSettings) -> list[str]:
+    return [
+        "*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR",
+        "*FRICTION",
+        f"{settings.friction:g}, {settings.stick_slope:g}",
+    ]
 
 
 def _step(title: str, displacement: Sequence[tuple[float, float]], increments: int, before: list[str]) -> list[str]:
     """One static step in equal increments: displacement (x, y) [mm] of every actuator from its place in the row."""
-    lines = ["**", f"** ---- {title}: displacement of the actuators from y = 0 and their place in the row [mm]"]
-    lines += [f"*STEP, INC={100 * increments}", *before, "*STATIC", f"{1.0 / increments:.9g}, 1.0, 1.e-6, {1.0 / increments:.9g}"]
-    lines.append("*BOUNDARY")
-    for number, move in enumerate(displacement):
-        lines += [f"{actuator_name(number)}, {axis}, {axis}, {value:.9e}" for axis, value in enumerate(move, start=1)]
-    last = f"FREQUENCY={100 * increments}"
-    lines += [f"*NODE PRINT, NSET={READ_NODES}, {last}", "U"]
-    for number in range(len(displacement)):
-        lines += [f"*NODE PRINT, NSET={actuator_name(number)}, TOTALS=ONLY, {last}", "RF"]
+    length = f"{1.0 / increments:.9g}"
     return [
-        *lines,
-        *(f"*NODE FILE, {last}", "U, RF"),
-        *(f"*EL FILE, {last}", "S, E"),
-        *(f"*CONTACT FILE, {last}", "CDIS, CSTR"),
+        *("**", f"** ---- {title}: displacement [mm] of the actuators from their place in the row and y = 0"),
+        *(f"*STEP, INC={LARGEST_COUNT}", *before, "*STATIC", f"{length}, 1.0, {SMALLEST_INCREMENT:g}, {length}"),
+        "*BOUNDARY",
+        *(
+            f"{actuator_name(number)}, {axis}, {axis}, {value:.9e}"
+            for number, move in enumerate(displacement)
+            for axis, value in enumerate(move, start=1)
+        ),
+        *_output(len(displacement)),
         "*END STEP",
+    ]
+
+
+def _output(actuators: int) -> list[str]:
+    """What is written at the end of a step: tables of displacement and forces, fields of the whole section."""
+    end = f"FREQUENCY={LARGEST_COUNT}"
+    return [
+        *(f"*NODE PRINT, NSET={READ_NODES}, {end}", "U"),
+        *(
+            line
+            for number in range(actuators)
+            for line in (f"*NODE PRINT, NSET={actuator_name(number)}, TOTALS=ONLY, {end}", "RF")
+        ),
+        *(f"*NODE FILE, {end}", "U, RF"),
+        *(f"*EL FILE, {end}", "S, E"),
+        *(f"*CONTACT FILE, {end}", "CDIS, CSTR"),
     ]
 
 
