@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from blocks import block, block_problem, graded, lift
-from fingerpad.contact import ContactProblem, ContactState, Status, follow, rest, touching_height
+from fingerpad.contact import ContactProblem, ContactState, Status, follow, rest, switch_friction, touching_height
 from fingerpad.errors import ContactError
 from fingerpad.scene import ActuatorRow, FloatArray, Material
 
@@ -93,8 +93,7 @@ def test_cattaneo_mindlin() -> None:
     uncoupled = problem.compliance.copy()
     uncoupled[0::2, 1::2] = uncoupled[1::2, 0::2] = 0.0
     problem = replace(problem, compliance=uncoupled)
-    normal = pressed(replace(problem, friction=0.0), 0.008)
-    normal = replace(normal, status=np.where(normal.status == Status.OPEN, Status.OPEN, Status.STICK))
+    normal = switch_friction(pressed(replace(problem, friction=0.0), 0.008))
     state = follow(problem, normal, normal.actuator + np.array([[0.0025, 0.0]]), 20)
     load, shear = state.force[:, 1].sum(), state.force[:, 0].sum()
     ratio = abs(shear) / (friction * load)

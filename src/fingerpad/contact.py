@@ -183,6 +183,11 @@ def follow(problem: ContactProblem, state: ContactState, target: FloatArray, inc
     return state
 
 
+def switch_friction(state: ContactState) -> ContactState:
+    """A frictionless state on which friction acts from now on: what touches sticks, and bears no shear yet."""
+    return replace(state, status=np.where(state.status == Status.OPEN, Status.OPEN, Status.STICK))
+
+
 def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
     """Raise all actuators together until the criterion holds.
 

@@ -38,16 +38,16 @@ FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on
 class DeckSettings:
     """How a deck indents, holds contact and divides its steps.
 
-    indentation: height [mm] of the faces above the pad's lowest point. friction: [1] during the stimulus, and during
-    pre-indentation if `friction_while_indenting`. pressure_slope, stick_slope: penalties [MPa/mm], pressure over
+    indentation: height [mm] of the faces above the pad's lowest point. friction_indenting,
+    friction_acting: [1] during pre-indentation and during the stimulus. pressure_slope, stick_slope: penalties [MPa/mm], pressure over
     penetration and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step.
     rest_increments: of a step at rest after each of them: CalculiX looks only at the start of an increment where the
     surfaces face each other, and in which direction.
     """
 
     indentation: float
-    friction: float
-    friction_while_indenting: bool
+    friction_indenting: float
+    friction_acting: float
     pressure_slope: float
     stick_slope: float
     indentation_increments: int
@@ -179,14 +179,14 @@ def boundary_sides(mesh: MeshTri2, nodes: np.ndarray) -> list[tuple[int, int]]:
 
 
 def _heading(scene: Scene, condition: Condition, settings: DeckSettings) -> list[str]:
-    during = "from the start" if settings.friction_while_indenting else "in the stimulus only"
     return [
         "*HEADING",
         f"{scene.device.title}; condition {condition.name}; made by fingerpad",
         "** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. Small strains (no NLGEOM).",
         "** x runs along the row of actuators, y into the finger; the pad's lowest point is the origin.",
-        f"** Friction {settings.friction:g} {during}; penalties {settings.pressure_slope:g} MPa/mm (pressure over",
-        f"** penetration) and {settings.stick_slope:g} MPa/mm (shear over elastic slip).",
+        f"** Friction {settings.friction_indenting:g} in pre-indentation, {settings.friction_acting:g} in the stimulus.",
+        f"** Penalties: pressure over penetration {settings.pressure_slope:g} MPa/mm, shear over elastic slip"
+        f" {settings.stick_slope:g} MPa/mm.",
     ]
 
 
@@ -249,9 +249,8 @@ def _contact(scene: Scene, section: SectionMesh, settings: DeckSettings) -> list
         "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
         f"{settings.pressure_slope:g}",
     ]
-    if settings.friction > 0.0:
-        initial = settings.friction if settings.friction_while_indenting else FRICTIONLESS
-        lines += ["*FRICTION", f"{initial:g}, {settings.stick_slope:g}"]
+    if settings.friction_acting > 0.0:
+        lines += _friction(max(settings.friction_indenting, FRICTIONLESS), settings)
     for number in range(len(scene.device.actuators.positions)):
         lines += [
             "*CONTACT PAIR, INTERACTION=SKIN_ON_ACTUATOR, TYPE=SURFACE TO SURFACE",
@@ -266,23 +265,20 @@ def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[s
     for time, tangential, normal in zip(condition.time, condition.tangential, condition.normal, strict=True):
         moved = [(x, settings.indentation + y) for x, y in zip(tangential.tolist(), normal.tolist(), strict=True)]
         moves.append((f"stimulus at time {time:g}", moved))
-    switched = settings.friction > 0.0 and not settings.friction_while_indenting
+    switched = settings.friction_acting != settings.friction_indenting
+    switch = ["*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR", *_friction(settings.friction_acting, settings)]
     lines = []
     for number, (title, move) in enumerate(moves):
         increments = settings.stimulus_increments if number else settings.indentation_increments
-        change = _change_friction(settings) if switched and number == 1 else []
+        change = switch if switched and number == 1 else []
         lines += _step(title, move, increments, change)
         if settings.rest_increments:
             lines += _step(f"at rest after {title}", move, settings.rest_increments, [])
     return lines
 
 
-def _change_friction(settings: DeckSettings) -> list[str]:
-    return [
-        "*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR",
-        "*FRICTION",
-        f"{settings.friction:g}, {settings.stick_slope:g}",
-    ]
+def _friction(coefficient: float, settings: DeckSettings) -> list[str]:
+    return ["*FRICTION", f"{coefficient:g}, {settings.stick_slope:g}"]
 
 
 def _step(title: str, displacement: Sequence[tuple[float, float]], increments: int, before: list[str]) -> list[str]:

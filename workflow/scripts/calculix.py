@@ -1,0 +1,106 @@
+"""Solve cases with CalculiX and with fingerpad, and write how far they are apart, or that CalculiX is not installed."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from fingerpad.calculix import installed, read_printed, run
+from fingerpad.condensation import condense_section
+from fingerpad.crosscheck import Law, Outcome, calculix_outcome, coarsened, differences, fingerpad_outcome, sharpened
+from fingerpad.errors import CalculixError, ContactError
+from fingerpad.export import DeckSettings, input_deck
+from fingerpad.mesh import mesh_section
+from fingerpad.scene import Interface, Scene
+from fingerpad.scenefile import load_scene
+from fingerpad.solution import contact_problem, indented_state
+from fingerpad.store import write_rows
+
+FINEST = "CalculiX on the finest mesh"  # among the cases that differ in nothing else than mesh and increments
+
+
+def prepared(scene: Scene, case: dict[str, Any]) -> tuple[Scene, DeckSettings]:
+    """The case's scene with the shipped mesh, and the settings of its deck: it indents as deep as fingerpad does."""
+    scene = sharpened(scene) if case["edges"] == "sharp" else scene
+    friction = scene.model.contact.friction
+    acting = 0.0 if case["friction"] == "never" else friction
+    indenting = friction if case["friction"] == "always" else 0.0
+    interface = Interface.SHEAR if indenting else Interface.FRICTIONLESS
+    problem = contact_problem(scene, condense_section(mesh_section(scene), scene), None, interface)
+    depth = float(indented_state(scene, problem).actuator[0, 1])
+    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
+    return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
+
+
+def row(case: dict[str, Any], unknowns: int, seconds: float, against: str, apart: dict[str, float]) -> dict[str, Any]:
+    """One row of the table: a case, what it is compared with, and the relative differences."""
+    rounded = {key: f"{value:.5f}" for key, value in apart.items()}
+    return {**case, "unknowns": unknowns, "calculix_s": round(seconds, 1), "against": against, **rounded, "note": ""}
+
+
+def compared(
+    scene: Scene, condition: str, case: dict[str, Any], folder: Path, limit: float
+) -> tuple[list[dict[str, Any]], Outcome]:
+    """Rows of one case against fingerpad's laws on the same mesh, and CalculiX's outcome. Raises CalculixError."""
+    fine, settings = prepared(scene, case)
+    scene = coarsened(fine, case["coarsening"])
+    section = mesh_section(scene)
+    stimulus = scene.device.condition(condition)
+    printed, seconds = run(input_deck(scene, section, stimulus, settings), folder, limit)
+    moves = 1 + stimulus.time.size
+    reference = calculix_outcome(
+        scene, section, read_printed(printed, len(scene.device.actuators.positions), moves, settings)
+    )
+    condensed = condense_section(section, scene)
+    unknowns = 2 * section.mesh.doflocs.shape[1]
+    rows = []
+    for law in Law:
+        try:
+            apart = differences(fingerpad_outcome(scene, condensed, stimulus, settings, law), reference)
+            rows.append(row(case, unknowns, seconds, str(law), apart))
+        except ContactError as error:
+            rows.append(row(case, unknowns, seconds, str(law), {}) | {"note": str(error)})
+    return rows, reference
+
+
+def family(case: dict[str, Any]) -> tuple[Any, ...]:
+    """What cases share that differ in mesh and increments alone."""
+    return tuple(case[key] for key in ("edges", "friction"))
+
+
+def main(
+    config: Path, device: Path, condition: str, cases: dict[str, dict[str, Any]], limit: float, folder: Path, table: Path
+) -> None:
+    """Read the scene, run every case, write the table and keep the decks in the folder."""
+    if not installed():
+        print("skipped: ccx not installed")
+        write_rows(table, [{"note": "skipped: ccx not installed"}])
+        return
+    scene = load_scene(config, device)
+    rows: list[dict[str, Any]] = []
+    outcomes: dict[str, Outcome] = {}
+    for name, case in cases.items():
+        try:
+            found, outcomes[name] = compared(scene, condition, case, folder / name, limit)
+            rows += found
+        except CalculixError as error:
+            rows.append(row(case, 0, 0.0, "", {}) | {"note": str(error)})
+    for name, outcome in outcomes.items():
+        relatives = [other for other in outcomes if family(cases[other]) == family(cases[name])]
+        finest = min(relatives, key=lambda other: cases[other]["coarsening"])
+        if finest != name:
+            rows.append(row(cases[name], 0, 0.0, FINEST, differences(outcome, outcomes[finest])))
+    columns = list(dict.fromkeys(key for one in rows for key in one))
+    write_rows(table, [{key: one.get(key, "") for key in columns} for one in rows])
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        job.params.condition,
+        job.params.cases,
+        job.params.limit,
+        Path(job.output.decks),
+        Path(job.output.table),
+    )
