@@ -27,6 +27,7 @@ include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/benchmark.smk"
+include: "workflow/rules/calculix.smk"
 
 
 rule all:

@@ -38,10 +38,10 @@ FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on
 class DeckSettings:
     """How a deck indents, holds contact and divides its steps.
 
-    indentation: height [mm] of the faces above the pad's lowest point. friction_indenting,
-    friction_acting: [1] during pre-indentation and during the stimulus. pressure_slope, stick_slope: penalties [MPa/mm], pressure over
-    penetration and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step.
-    rest_increments: of a step at rest after each of them: CalculiX looks only at the start of an increment where the
+    indentation: height [mm] of the faces above the pad's lowest point. friction_indenting, friction_acting: [1] during
+    pre-indentation and during the stimulus. pressure_slope, stick_slope: penalties [MPa/mm], pressure over penetration
+    and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step. rest_increments: of
+    a step at rest after each of them: CalculiX looks only at the start of an increment where the
     surfaces face each other, and in which direction.
     """
 
@@ -62,7 +62,7 @@ class DeckSettings:
 
 @dataclass(frozen=True)
 class _Part:
-    """Elements of one actuator: kind, nodes (n, 2) [mm], elements (m, k), touching sides (element, side), driven nodes."""
+    """Elements of one actuator: kind, nodes (n, 2) [mm], elements (m, k), touching (element, side), driven nodes."""
 
     name: str
     kind: str
@@ -184,7 +184,7 @@ def _heading(scene: Scene, condition: Condition, settings: DeckSettings) -> list
         f"{scene.device.title}; condition {condition.name}; made by fingerpad",
         "** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. Small strains (no NLGEOM).",
         "** x runs along the row of actuators, y into the finger; the pad's lowest point is the origin.",
-        f"** Friction {settings.friction_indenting:g} in pre-indentation, {settings.friction_acting:g} in the stimulus.",
+        f"** Friction: pre-indentation {settings.friction_indenting:g}, stimulus {settings.friction_acting:g}.",
         f"** Penalties: pressure over penetration {settings.pressure_slope:g} MPa/mm, shear over elastic slip"
         f" {settings.stick_slope:g} MPa/mm.",
     ]
@@ -306,11 +306,11 @@ def _output(actuators: int) -> list[str]:
         *(
             line
             for number in range(actuators)
-            for line in (f"*NODE PRINT, NSET={actuator_name(number)}, TOTALS=ONLY, {end}", "RF")
+            for line in (f"*NODE PRINT, NSET={actuator_name(number)}, TOTALS=YES, {end}", "RF")
         ),
         *(f"*NODE FILE, {end}", "U, RF"),
         *(f"*EL FILE, {end}", "S, E"),
-        *(f"*CONTACT FILE, {end}", "CDIS, CSTR"),
+        *(f"*CONTACT FILE, {end}", "CDISP, CSTRESS"),
     ]
 
 

@@ -164,9 +164,9 @@ def _forces(
         (np.sign(trial) * law.friction)[:, None] * pressing_rate,
         (-shear * seen.rate)[:, None] * t,
     )
-    turning = seen.turning[:, None, None] * (
-        pressing[:, None, None] * t[:, :, None] * t[:, None, :] - shearing[:, None, None] * n[:, :, None] * t[:, None, :]
-    )
+    # the normal turns by dn = t (t dq) / distance, and the tangent by dt = -n (t dq) / distance
+    turned = pressing[:, None] * t - shearing[:, None] * n
+    turning = seen.turning[:, None, None] * turned[:, :, None] * t[:, None, :]
     derivative = n[:, :, None] * pressing_rate[:, None, :] + t[:, :, None] * shearing_rate[:, None, :] + turning
     stuck = touching & (law.friction > 0.0)
     elastic = np.divide(shearing, shear, out=np.zeros_like(shear), where=shear > 0.0)

@@ -1,6 +1,5 @@
 """Solve cases with CalculiX and with fingerpad, and write how far they are apart, or that CalculiX is not installed."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -68,9 +67,16 @@ def family(case: dict[str, Any]) -> tuple[Any, ...]:
 
 
 def main(
-    config: Path, device: Path, condition: str, cases: dict[str, dict[str, Any]], limit: float, folder: Path, table: Path
+    config: Path,
+    device: Path,
+    condition: str,
+    cases: dict[str, dict[str, Any]],
+    limit: float,
+    folder: Path,
+    table: Path,
 ) -> None:
     """Read the scene, run every case, write the table and keep the decks in the folder."""
+    folder.mkdir(parents=True, exist_ok=True)
     if not installed():
         print("skipped: ccx not installed")
         write_rows(table, [{"note": "skipped: ccx not installed"}])
