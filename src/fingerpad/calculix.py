@@ -18,7 +18,8 @@ from .scene import FloatArray
 
 PROGRAM = "ccx"
 JOB = "scene"  # name of the deck, and so of all files that CalculiX writes
-TITLE = re.compile(r"^ (displacements|total force) .* for set (\w+) and time\s+(\S+)$", re.MULTILINE)
+TITLE = re.compile(r"^ (\w[\w ]*) \(.*\) for set (\w+) and time", re.MULTILINE)
+READ_TABLES = ("displacements", "total force")
 
 
 @dataclass(frozen=True)
@@ -78,8 +79,9 @@ def read_printed(path: Path, actuators: int, moves: int, settings: DeckSettings)
     stops = [title.start() for title in titles[1:]] + [len(text)]
     tables: dict[str, list[FloatArray]] = {}
     for title, stop in zip(titles, stops, strict=True):
-        rows = [line.split() for line in text[title.end() : stop].splitlines() if line.strip()]
-        tables.setdefault(title[2], []).append(np.array(rows, dtype=float))
+        if title[1] in READ_TABLES:
+            rows = [line.split() for line in text[title.end() : stop].splitlines()[1:] if line.strip()]
+            tables.setdefault(title[2], []).append(np.array(rows, dtype=float))
     wanted = [READ_NODES, *(actuator_name(number) for number in range(actuators))]
     steps = moves * settings.steps_a_move
     for name in wanted:
