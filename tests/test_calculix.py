@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import csv
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import CONFIG, scene
 
 from fingerpad import calculix
 from fingerpad.calculix import read_printed, run
@@ -25,8 +23,9 @@ from fingerpad.crosscheck import (
 from fingerpad.errors import CalculixError
 from fingerpad.export import DeckSettings, input_deck
 from fingerpad.mesh import mesh_section
+from scenes import CONFIG, scene
+from scripts.calculix import main
 
-ROOT = Path(__file__).parents[1]
 SETTINGS = DeckSettings(0.4, 0.0, 0.0, 500.0, 100.0, 3, 2, 2)
 PRINTED = """
  displacements (vx,vy,vz) for set RECEPTOR_NODES and time  {time}
@@ -70,10 +69,6 @@ def test_a_missing_step_is_an_error(tmp_path: Path) -> None:
 
 def test_without_calculix_the_table_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.syspath_prepend(ROOT / "workflow")
-    monkeypatch.delitem(sys.modules, "scripts.calculix", raising=False)
-    from scripts.calculix import main  # noqa: PLC0415
-
     table, device = tmp_path / "calculix.csv", CONFIG / "devices" / "device2.yaml"
     main(CONFIG / "config.yaml", device, "alternate_180", {}, 1.0, tmp_path / "decks", table)
     with table.open(encoding="utf-8") as file:

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import CONFIG, scene, section
 
 from fingerpad.cli import FAILED, main
 from fingerpad.crosscheck import sharpened
@@ -16,6 +15,7 @@ from fingerpad.export import READ_NODES, DeckSettings, input_deck, read_nodes
 from fingerpad.mesh import mesh_section
 from fingerpad.profile import profile
 from fingerpad.scene import FloatArray, Interface, Scene
+from scenes import CONFIG, scene, section
 
 SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"
 CONDITION = "alternate_180"

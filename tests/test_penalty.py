@@ -7,14 +7,14 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import block, block_problem, graded, lift
-from scenes import condensed, scene
 
+from blocks import block, block_problem, graded, lift
 from fingerpad.contact import ContactProblem, follow, rest, switch_friction, touching_height
 from fingerpad.errors import ContactError
 from fingerpad.penalty import PenaltyLaw, press, untouched
 from fingerpad.scene import ActuatorRow, FloatArray, Interface, Material
 from fingerpad.solution import contact_problem
+from scenes import condensed, scene
 
 FRICTION = 0.5
 LAW = PenaltyLaw(500.0, 100.0, FRICTION)

@@ -5,7 +5,7 @@
 CALCULIX_CASE = {
     "edges": "rounded",
     "friction": "stimulus",
-    "coarsening": 2.0,
+    "coarsening": 4.0,
     "indentation_increments": 8,
     "stimulus_increments": 4,
     "rest_increments": 3,
@@ -31,12 +31,15 @@ rule calculix:
         condition="alternate_180",
         limit=1800,
         cases={
-            "coarse": CALCULIX_CASE | {"coarsening": 4.0},
-            "softer": CALCULIX_CASE | {"coarsening": 4.0, "pressure_slope": 250.0, "stick_slope": 50.0},
-            "smaller_increments": CALCULIX_CASE | {"coarsening": 4.0, "stimulus_increments": 16},
-            "medium": CALCULIX_CASE,
+            "base": CALCULIX_CASE,
+            "finer_mesh": CALCULIX_CASE | {"coarsening": 2.0},
+            "smaller_increments": CALCULIX_CASE | {"indentation_increments": 16, "stimulus_increments": 8},
+            "softer_penalties": CALCULIX_CASE | {"pressure_slope": 250.0, "stick_slope": 50.0},
             "sharp": CALCULIX_CASE | {"edges": "sharp", "friction": "never"},
-            "friction_always": CALCULIX_CASE | {"friction": "always", "indentation_increments": 20},
+            "sharp_finer_mesh": CALCULIX_CASE | {"edges": "sharp", "friction": "never", "coarsening": 2.0},
+            "rubbing": CALCULIX_CASE | {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8},
+            "rubbing_smaller_increments": CALCULIX_CASE
+            | {"friction": "always", "indentation_increments": 40, "stimulus_increments": 16},
         },
     script:
         "../scripts/calculix.py"

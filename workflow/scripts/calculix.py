@@ -14,7 +14,7 @@ from fingerpad.scenefile import load_scene
 from fingerpad.solution import contact_problem, indented_state
 from fingerpad.store import write_rows
 
-FINEST = "CalculiX on the finest mesh"  # among the cases that differ in nothing else than mesh and increments
+SHARED = ("edges", "friction")  # what two cases must share for CalculiX to be compared with itself
 
 
 def prepared(scene: Scene, case: dict[str, Any]) -> tuple[Scene, DeckSettings]:
@@ -30,16 +30,16 @@ def prepared(scene: Scene, case: dict[str, Any]) -> tuple[Scene, DeckSettings]:
     return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
 
 
-def row(case: dict[str, Any], unknowns: int, seconds: float, against: str, apart: dict[str, float]) -> dict[str, Any]:
+def row(name: str, case: dict[str, Any], against: str, apart: dict[str, float]) -> dict[str, Any]:
     """One row of the table: a case, what it is compared with, and the relative differences."""
     rounded = {key: f"{value:.5f}" for key, value in apart.items()}
-    return {**case, "unknowns": unknowns, "calculix_s": round(seconds, 1), "against": against, **rounded, "note": ""}
+    return {"case": name, **case, "unknowns": "", "calculix_s": "", "against": against, **rounded, "note": ""}
 
 
 def compared(
-    scene: Scene, condition: str, case: dict[str, Any], folder: Path, limit: float
+    scene: Scene, condition: str, name: str, case: dict[str, Any], folder: Path, limit: float
 ) -> tuple[list[dict[str, Any]], Outcome]:
-    """Rows of one case against fingerpad's laws on the same mesh, and CalculiX's outcome. Raises CalculixError."""
+    """Rows of one case beside fingerpad's laws on the same mesh, and CalculiX's outcome. Raises CalculixError."""
     fine, settings = prepared(scene, case)
     scene = coarsened(fine, case["coarsening"])
     section = mesh_section(scene)
@@ -50,20 +50,15 @@ def compared(
         scene, section, read_printed(printed, len(scene.device.actuators.positions), moves, settings)
     )
     condensed = condense_section(section, scene)
-    unknowns = 2 * section.mesh.doflocs.shape[1]
+    cost = {"unknowns": 2 * section.mesh.doflocs.shape[1], "calculix_s": round(seconds, 1)}
     rows = []
     for law in Law:
         try:
             apart = differences(fingerpad_outcome(scene, condensed, stimulus, settings, law), reference)
-            rows.append(row(case, unknowns, seconds, str(law), apart))
+            rows.append(row(name, case, law, apart) | cost)
         except ContactError as error:
-            rows.append(row(case, unknowns, seconds, str(law), {}) | {"note": str(error)})
+            rows.append(row(name, case, law, {}) | cost | {"note": str(error)})
     return rows, reference
-
-
-def family(case: dict[str, Any]) -> tuple[Any, ...]:
-    """What cases share that differ in mesh and increments alone."""
-    return tuple(case[key] for key in ("edges", "friction"))
 
 
 def main(
@@ -86,15 +81,16 @@ def main(
     outcomes: dict[str, Outcome] = {}
     for name, case in cases.items():
         try:
-            found, outcomes[name] = compared(scene, condition, case, folder / name, limit)
-            rows += found
+            found, outcome = compared(scene, condition, name, case, folder / name, limit)
         except CalculixError as error:
-            rows.append(row(case, 0, 0.0, "", {}) | {"note": str(error)})
-    for name, outcome in outcomes.items():
-        relatives = [other for other in outcomes if family(cases[other]) == family(cases[name])]
-        finest = min(relatives, key=lambda other: cases[other]["coarsening"])
-        if finest != name:
-            rows.append(row(cases[name], 0, 0.0, FINEST, differences(outcome, outcomes[finest])))
+            rows.append(row(name, case, "", {}) | {"note": str(error)})
+            continue
+        rows += found
+        # the first case with the same edges and friction: what differs beside it moves CalculiX by so much
+        first = next((other for other in outcomes if all(cases[other][key] == case[key] for key in SHARED)), None)
+        if first is not None:
+            rows.append(row(name, case, f"CalculiX, case {first}", differences(outcome, outcomes[first])))
+        outcomes[name] = outcome
     columns = list(dict.fromkeys(key for one in rows for key in one))
     write_rows(table, [{key: one.get(key, "") for key in columns} for one in rows])
 
