@@ -84,8 +84,8 @@ def test_every_element_is_counter_clockwise_with_its_midpoints_in_place(device: 
         ring, following = x[:corners], np.roll(x[:corners], -1, axis=0)
         assert np.sum(ring[:, 0] * following[:, 1] - ring[:, 1] * following[:, 0]) > 0.0
         length = np.linalg.norm(following - ring, axis=1)
-        # source: an arc of 23 degrees bulges by 0.05 of its length, and no element spans so much of an edge
-        assert np.all(np.linalg.norm(x[corners:] - (ring + following) / 2.0, axis=1) < 0.05 * length)
+        # source: a second-order side maps one to one while its midpoint is within a quarter of its middle
+        assert np.all(np.linalg.norm(x[corners:] - (ring + following) / 2.0, axis=1) < 0.25 * length)
 
 
 def test_the_finger_is_the_section_mesh() -> None:
@@ -200,6 +200,14 @@ def test_command_says_in_one_line_what_is_wrong(tmp_path: Path, capsys: pytest.C
     assert said.count("\n") == 1
     assert "no condition 'backwards'" in said
     assert not (tmp_path / "scene.inp").exists()
+
+
+@pytest.mark.parametrize("flag", ["--stick-slope", "--indentation-increments"])
+def test_command_refuses_settings_that_make_no_deck(
+    flag: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*export(tmp_path, CONDITION), flag, "0"]) == FAILED
+    assert f"{flag[2:].replace('-', '_')} must be positive" in capsys.readouterr().err
 
 
 def test_help_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:

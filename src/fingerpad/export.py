@@ -16,19 +16,22 @@ from skfem import MeshTri2
 
 from .condensation import contact_skin, receptor_strain
 from .elasticity import displacement_basis, node_dofs
+from .errors import SceneError
 from .mesh import SectionMesh, mesh_strip
 from .profile import SHARP_RADIUS, WALL_ANGLE, profile
 from .scene import ActuatorRow, Condition, FloatArray, Layer, Material, Numerics, Scene
 
-ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its sagitta is 2e-3 of the edge radius
+ARC_STEP = np.deg2rad(
+    5.0
+)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly
 WALL_LENGTH = 2.0  # edge radii [1]; how far the wall beyond a rigid edge goes on: the skin does not get there
 RIGID_DEPTH = 0.5  # mm; of a rigid actuator's elements, which only carry their surface
-EDGE_ELEMENTS = 8  # of a deformable actuator along the radius of its edge [1]; source: as fine as an arc of 7 degrees
+EDGE_ELEMENTS = 8  # of a deformable actuator along the radius of its edge [1]; source: assumption: 7 degrees an element
 # any finite values will do: every node of a rigid actuator is prescribed
 RIGID = Material(2.0e5, 0.3)  # MPa, 1; source: steel
 LARGEST_COUNT = 100000  # increments [1] that a step may take, and after which it writes: only at its end
-SMALLEST_INCREMENT = 1.0e-6  # of a step [1]; source: below it no cut-back has ever helped
+SMALLEST_INCREMENT = 1.0e-6  # of a step [1]; source: assumption: a thousandth of any increment that was needed
 PER_LINE = 8  # numbers a data line [1]; source: Abaqus allows 16
 READ_NODES = "RECEPTOR_NODES"
 FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on later: the keyword wants a positive one
@@ -41,8 +44,10 @@ class DeckSettings:
     indentation: height [mm] of the faces above the pad's lowest point. friction_indenting, friction_acting: [1] during
     pre-indentation and during the stimulus. pressure_slope, stick_slope: penalties [MPa/mm], pressure over penetration
     and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step. rest_increments: of
-    a step at rest after each of them: CalculiX looks only at the start of an increment where the
-    surfaces face each other, and in which direction.
+    a step at rest after each of them, or none: CalculiX looks only at the start of an increment where the surfaces
+    face each other, and in which direction.
+
+    Raises SceneError if a slope or a number of increments is not positive.
     """
 
     indentation: float
@@ -53,6 +58,13 @@ class DeckSettings:
     indentation_increments: int
     stimulus_increments: int
     rest_increments: int
+
+    def __post_init__(self) -> None:
+        for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
+            if not getattr(self, name) > 0:
+                raise SceneError(f"deck: {name} must be positive, found {getattr(self, name)}")
+        if self.rest_increments < 0:
+            raise SceneError(f"deck: rest_increments must not be negative, found {self.rest_increments}")
 
     @property
     def steps_a_move(self) -> int:
@@ -76,14 +88,14 @@ class _Part:
 def input_deck(scene: Scene, section: SectionMesh, condition: Condition, settings: DeckSettings) -> str:
     """The whole deck of one condition."""
     first_node, first_element = section.mesh.doflocs.shape[1], section.mesh.t.shape[1]
-    parts = [actuator_part(scene, number) for number in range(len(scene.device.actuators.positions))]
+    parts = [_part(scene, number) for number in range(len(scene.device.actuators.positions))]
     lines = [*_heading(scene, condition, settings), *_finger(scene, section)]
     for part in parts:
         lines += _actuator(part, first_node, first_element)
         first_node += part.node.shape[0]
         first_element += part.element.shape[0]
     lines += _materials(scene, parts[0])
-    lines += _contact(scene, section, settings)
+    lines += _contact(scene, settings)
     lines += _steps(scene, condition, settings)
     return "\n".join(lines) + "\n"
 
@@ -99,7 +111,7 @@ def read_nodes(scene: Scene, section: SectionMesh) -> np.ndarray:
     return np.flatnonzero(np.isin(node_dofs(displacement_basis(section.mesh)), strain.indices).any(axis=0))
 
 
-def actuator_part(scene: Scene, number: int) -> _Part:
+def _part(scene: Scene, number: int) -> _Part:
     """Elements of the actuator of that index, its face at y = 0."""
     row = scene.device.actuators
     name, centre = actuator_name(number), row.positions[number]
@@ -241,13 +253,13 @@ def _materials(scene: Scene, part: _Part) -> list[str]:
     return lines
 
 
-def _contact(scene: Scene, section: SectionMesh, settings: DeckSettings) -> list[str]:
+def _contact(scene: Scene, settings: DeckSettings) -> list[str]:
     lines = [
         "**",
         "** ---- contact: pressure [MPa] = slope [MPa/mm] x penetration; Coulomb friction [1], stick slope [MPa/mm]",
         "*SURFACE INTERACTION, NAME=SKIN_ON_ACTUATOR",
         "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
-        f"{settings.pressure_slope:g}",
+        f"{settings.pressure_slope:.12g}",
     ]
     if settings.friction_acting > 0.0:
         lines += _friction(max(settings.friction_indenting, FRICTIONLESS), settings)
@@ -278,7 +290,7 @@ def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[s
 
 
 def _friction(coefficient: float, settings: DeckSettings) -> list[str]:
-    return ["*FRICTION", f"{coefficient:g}, {settings.stick_slope:g}"]
+    return ["*FRICTION", f"{coefficient:.12g}, {settings.stick_slope:.12g}"]
 
 
 def _step(title: str, displacement: Sequence[tuple[float, float]], increments: int, before: list[str]) -> list[str]:
@@ -315,7 +327,7 @@ def _output(actuators: int) -> list[str]:
 
 
 def _material(name: str, material: Material) -> list[str]:
-    return [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{material.modulus:g}, {material.poisson:g}"]
+    return [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{material.modulus:.12g}, {material.poisson:.12g}"]
 
 
 def _layer_name(index: int, layer: Layer) -> str:
