@@ -95,7 +95,7 @@ def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
     path, seconds = run(input_deck(small, section, condition, SETTINGS), tmp_path, 300.0)
     assert seconds > 0.0
     reference = calculix_outcome(small, section, read_printed(path, 4, 2, SETTINGS))
-    found = fingerpad_outcome(small, condense_section(section, small), condition, SETTINGS, Law.PENALTIES)
+    found = fingerpad_outcome(small, condense_section(section, small), None, condition, SETTINGS, Law.PENALTIES)
     apart = differences(found, reference)
     assert apart["pressing_indented"] < 0.01
     assert apart["strain_indented"] < 0.02

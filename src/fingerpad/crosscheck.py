@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 
 from .calculix import Printed
-from .compliance import CondensedSection
+from .compliance import CondensedBody, CondensedSection
 from .condensation import arc_length, receptor_strain
 from .contact import ContactProblem, follow, rest, switch_friction, touching_height
 from .elasticity import displacement_basis, node_dofs
@@ -75,10 +75,16 @@ def calculix_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Ou
 
 
 def fingerpad_outcome(
-    scene: Scene, section: CondensedSection, condition: Condition, settings: DeckSettings, law: Law
+    scene: Scene,
+    section: CondensedSection,
+    body: CondensedBody | None,
+    condition: Condition,
+    settings: DeckSettings,
+    law: Law,
 ) -> Outcome:
-    """Outcome of the same path on the condensed maps. Raises ContactError if it cannot be followed."""
-    problem = replace(contact_problem(scene, section, None, Interface.SHEAR), friction=settings.friction_acting)
+    """Outcome of the same path on the condensed maps. Raises ContactError if it cannot be followed, or the
+    turning normal is asked of a deformable body."""
+    problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
     follow_path = _turning_forces if law is Law.TURNING else _own_forces
     if law is Law.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(_softness(section, settings)))

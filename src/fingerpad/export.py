@@ -21,9 +21,7 @@ from .mesh import SectionMesh, mesh_strip
 from .profile import SHARP_RADIUS, WALL_ANGLE, profile
 from .scene import ActuatorRow, Condition, FloatArray, Layer, Material, Numerics, Scene
 
-ARC_STEP = np.deg2rad(
-    5.0
-)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
+ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly
 WALL_LENGTH = 2.0  # edge radii [1]; how far the wall beyond a rigid edge goes on: the skin does not get there
 RIGID_DEPTH = 0.5  # mm; of a rigid actuator's elements, which only carry their surface

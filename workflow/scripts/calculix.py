@@ -4,7 +4,8 @@ from pathlib import Path
 from typing import Any
 
 from fingerpad.calculix import installed, read_printed, run
-from fingerpad.condensation import condense_section
+from fingerpad.compliance import CondensedBody
+from fingerpad.condensation import condense_body, condense_section
 from fingerpad.crosscheck import Law, Outcome, calculix_outcome, coarsened, differences, fingerpad_outcome, sharpened
 from fingerpad.errors import CalculixError, ContactError
 from fingerpad.export import DeckSettings, input_deck
@@ -17,6 +18,11 @@ from fingerpad.store import write_rows
 SHARED = ("edges", "friction")  # what two cases must share for CalculiX to be compared with itself
 
 
+def body_of(scene: Scene) -> CondensedBody | None:
+    """The condensed body of deformable actuators."""
+    return condense_body(scene) if scene.device.actuators.body else None
+
+
 def prepared(scene: Scene, case: dict[str, Any]) -> tuple[Scene, DeckSettings]:
     """The case's scene with the shipped mesh, and the settings of its deck: it indents as deep as fingerpad does."""
     scene = sharpened(scene) if case["edges"] == "sharp" else scene
@@ -24,7 +30,7 @@ def prepared(scene: Scene, case: dict[str, Any]) -> tuple[Scene, DeckSettings]:
     acting = 0.0 if case["friction"] == "never" else friction
     indenting = friction if case["friction"] == "always" else 0.0
     interface = Interface.SHEAR if indenting else Interface.FRICTIONLESS
-    problem = contact_problem(scene, condense_section(mesh_section(scene), scene), None, interface)
+    problem = contact_problem(scene, condense_section(mesh_section(scene), scene), body_of(scene), interface)
     depth = float(indented_state(scene, problem).actuator[0, 1])
     keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
     return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
@@ -49,12 +55,12 @@ def compared(
     reference = calculix_outcome(
         scene, section, read_printed(printed, len(scene.device.actuators.positions), moves, settings)
     )
-    condensed = condense_section(section, scene)
+    condensed, body = condense_section(section, scene), body_of(scene)
     cost = {"unknowns": 2 * section.mesh.doflocs.shape[1], "calculix_s": round(seconds, 1)}
     rows = []
     for law in Law:
         try:
-            apart = differences(fingerpad_outcome(scene, condensed, stimulus, settings, law), reference)
+            apart = differences(fingerpad_outcome(scene, condensed, body, stimulus, settings, law), reference)
             rows.append(row(name, case, law, apart) | cost)
         except ContactError as error:
             rows.append(row(name, case, law, {}) | cost | {"note": str(error)})
