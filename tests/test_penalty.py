@@ -10,6 +10,7 @@ import pytest
 
 from blocks import block, block_problem, graded, lift
 from fingerpad.contact import ContactProblem, follow, rest, switch_friction, touching_height
+from fingerpad.crosscheck import sharpened
 from fingerpad.errors import ContactError
 from fingerpad.penalty import PenaltyLaw, press, untouched
 from fingerpad.scene import ActuatorRow, FloatArray, Interface, Material
@@ -80,7 +81,9 @@ def test_without_friction_the_work_done_is_stored() -> None:
     assert work == pytest.approx(tissue + penalties, rel=1e-3)  # trapezoids of 1/200 on a smooth path: (1/200)^2, kinks
 
 
-def test_it_is_for_rigid_actuators() -> None:
+def test_it_is_for_rigid_actuators_with_rounded_edges() -> None:
     finger, body = condensed("device3")
-    with pytest.raises(ContactError, match="rigid"):
+    with pytest.raises(ContactError, match="rigid actuators with rounded edges"):
         untouched(contact_problem(scene("device3"), finger, body, Interface.SHEAR))
+    with pytest.raises(ContactError, match="rigid actuators with rounded edges"):
+        untouched(contact_problem(sharpened(scene("device2")), condensed("device2")[0], None, Interface.SHEAR))

@@ -19,7 +19,6 @@ import numpy as np
 
 from .contact import ContactProblem
 from .errors import ContactError
-from .profile import SHARP_RADIUS
 from .scene import ActuatorRow, FloatArray
 
 MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]
@@ -62,9 +61,13 @@ class _Surface:
 
 
 def untouched(problem: ContactProblem) -> PenaltyState:
-    """The unloaded state with all faces at the height of the pad's lowest point. Raises ContactError for a body."""
-    if problem.body is not None:
-        raise ContactError("the penalty law is for rigid actuators")
+    """The unloaded state with all faces at the height of the pad's lowest point.
+
+    Raises ContactError for deformable actuators, and for sharp edges: a node that slips off one would lose its force at
+    a stroke, and there is no normal that turns.
+    """
+    if problem.body is not None or problem.row.edge_radius == 0.0:
+        raise ContactError("the penalty law with a turning normal is for rigid actuators with rounded edges")
     centre = np.asarray(problem.row.positions)[problem.actuator_of()]
     position = problem.position - np.stack([centre, np.zeros_like(centre)], axis=1)
     arc = _surface(problem.row, position).arc
@@ -125,13 +128,13 @@ def _increment(
 
 def _surface(row: ActuatorRow, position: FloatArray) -> _Surface:
     """The profile seen from positions (n, 2) [mm] in the actuator's frame: flat face, then the edges' circles."""
-    radius = max(row.edge_radius, SHARP_RADIUS)
+    radius = row.edge_radius
     flat = row.width / 2.0 - radius
     x, y = position.T
     side = np.sign(x)
     beyond = np.maximum(np.abs(x) - flat, 0.0)
-    distance = np.hypot(beyond, y + radius)
     on_edge = beyond > 0.0
+    distance = np.hypot(beyond, y + radius)
     normal = np.stack([side * beyond / distance, np.where(on_edge, (y + radius) / distance, 1.0)], axis=1)
     return _Surface(
         np.where(on_edge, distance - radius, y),
