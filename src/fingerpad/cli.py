@@ -114,3 +114,7 @@ def _export(options: argparse.Namespace) -> None:
         options.rest_increments,
     )
     options.output.write_text(input_deck(scene, section, condition, settings), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
