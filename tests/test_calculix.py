@@ -26,7 +26,7 @@ from fingerpad.mesh import mesh_section
 from scenes import CONFIG, scene
 from scripts.calculix import main
 
-SETTINGS = DeckSettings(0.4, 0.0, 0.0, 500.0, 100.0, 3, 2, 2)
+SETTINGS = DeckSettings(0.4, 0.0, 0.0, 500.0, 100.0, 2, 1, 2)
 PRINTED = """
  displacements (vx,vy,vz) for set RECEPTOR_NODES and time  {time}
 
@@ -84,8 +84,11 @@ def test_a_deck_that_calculix_refuses_is_an_error(tmp_path: Path) -> None:
 
 @needs_calculix
 def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
-    """A coarse mesh, an indentation that leaves skin beside the faces: strain and forces as far apart as the contact's
-    discretisation is coarse, which has 0.1 mm between nodes on faces of 1 mm."""
+    """A coarse mesh: nodes are 0.1 mm apart on faces 1 mm wide, so where contact ends is uncertain by 5 % of a face.
+
+    The edges of a face are at fault in turn, and strain lies 0.6 mm deep: less than half of it is left there. Total
+    forces do not feel it but in the second order.
+    """
     small = coarsened(sharpened(scene("device2")), 4.0)
     small = replace(
         small, model=replace(small.model, numerics=replace(small.model.numerics, growth=0.8, largest_size=2.0))
