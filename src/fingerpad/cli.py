@@ -84,7 +84,7 @@ def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         parser.add_argument(flag, type=float, default=default, metavar="NUMBER", help=f"{what} (default: %(default)g)")
     for flag, increments, what in (
         ("--indentation-increments", 20, "of pre-indentation"),
-        ("--stimulus-increments", 8, "of each time of the stimulus"),
+        ("--stimulus-increments", 4, "of each time of the stimulus"),
         ("--rest-increments", 3, "at rest after each of them"),
     ):
         parser.add_argument(
