@@ -35,8 +35,7 @@ rule calculix:
             "finer_mesh": CALCULIX_CASE | {"coarsening": 2.0},
             "smaller_increments": CALCULIX_CASE | {"indentation_increments": 16, "stimulus_increments": 8},
             "softer_penalties": CALCULIX_CASE | {"pressure_slope": 250.0, "stick_slope": 50.0},
-            "sharp": CALCULIX_CASE | {"edges": "sharp"},
-            "sharp_finer_mesh": CALCULIX_CASE | {"edges": "sharp", "coarsening": 2.0},
+            "sharp": CALCULIX_CASE | {"edges": "sharp", "coarsening": 2.0},
             "rubbing": CALCULIX_CASE | {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8},
             "rubbing_smaller_increments": CALCULIX_CASE
             | {"friction": "always", "indentation_increments": 40, "stimulus_increments": 16},

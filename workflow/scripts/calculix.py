@@ -95,7 +95,7 @@ def main(
         # the first case with the same edges and friction: what differs beside it moves CalculiX by so much
         first = next((other for other in outcomes if all(cases[other][key] == case[key] for key in SHARED)), None)
         if first is not None:
-            rows.append(row(name, case, f"CalculiX, case {first}", differences(outcome, outcomes[first])))
+            rows.append(row(name, case, f"CalculiX in {first}", differences(outcome, outcomes[first])))
         outcomes[name] = outcome
     columns = list(dict.fromkeys(key for one in rows for key in one))
     write_rows(table, [{key: one.get(key, "") for key in columns} for one in rows])
