@@ -15,7 +15,7 @@ points where the skin touches it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
 
@@ -113,6 +113,11 @@ def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     """Undeformed nodes (n, 2) [mm] in the frame of their actuator, which stands at `actuator` (n_actuators, 2)."""
     centre = np.stack([np.asarray(problem.row.positions), np.zeros(len(problem.row.positions))], axis=1)
     return np.asarray(problem.position - (actuator + centre)[problem.actuator_of])
+
+
+def switch_friction(state: ContactState) -> ContactState:
+    """A frictionless state on which friction acts from now on: what touches sticks, and bears no shear yet."""
+    return replace(state, status=np.where(state.status == Status.OPEN, Status.OPEN, Status.STICK))
 
 
 @dataclass(frozen=True)

@@ -23,3 +23,7 @@ class CondensationError(FingerpadError):
 
 class ContactError(FingerpadError):
     """A frictional contact path could not be followed, or a solution failed its certificate."""
+
+
+class CalculixError(FingerpadError):
+    """CalculiX failed on a deck, took too long, or printed something else than was asked for."""

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact import Status
+from ..contact import Status, switch_friction
 from ..path import follow
 from ..scene import FloatArray
 from .blocks import element_means, half_plane, lift, pressed
@@ -57,7 +57,7 @@ def cattaneo_mindlin(spacing: float) -> list[Comparison]:
     uncoupled[0::2, 1::2] = uncoupled[1::2, 0::2] = 0.0
     frictionless = replace(block.problem, compliance=uncoupled)
     normal = pressed(frictionless, DEPTH, INCREMENTS)
-    stuck = replace(normal, status=np.where(normal.status == Status.OPEN, Status.OPEN, Status.STICK))
+    stuck = switch_friction(normal)
     problem = replace(frictionless, friction=FRICTION)
     state = follow(problem, stuck, stuck.actuator + lift(problem, SHIFT, 0.0), SHIFT_INCREMENTS)
 

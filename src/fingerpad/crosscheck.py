@@ -1,0 +1,166 @@
+"""One case solved by CalculiX and by fingerpad, in the same terms, and how far they are apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from .calculix import Printed
+from .compliance import CondensedBody, CondensedSection
+from .condensation import arc_length, receptor_strain
+from .contact import ContactProblem, rest, switch_friction, touching_height
+from .elasticity import displacement_basis, node_dofs
+from .export import DeckSettings
+from .gabor import filtered_readouts, resample, uniform_grid
+from .mesh import SectionMesh
+from .path import follow
+from .penalty import PenaltyLaw, PenaltyState, press, untouched
+from .roughness import roughness_score, score_span
+from .scene import Condition, FloatArray, Interface, Readout, Scene
+from .solution import contact_problem
+from .strain import maximum_principal
+
+# source: the change of strain no longer moves in its fourth digit (measured)
+INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]
+STIMULUS_INCREMENTS = 32  # of fingerpad's side, a segment [1]
+
+
+class Law(StrEnum):
+    """Contact law of fingerpad's side: its own; with CalculiX's penalties; with its turning normal too."""
+
+    OWN = "fingerpad"
+    PENALTIES = "fingerpad with penalties"
+    TURNING = "fingerpad with penalties and turning normal"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What is compared. arc: (k,) uniform grid along the receptors [mm]. strain: (2, k) maximum principal strain [1]
+    after pre-indentation and at the stimulus's end. force: (2, n_actuators, 2) on the skin [N/mm]. score: [mm2].
+    """
+
+    arc: FloatArray
+    strain: FloatArray
+    force: FloatArray
+    score: dict[Readout, float]
+
+
+def coarsened(scene: Scene, factor: float) -> Scene:
+    """The scene with a mesh coarser by a factor [1] on skin and receptor line."""
+    sizes = scene.model.numerics
+    numerics = replace(
+        sizes,
+        edge_size=factor * sizes.edge_size,
+        face_size=factor * sizes.face_size,
+        receptor_size=factor * sizes.receptor_size,
+    )
+    return replace(scene, model=replace(scene.model, numerics=numerics))
+
+
+def sharpened(scene: Scene) -> Scene:
+    """The scene with sharp edges: contact ends where the flat face does, and no normal can turn."""
+    actuators = replace(scene.device.actuators, edge_radius=0.0)
+    return replace(scene, device=replace(scene.device, actuators=actuators))
+
+
+def calculix_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Outcome:
+    """Outcome of what CalculiX printed: strain by the same map from displacement as fingerpad's."""
+    points, strain = receptor_strain(section, scene)
+    unknowns = node_dofs(displacement_basis(section.mesh))[:, printed.node]
+    field = np.zeros((printed.displacement.shape[0], strain.shape[1]))
+    field[:, unknowns] = printed.displacement.swapaxes(1, 2)
+    strains = np.array([maximum_principal(strain @ one) for one in field[[0, -1]]])
+    return _outcome(scene, arc_length(points), strains, printed.force[[0, -1]])
+
+
+def fingerpad_outcome(
+    scene: Scene,
+    section: CondensedSection,
+    body: CondensedBody | None,
+    condition: Condition,
+    settings: DeckSettings,
+    law: Law,
+) -> Outcome:
+    """Outcome of the same path on the condensed maps. Raises ContactError if it cannot be followed, or the
+    turning normal is asked of a deformable body."""
+    problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
+    follow_path = _turning_forces if law is Law.TURNING else _own_forces
+    if law is Law.PENALTIES:
+        problem = replace(problem, compliance=problem.compliance + np.diag(_softness(section, settings)))
+    forces = follow_path(problem, section, condition, settings)
+    strains = np.array([maximum_principal(section.strain @ force.ravel()) for force in forces])
+    owner = problem.actuator_of
+    totals = [[force[owner == number].sum(axis=0) for number in range(len(problem.row.positions))] for force in forces]
+    return _outcome(scene, section.arc, strains, np.array(totals))
+
+
+def differences(found: Outcome, reference: Outcome) -> dict[str, float]:
+    """Relative differences [1] in the norm L2: of strains, pressing and all forces, change of strain, and of scores."""
+    grid = reference.arc
+    strain = np.array([np.interp(grid, found.arc, values) for values in found.strain])
+    return {
+        "strain_indented": _relative(strain[0], reference.strain[0]),
+        "pressing_indented": _relative(found.force[0, :, 1], reference.force[0, :, 1]),
+        "strain_actuated": _relative(strain[1], reference.strain[1]),
+        "force_actuated": _relative(found.force[1], reference.force[1]),
+        "change_of_strain": _relative(strain[1] - strain[0], reference.strain[1] - reference.strain[0]),
+        **{f"score_{readout}": abs(found.score[readout] / reference.score[readout] - 1.0) for readout in Readout},
+    }
+
+
+def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
+    """Displacements (n_actuators, 2) [mm] of the actuators: pre-indented, then at the stimulus's times."""
+    indented = np.tile([0.0, settings.indentation], (condition.normal.shape[1], 1))
+    moves = zip(condition.tangential, condition.normal, strict=True)
+    return [indented, *(indented + np.stack(move, axis=1) for move in moves)]
+
+
+def _softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
+    """Compliance (2n,) [mm per N/mm] that the penalties add to each node: 1 / (slope times its length of skin)."""
+    slopes = np.array([settings.stick_slope, settings.pressure_slope])
+    return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())
+
+
+def _own_forces(
+    problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
+) -> tuple[FloatArray, FloatArray]:
+    indented, *stimulus = targets(condition, settings)
+    first = replace(problem, friction=settings.friction_indenting)
+    before = follow(first, rest(first, touching_height(first)), indented, INDENTATION_INCREMENTS)
+    state = switch_friction(before) if settings.friction_acting > settings.friction_indenting else before
+    for target in stimulus:
+        state = follow(problem, state, target, STIMULUS_INCREMENTS)
+    return before.force, state.force
+
+
+def _turning_forces(
+    problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
+) -> tuple[FloatArray, FloatArray]:
+    indented, *stimulus = targets(condition, settings)
+    law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting)
+    first = replace(law, friction=settings.friction_indenting)
+    before = press(problem, section.weight, first, untouched(problem), indented, INDENTATION_INCREMENTS)
+    state: PenaltyState = before
+    for target in stimulus:
+        state = press(problem, section.weight, law, state, target, STIMULUS_INCREMENTS)
+    return before.force, state.force
+
+
+def _outcome(scene: Scene, arc: FloatArray, strain: FloatArray, force: FloatArray) -> Outcome:
+    """Read-outs on the uniform grid, and scores."""
+    gabor, row = scene.model.gabor, scene.device.actuators
+    grid = uniform_grid(arc, gabor.spacing)
+    filtered = filtered_readouts(arc, strain[1], strain[1] - strain[0], gabor)
+    span = score_span(row, scene.model.readout.span_margin)
+    return Outcome(
+        grid,
+        np.array([resample(arc, values, grid) for values in strain]),
+        force,
+        {readout: roughness_score(grid, filtered.filtered(readout), span) for readout in Readout},
+    )
+
+
+def _relative(found: FloatArray, reference: FloatArray) -> float:
+    return float(np.linalg.norm(found - reference) / np.linalg.norm(reference))

@@ -1,0 +1,177 @@
+"""CalculiX's contact law on the condensed compliance: penalties, and a normal that turns with the rounded edge.
+
+It tells apart why another program's answer differs from `contact`: which part comes of its penalties, which of the
+turning normal (docs/decisions/0002), and what is left. It is no second way to solve a condition.
+
+With the skin point q = X + C f - (actuator position), its gap g along the profile's own normal n, its arc length s
+along the profile, and the weight w of the node:
+    N = k_n w max(-g, 0)                                         pressing force
+    T = -k_t w (s - s_0), held within |T| <= mu N                shearing force; s_0 follows when it slips
+    f = N n + T t,    q - (X - actuator position) - C f(q) = 0   solved by Newton's method for q.
+Source: G. Dhondt, CalculiX manual, face-to-face penalty contact; here node by node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .contact import ContactProblem
+from .errors import ContactError
+from .scene import ActuatorRow, FloatArray
+
+MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]
+MAX_HALVINGS = 8  # of a Newton step, and of an increment [1]
+TOLERANCE = 1e-10  # mm of residual displacement; source: 1e-6 of the smallest penetration that matters
+
+
+@dataclass(frozen=True)
+class PenaltyLaw:
+    """Slopes [MPa/mm] of pressure over penetration and of shear over elastic slip, and friction coefficient [1]."""
+
+    pressure_slope: float
+    stick_slope: float
+    friction: float
+
+
+@dataclass(frozen=True)
+class PenaltyState:
+    """A solved state: actuator (n_actuators, 2) [mm], force on the skin (n, 2) [N/mm], position (n, 2) of the skin in
+    its actuator's frame [mm], and arc length (n,) of the profile at which its shear vanishes [mm].
+    """
+
+    actuator: FloatArray
+    force: FloatArray
+    position: FloatArray
+    origin: FloatArray
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """What nodes (n,) see of the profile: gap [mm], arc length [mm], normal and tangent (n, 2), curvature of the
+    normal [1/mm] and arc length per tangential motion [1]."""
+
+    gap: FloatArray
+    arc: FloatArray
+    normal: FloatArray
+    tangent: FloatArray
+    turning: FloatArray
+    rate: FloatArray
+
+
+def untouched(problem: ContactProblem) -> PenaltyState:
+    """The unloaded state with all faces at the height of the pad's lowest point.
+
+    Raises ContactError for deformable actuators, and for sharp edges: a node that slips off one would lose its force at
+    a stroke, and there is no normal that turns.
+    """
+    if problem.body is not None or problem.row.edge_radius == 0.0:
+        raise ContactError("the penalty law with a turning normal is for rigid actuators with rounded edges")
+    centre = np.asarray(problem.row.positions)[problem.actuator_of]
+    position = problem.position - np.stack([centre, np.zeros_like(centre)], axis=1)
+    arc = _surface(problem.row, position).arc
+    return PenaltyState(np.zeros((len(problem.row.positions), 2)), np.zeros_like(position), position, arc)
+
+
+def press(
+    problem: ContactProblem,
+    weight: FloatArray,
+    law: PenaltyLaw,
+    state: PenaltyState,
+    target: FloatArray,
+    increments: int,
+) -> PenaltyState:
+    """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
+
+    weight: (n,) length of skin of each node [mm]. Raises ContactError if an increment does not converge.
+    """
+    start = state.actuator
+    done, step = 0.0, 1.0 / increments
+    smallest = step / 2.0**MAX_HALVINGS
+    while done < 1.0:
+        goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
+        found = _increment(problem, weight, law, state, start + goal * (target - start))
+        if found is not None:
+            state, done, step = found, goal, min(2.0 * step, 1.0 / increments)
+            continue
+        step /= 2.0
+        if step < smallest:
+            raise ContactError(f"penalty contact did not converge: {done:.1%} of the way")
+    return state
+
+
+def _increment(
+    problem: ContactProblem, weight: FloatArray, law: PenaltyLaw, start: PenaltyState, actuator: FloatArray
+) -> PenaltyState | None:
+    """The state after one increment; None if Newton's method does not converge."""
+    unloaded = untouched(problem).position - actuator[problem.actuator_of]
+    count = weight.size
+    by_node = problem.compliance.reshape(2 * count, count, 2)
+    position = start.position
+    force, tangent, origin = _forces(problem.row, weight, law, position, start.origin)
+    residual = (position - unloaded).ravel() - problem.compliance @ force.ravel()
+    for _ in range(MAX_ITERATIONS):
+        moved = np.einsum("anc,ncd->and", by_node, tangent).reshape(2 * count, 2 * count)
+        step = np.linalg.solve(np.eye(2 * count) - moved, -residual).reshape(count, 2)
+        before, size = position, np.linalg.norm(residual)
+        for halvings in range(MAX_HALVINGS):
+            position = before + step / 2.0**halvings
+            force, tangent, origin = _forces(problem.row, weight, law, position, start.origin)
+            residual = (position - unloaded).ravel() - problem.compliance @ force.ravel()
+            if np.linalg.norm(residual) < size:
+                break
+        if np.abs(residual).max() < TOLERANCE:
+            return PenaltyState(actuator, force, position, origin)
+    return None
+
+
+def _surface(row: ActuatorRow, position: FloatArray) -> _Surface:
+    """The profile seen from positions (n, 2) [mm] in the actuator's frame: flat face, then the edges' circles."""
+    radius = row.edge_radius
+    flat = row.width / 2.0 - radius
+    x, y = position.T
+    side = np.sign(x)
+    beyond = np.maximum(np.abs(x) - flat, 0.0)
+    on_edge = beyond > 0.0
+    distance = np.hypot(beyond, y + radius)
+    normal = np.stack([side * beyond / distance, np.where(on_edge, (y + radius) / distance, 1.0)], axis=1)
+    return _Surface(
+        np.where(on_edge, distance - radius, y),
+        np.where(on_edge, side * (flat + radius * np.arctan2(beyond, y + radius)), x),
+        normal,
+        np.stack([normal[:, 1], -normal[:, 0]], axis=1),
+        np.where(on_edge, 1.0 / distance, 0.0),
+        np.where(on_edge, radius / distance, 1.0),
+    )
+
+
+def _forces(
+    row: ActuatorRow, weight: FloatArray, law: PenaltyLaw, position: FloatArray, origin: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Forces (n, 2) [N/mm], their derivative by position (n, 2, 2), and the new origins of shear (n,)."""
+    seen = _surface(row, position)
+    n, t = seen.normal, seen.tangent
+    touching = seen.gap < 0.0
+    stiff, shear = law.pressure_slope * weight * touching, law.stick_slope * weight * touching
+    if law.friction == 0.0:
+        shear = np.zeros_like(shear)
+    pressing = -stiff * seen.gap
+    trial = -shear * (seen.arc - origin)
+    limit = law.friction * pressing
+    slipping = np.abs(trial) > limit
+    shearing = np.clip(trial, -limit, limit)
+    pressing_rate = -stiff[:, None] * n
+    shearing_rate = np.where(
+        slipping[:, None],
+        (np.sign(trial) * law.friction)[:, None] * pressing_rate,
+        (-shear * seen.rate)[:, None] * t,
+    )
+    # the normal turns by dn = t (t dq) / distance, and the tangent by dt = -n (t dq) / distance
+    turned = pressing[:, None] * t - shearing[:, None] * n
+    turning = seen.turning[:, None, None] * turned[:, :, None] * t[:, None, :]
+    derivative = n[:, :, None] * pressing_rate[:, None, :] + t[:, :, None] * shearing_rate[:, None, :] + turning
+    stuck = touching & (law.friction > 0.0)
+    elastic = np.divide(shearing, shear, out=np.zeros_like(shear), where=shear > 0.0)
+    following = np.where(stuck, np.where(slipping, seen.arc + elastic, origin), seen.arc)
+    return pressing[:, None] * n + shearing[:, None] * t, derivative, following

@@ -1,0 +1,105 @@
+"""CalculiX beside fingerpad: what it prints is read, and where it is installed, both agree on a small case."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fingerpad import calculix
+from fingerpad.calculix import read_printed, run
+from fingerpad.condensation import condense_section
+from fingerpad.crosscheck import (
+    Law,
+    calculix_outcome,
+    coarsened,
+    differences,
+    fingerpad_outcome,
+    sharpened,
+)
+from fingerpad.edges import mesh_device
+from fingerpad.errors import CalculixError
+from fingerpad.export import DeckSettings, input_deck
+from scenes import CONFIG, scene
+from scripts.calculix import main
+
+SETTINGS = DeckSettings(0.4, 0.0, 0.0, 500.0, 100.0, 2, 1, 2)
+PRINTED = """
+ displacements (vx,vy,vz) for set RECEPTOR_NODES and time  {time}
+
+         4  1.500000E-01 -2.500000E-01  0.000000E+00
+        12  {value} -4.500000E-01  0.000000E+00
+
+ forces (fx,fy,fz) for set ACTUATOR_1 and time  {time}
+
+       101  9.000000E+00  9.000000E+00  9.000000E+00
+
+ total force (fx,fy,fz) for set ACTUATOR_1 and time  {time}
+
+        1.000000E-03  {value}  0.000000E+00
+"""
+needs_calculix = pytest.mark.skipif(not calculix.installed(), reason="ccx is not installed")
+
+
+def printed(tmp_path: Path, values: list[float]) -> Path:
+    path = tmp_path / "scene.dat"
+    path.write_text("".join(PRINTED.format(time=f"{k}.0", value=value) for k, value in enumerate(values, start=1)))
+    return path
+
+
+def test_printed_tables_are_read(tmp_path: Path) -> None:
+    found = read_printed(printed(tmp_path, [1.0, 2.0]), 1, 2, replace(SETTINGS, rest_increments=0))
+    assert found.node.tolist() == [3, 11]
+    assert found.displacement.tolist() == [[[0.15, -0.25], [value, -0.45]] for value in (1.0, 2.0)]
+    assert found.force.tolist() == [[[0.001, value]] for value in (1.0, 2.0)]
+
+
+def test_of_a_move_and_its_rest_the_rest_is_read(tmp_path: Path) -> None:
+    found = read_printed(printed(tmp_path, [1.0, 2.0, 3.0, 4.0]), 1, 2, SETTINGS)
+    assert found.force[:, 0, 1].tolist() == [2.0, 4.0]
+
+
+def test_a_missing_step_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(CalculixError, match="1 tables of RECEPTOR_NODES, expected 2"):
+        read_printed(printed(tmp_path, [1.0]), 1, 2, replace(SETTINGS, rest_increments=0))
+
+
+def test_without_calculix_the_table_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    table, device = tmp_path / "calculix.csv", CONFIG / "devices" / "device2.yaml"
+    main(CONFIG / "config.yaml", device, "alternate_180", {}, 1.0, tmp_path / "decks", table)
+    with table.open(encoding="utf-8") as file:
+        assert list(csv.DictReader(file)) == [{"note": "skipped: ccx not installed"}]
+    assert (tmp_path / "decks").is_dir()
+
+
+@needs_calculix
+def test_a_deck_that_calculix_refuses_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(CalculixError, match="failed"):
+        run("*NODE\n1, 0., 0.\n*STEP\n*STATIC\n*NONSENSE\n*END STEP\n", tmp_path, 60.0)
+
+
+@needs_calculix
+def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
+    """A coarse mesh: nodes are 0.1 mm apart on faces 1 mm wide, so where contact ends is uncertain by 5 % of a face.
+
+    The edges of a face are at fault in turn, and strain lies 0.6 mm deep: less than half of it is left there. Total
+    forces do not feel it but in the second order.
+    """
+    small = coarsened(sharpened(scene("device2")), 4.0)
+    small = replace(
+        small, model=replace(small.model, numerics=replace(small.model.numerics, growth=0.8, largest_size=2.0))
+    )
+    condition = small.device.condition("alternate_000")
+    section = mesh_device(small)
+    path, seconds = run(input_deck(small, section, condition, SETTINGS), tmp_path, 300.0)
+    assert seconds > 0.0
+    reference = calculix_outcome(small, section, read_printed(path, 4, 2, SETTINGS))
+    found = fingerpad_outcome(small, condense_section(section, small), None, condition, SETTINGS, Law.PENALTIES)
+    apart = differences(found, reference)
+    assert apart["pressing_indented"] < 0.01
+    assert apart["strain_indented"] < 0.02
+    assert np.allclose(reference.force[0, :, 0].sum(), 0.0, atol=1e-6 * reference.force[0, :, 1].sum())

@@ -1,0 +1,217 @@
+"""The input deck: what it says of mesh, layers, actuators, contact and steps, and the command that writes it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fingerpad.cli import FAILED, main
+from fingerpad.crosscheck import sharpened
+from fingerpad.edges import mesh_device
+from fingerpad.export import READ_NODES, DeckSettings, input_deck, read_nodes
+from fingerpad.profile import profile
+from fingerpad.scene import FloatArray, Interface, Scene
+from scenes import CONFIG, scene, section
+
+SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"
+CONDITION = "alternate_180"
+SETTINGS = DeckSettings(1.25, 0.0, 0.6, 500.0, 100.0, 10, 4, 2)
+SIDES = {3: ((0, 3, 1), (1, 4, 2), (2, 5, 0)), 4: ((0, 4, 1), (1, 5, 2), (2, 6, 3), (3, 7, 0))}  # by corners
+
+Block = tuple[str, dict[str, str], list[list[str]]]  # keyword, its parameters, its data lines
+
+
+@cache
+def deck(device: str) -> list[Block]:
+    return parsed(scene(device), SETTINGS)
+
+
+def parsed(a_scene: Scene, settings: DeckSettings) -> list[Block]:
+    """Keywords of a deck in their order, each with parameters and data."""
+    mesh = section(a_scene.device.name) if a_scene is scene(a_scene.device.name) else mesh_device(a_scene)
+    text = input_deck(a_scene, mesh, a_scene.device.conditions[-1], settings)
+    blocks: list[Block] = []
+    for line in text.splitlines():
+        if line.startswith("**"):
+            continue
+        entries = [entry.strip() for entry in line.split(",")]
+        if line.startswith("*"):
+            pairs = (entry.partition("=") for entry in entries[1:])
+            blocks.append((entries[0][1:], {key.strip(): value.strip() for key, _, value in pairs}, []))
+        else:
+            blocks[-1][2].append(entries)
+    return blocks
+
+
+def of_kind(blocks: list[Block], keyword: str) -> list[Block]:
+    return [block for block in blocks if block[0] == keyword]
+
+
+def nodes(blocks: list[Block]) -> dict[int, FloatArray]:
+    return {int(n): np.array([float(x), float(y)]) for _, _, rows in of_kind(blocks, "NODE") for n, x, y in rows}
+
+
+def elements(blocks: list[Block]) -> dict[int, list[int]]:
+    return {int(row[0]): [int(n) for n in row[1:]] for _, _, rows in of_kind(blocks, "ELEMENT") for row in rows}
+
+
+def node_set(blocks: list[Block], name: str) -> np.ndarray:
+    rows = next(rows for _, given, rows in of_kind(blocks, "NSET") if given["NSET"] == name)
+    return np.array([int(n) for row in rows for n in row])
+
+
+def surface(blocks: list[Block], name: str) -> FloatArray:
+    """Points (n_faces, 3, 2) of a surface: end, middle, end of every face."""
+    rows = next(rows for _, given, rows in of_kind(blocks, "SURFACE") if given["NAME"] == name)
+    point, element = nodes(blocks), elements(blocks)
+    found = []
+    for number, side in rows:
+        members = element[int(number)]
+        found.append([point[members[k]] for k in SIDES[len(members) // 2][int(side[1:]) - 1]])
+    return np.array(found)
+
+
+@pytest.mark.parametrize("device", ["device1", "device2", "device3"])
+def test_every_element_is_counter_clockwise_with_its_midpoints_in_place(device: str) -> None:
+    point = nodes(deck(device))
+    for members in elements(deck(device)).values():
+        corners = len(members) // 2
+        x = np.array([point[n] for n in members])
+        ring, following = x[:corners], np.roll(x[:corners], -1, axis=0)
+        assert np.sum(ring[:, 0] * following[:, 1] - ring[:, 1] * following[:, 0]) > 0.0
+        length = np.linalg.norm(following - ring, axis=1)
+        # source: a second-order side maps one to one while its midpoint is within a quarter of its middle
+        assert np.all(np.linalg.norm(x[corners:] - (ring + following) / 2.0, axis=1) < 0.25 * length)
+
+
+def test_the_finger_is_the_section_mesh() -> None:
+    mesh, blocks = section("device2"), deck("device2")
+    point = nodes(blocks)
+    count = mesh.mesh.doflocs.shape[1]
+    assert np.allclose([point[n + 1] for n in range(count)], mesh.mesh.doflocs.T, atol=1e-11)
+    assert np.array_equal(node_set(blocks, "BONE"), mesh.fixed + 1)
+    assert np.array_equal(node_set(blocks, READ_NODES), read_nodes(scene("device2"), mesh) + 1)
+    layers = [b for b in of_kind(blocks, "ELEMENT") if b[1]["ELSET"].startswith("LAYER_")]
+    assert [len(rows) for _, _, rows in layers] == np.bincount(mesh.layer).tolist()
+    assert [given["ELSET"].split("_", 2)[2].lower() for _, given, _ in layers] == list(mesh.layer_names)
+
+
+def test_every_layer_has_its_material() -> None:
+    blocks, finger = deck("device2"), scene("device2").model.finger
+    sections = {given["ELSET"]: given["MATERIAL"] for _, given, _ in of_kind(blocks, "SOLID SECTION")}
+    assert sections.keys() == {given["ELSET"] for _, given, _ in of_kind(blocks, "ELEMENT")}
+    names = [given["NAME"] for _, given, _ in of_kind(blocks, "MATERIAL")]
+    constants = dict(zip(names, (rows[0] for _, _, rows in of_kind(blocks, "ELASTIC")), strict=True))
+    for index, layer in enumerate((*finger.pad, *finger.dorsal)):
+        found = [float(value) for value in constants[sections[f"LAYER_{index + 1}_{layer.name.upper()}"]]]
+        assert found == [layer.material.modulus, layer.material.poisson]
+
+
+@pytest.mark.parametrize("device", ["device2", "device3"])
+def test_faces_follow_the_profile(device: str) -> None:
+    row = scene(device).device.actuators
+    for number, centre in enumerate(row.positions):
+        faces = surface(deck(device), f"ACTUATOR_{number + 1}_FACE").reshape(-1, 2)
+        x = faces[:, 0] - centre
+        top = np.abs(x) < row.width / 2.0  # the sides of a deformable body go down from there
+        assert np.allclose(faces[top, 1], -profile(row, x[top])[0], atol=1e-9)
+        assert x.max() >= row.width / 2.0 - row.edge_radius
+
+
+def test_a_sharp_edge_ends_the_face() -> None:
+    sharp = sharpened(scene("device2"))
+    faces = surface(parsed(sharp, SETTINGS), "ACTUATOR_1_FACE").reshape(-1, 2)
+    centre, half = sharp.device.actuators.positions[0], sharp.device.actuators.width / 2.0
+    assert np.all(faces[:, 1] == 0.0)
+    assert [faces[:, 0].min(), faces[:, 0].max()] == pytest.approx([centre - half, centre + half])
+
+
+def test_skin_surfaces_lie_on_the_skin_each_near_its_actuator() -> None:
+    mesh, positions = section("device2"), np.asarray(scene("device2").device.actuators.positions)
+    skin = {tuple(point) for point in mesh.mesh.doflocs[:, mesh.skin].T.round(9)}
+    for number in range(positions.size):
+        faces = surface(deck("device2"), f"SKIN_{number + 1}")
+        assert {tuple(point) for point in faces.reshape(-1, 2).round(9)} <= skin
+        assert np.all(np.argmin(np.abs(faces[:, 1, [0]] - positions), axis=1) == number)
+        assert np.ptp(faces[:, :, 0]) > scene("device2").device.actuators.width
+
+
+def test_a_deformable_actuator_is_driven_at_its_base() -> None:
+    blocks, row = deck("device3"), scene("device3").device.actuators
+    assert row.body is not None
+    point = nodes(blocks)
+    for number, centre in enumerate(row.positions):
+        base = np.array([point[n] for n in node_set(blocks, f"ACTUATOR_{number + 1}")])
+        assert np.allclose(base[:, 1], -row.body.thickness)
+        assert np.ptp(base[:, 0]) == pytest.approx(row.width)
+        assert base[:, 0].mean() == pytest.approx(centre)
+
+
+def test_steps_move_the_actuators_along_the_condition() -> None:
+    condition = scene("device2").device.condition(CONDITION)
+    moves = [b[2] for b in of_kind(deck("device2"), "BOUNDARY")[1:]]  # the first holds the bone
+    assert len(moves) == 2 * (1 + condition.time.size)  # each is followed by a rest
+    values = np.array([[float(row[3]) for row in rows] for rows in moves]).reshape(len(moves), -1, 2)
+    indented = np.array([0.0, SETTINGS.indentation])
+    stimulus = np.stack([condition.tangential, condition.normal], axis=-1)[0]
+    wanted = [np.tile(indented, (4, 1)), indented + stimulus]
+    assert np.allclose(values, [wanted[0], wanted[0], wanted[1], wanted[1]])
+
+
+@pytest.mark.parametrize(
+    ("indenting", "acting", "first", "switched"), [(0.0, 0.0, None, None), (0.6, 0.6, 0.6, None), (0.0, 0.6, 0.0, 0.6)]
+)
+def test_friction_acts_from_where_it_is_asked(
+    indenting: float, acting: float, first: float | None, switched: float | None
+) -> None:
+    blocks = parsed(scene("device2"), replace(SETTINGS, friction_indenting=indenting, friction_acting=acting))
+    found = [float(rows[0][0]) for _, _, rows in of_kind(blocks, "FRICTION")]
+    assert found == pytest.approx([value for value in (first, switched) if value is not None], abs=1e-6)
+    keywords = [keyword for keyword, _, _ in blocks]
+    assert keywords.count("CHANGE FRICTION") == (0 if switched is None else 1)
+    if switched is not None:
+        assert keywords[: keywords.index("CHANGE FRICTION")].count("STEP") == 3  # indented, at rest, stimulus
+
+
+def test_without_rest_every_move_is_one_step() -> None:
+    assert len(of_kind(parsed(scene("device2"), replace(SETTINGS, rest_increments=0)), "STEP")) == 2
+
+
+def export(tmp_path: Path, condition: str) -> list[str]:
+    device = CONFIG / "devices" / "device2.yaml"
+    given = ["--condition", condition, "--interface", str(Interface.SHEAR), "-o", str(tmp_path / "scene.inp")]
+    return ["export", str(device), "--config", str(CONFIG / "config.yaml"), "--schemas", str(SCHEMAS), *given]
+
+
+def test_command_writes_a_deck(tmp_path: Path) -> None:
+    assert main(export(tmp_path, CONDITION)) == 0
+    text = (tmp_path / "scene.inp").read_text(encoding="utf-8")
+    assert text.startswith("*HEADING\n")
+    assert text.count("*END STEP") == 4
+
+
+def test_command_says_in_one_line_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(export(tmp_path, "backwards")) == FAILED
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "no condition 'backwards'" in said
+    assert not (tmp_path / "scene.inp").exists()
+
+
+@pytest.mark.parametrize("flag", ["--stick-slope", "--indentation-increments"])
+def test_command_refuses_settings_that_make_no_deck(
+    flag: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*export(tmp_path, CONDITION), flag, "0"]) == FAILED
+    assert f"{flag[2:].replace('-', '_')} must be positive" in capsys.readouterr().err
+
+
+def test_help_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["export", "--help"])
+    assert end.value.code == 0
+    assert "fingerpad export config/devices/" in capsys.readouterr().out

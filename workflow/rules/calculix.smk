@@ -1,0 +1,44 @@
+# An independent solver on the same scene: CalculiX, and how far fingerpad is from it (docs/calculix.md).
+# Not part of `all`: ask for it with `snakemake calculix`, alone on the machine. Without ccx the table says "skipped".
+# REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/calculix.csv, results/calculix/{case}/ (decks and results)
+
+CALCULIX_CASE = {
+    "edges": "rounded",
+    "friction": "stimulus",
+    "coarsening": 4.0,
+    "indentation_increments": 8,
+    "stimulus_increments": 4,
+    "rest_increments": 3,
+    "pressure_slope": 500.0,
+    "stick_slope": 100.0,
+}
+
+
+rule calculix:
+    input:
+        config=CONFIG,
+        device=SCENES / "devices" / "device2.yaml",
+        code=code("calculix.py"),
+    output:
+        table="results/accuracy/calculix.csv",
+        decks=directory("results/calculix"),
+    log:
+        "results/logs/calculix.log",
+    conda:
+        ENVIRONMENT
+    threads: workflow.cores
+    params:
+        condition="alternate_180",
+        limit=1800,
+        cases={
+            "base": CALCULIX_CASE,
+            "finer_mesh": CALCULIX_CASE | {"coarsening": 2.0},
+            "smaller_increments": CALCULIX_CASE | {"indentation_increments": 16, "stimulus_increments": 8},
+            "softer_penalties": CALCULIX_CASE | {"pressure_slope": 250.0, "stick_slope": 50.0},
+            "sharp": CALCULIX_CASE | {"edges": "sharp", "coarsening": 2.0},
+            "rubbing": CALCULIX_CASE | {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8},
+            "rubbing_smaller_increments": CALCULIX_CASE
+            | {"friction": "always", "indentation_increments": 40, "stimulus_increments": 16},
+        },
+    script:
+        "../scripts/calculix.py"
