@@ -7,11 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
-from matplotlib.colors import ListedColormap
+from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 from matplotlib.ticker import MultipleLocator
-from matplotlib.tri import Triangulation
 
 from ..mesh import SectionMesh
 from ..profile import profile
@@ -64,13 +63,16 @@ def _draw_section(axes: Axes, section: SectionMesh) -> None:
     mesh = section.mesh
     first, second, third = mesh.t
     a, b, c = mesh.nvertices + mesh.t2f  # midpoints of the facets 0-1, 1-2 and 0-2
-    quarters = np.hstack([np.array(t) for t in ((first, a, c), (a, second, b), (c, b, third), (a, b, c))])
-    layers = len(section.layer_names)
-    axes.tripcolor(
-        Triangulation(mesh.doflocs[0], mesh.doflocs[1], quarters.T), facecolors=np.tile(section.layer, 4),
-        cmap=ListedColormap([TINTS[i % len(TINTS)] for i in range(layers)]), vmin=-0.5, vmax=layers - 0.5,
-        rasterized=True,
-    )  # fmt: skip
+    x, y = around = mesh.doflocs[:, np.stack([first, a, second, b, third, c, first])]
+    clockwise = (x[2] - x[0]) * (y[4] - y[0]) < (x[4] - x[0]) * (y[2] - y[0])
+    around[:, :, clockwise] = around[:, ::-1, clockwise]  # where elements of one path turn alike, no seams show
+    turn = [Path.MOVETO, *[Path.LINETO] * 5, Path.CLOSEPOLY]
+    paths = []
+    for number in range(len(section.layer_names)):
+        own = around[:, :, section.layer == number].T.reshape(-1, 2)
+        paths.append(Path(own, np.tile(turn, len(own) // len(turn))))
+    tints = [TINTS[number % len(TINTS)] for number in range(len(paths))]
+    axes.add_collection(PathCollection(paths, facecolors=tints, linewidths=0.0, rasterized=True), autolim=False)
     lines = _curved_lines(section, np.concatenate([section.interfaces(), mesh.boundary_facets()]))
     axes.add_collection(LineCollection(list(lines), colors="black", linewidths=THIN, capstyle="round"))
     receptors = _curved_lines(section, section.receptor_facets)
