@@ -9,7 +9,7 @@ from scipy.sparse.linalg import spsolve
 
 from fingerpad.condensation import condense, contact_tractions, receptor_strain, section_stiffness
 from fingerpad.errors import CondensationError
-from fingerpad.fields import recover_fields
+from fingerpad.recovery import recover_fields
 from fingerpad.scene import Interface
 from fingerpad.strain import maximum_principal
 from scenes import condensed, scene, section, solved
@@ -84,6 +84,8 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     near = inside[np.argsort(np.hypot(*(fields.corner[:, inside].T - found.receptor[middle]).T))[:6]]
     # corners of the elements at the mid-line point: their spread is the jump between second-order elements
     assert fields.strain[0, near].min() * 0.97 < strain[middle] < fields.strain[0, near].max() * 1.03
+    for lines, facets in ((fields.interface, mesh.interfaces()), (fields.boundary, mesh.mesh.boundary_facets())):
+        assert np.array_equal(fields.corner[:, lines], mesh.mesh.doflocs[:, mesh.mesh.facets[:, facets].T])
 
 
 def test_a_singular_stiffness_is_a_named_error() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fingerpad.perception import order_matrix, read_published, read_ratings, read_stated_order
+from fingerpad.ratings import order_matrix, read_published, read_ratings, read_stated_order
 from fingerpad.scene import Interface, Readout
 from fingerpad.scenefile import build_device, build_model, read_yaml
 

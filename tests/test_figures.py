@@ -131,8 +131,7 @@ def make_readouts(device: Device) -> DeviceReadouts:
 
 @pytest.fixture(scope="module")
 def section() -> SectionMesh:
-    model = build_model(read_yaml(ROOT / "config/config.yaml"))
-    return mesh_section(Scene(replace(model, numerics=COARSE), PHASED), nominal_edges(PHASED.actuators))
+    return mesh_section(Scene(replace(MODEL, numerics=COARSE), PHASED), nominal_edges(PHASED.actuators))
 
 
 def words(figure: Figure) -> str:
@@ -318,13 +317,14 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     distinct = [c for c in device.conditions if device.first_with_stimulus_of(c.name) is c]
     corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
     shape = (len(distinct), corner.shape[1])
-    fields = Fields(corner, section.layer, np.zeros((len(distinct), *corner.shape)), np.full(shape, 0.2))
+    side = np.array([[0, 1]])
+    fields = Fields(corner, side, side, np.zeros((len(distinct), *corner.shape)), np.full(shape, 0.2))
     contact = make_contact(device.actuators)
     pressed = np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0)
     solution = make_solution(contact, device.actuators, np.tile(pressed, len(device.actuators.positions)))
     shown = [c.name for c in device.conditions if c.dispersion == dispersion]
     scene = Scene(MODEL, device)
-    figure = strain_map_figure(scene, dispersion, section, fields, contact, dict.fromkeys(shown, solution))
+    figure = strain_map_figure(scene, dispersion, fields, contact, dict.fromkeys(shown, solution))
     require_legible(figure)
     for above, beneath in zip(figure.axes[: len(shown)], figure.axes[min(len(shown), 3) :], strict=False):
         if beneath.get_xlabel():

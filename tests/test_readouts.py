@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fingerpad.gabor import filtered_readouts, gabor_filtered, resample, uniform_grid
+from fingerpad.gabor import filtered_readouts, gabor_filtered
+from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score
 from fingerpad.scene import GaborFilter, Readout
 from fingerpad.strain import maximum_principal, receptor_readouts
@@ -67,11 +68,12 @@ def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
     arc = np.sort(np.random.default_rng(3).uniform(-10, 10, 400))
     arc = np.unique(np.concatenate([-arc, arc, [-10.0, 10.0]]))
     strain = np.exp(-(arc**2) / 4) * np.cos(3 * arc)
-    grid = uniform_grid(arc, 0.02)
-    assert np.diff(grid).max() <= 0.02 + 1e-12
-    assert np.abs(resample(arc, strain, grid) - np.exp(-(grid**2) / 4) * np.cos(3 * grid)).max() < 1e-3
+    found = resampling_to_grid(arc, 0.02)
+    assert np.diff(found.grid).max() <= 0.02 + 1e-12
+    assert np.abs(found.weights @ strain - np.exp(-(found.grid**2) / 4) * np.cos(3 * found.grid)).max() < 1e-3
     scores = []
     for spacing in (0.02, 0.01):
-        found = filtered_readouts(arc, strain, strain, GaborFilter(2.8, 1.15, SIGMA, spacing))
-        scores.append(roughness_score(found.arc, found.filtered(Readout.STRAIN), (-4.0, 4.0)))
+        resampling = resampling_to_grid(arc, spacing)
+        filtered = filtered_readouts(resampling, strain, strain, GaborFilter(2.8, 1.15, SIGMA, spacing))
+        scores.append(roughness_score(filtered.arc, filtered.filtered(Readout.STRAIN), (-4.0, 4.0)))
     assert scores[0] == pytest.approx(scores[1], rel=5e-4)

@@ -13,7 +13,7 @@ from typing import Any
 
 import pandas as pd
 
-from .perception import CONSTANT, KEY, NO_PREDICTION
+from .roughness import CONSTANT, KEY, NO_PREDICTION
 from .scene import Interface, Readout
 
 COLUMNS = ["claim", "source", "holds", "evidence"]

@@ -3,37 +3,24 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from .scene import FloatArray, GaborFilter, Readout
-from .strain import FilteredReadouts
+from .strain import FilteredReadouts, Resampling
 
 REACH = 6.0  # widths sigma [1] at which the kernel ends; source: exp(-18) = 1.5e-8 of its peak
 
 
 def filtered_readouts(
-    arc: FloatArray, strain: FloatArray, change_of_strain: FloatArray, gabor: GaborFilter
+    resampling: Resampling, strain: FloatArray, change_of_strain: FloatArray, gabor: GaborFilter
 ) -> FilteredReadouts:
     """Both read-outs at receptors (m,), resampled to the uniform grid and filtered."""
-    grid = uniform_grid(arc, gabor.spacing)
+    grid = resampling.grid
     sampled = {
-        Readout.STRAIN: resample(arc, strain, grid),
-        Readout.CHANGE_OF_STRAIN: resample(arc, change_of_strain, grid),
+        Readout.STRAIN: resampling.weights @ strain,
+        Readout.CHANGE_OF_STRAIN: resampling.weights @ change_of_strain,
     }
     filtered = (gabor_filtered(grid, values, gabor.wavelength(key), gabor.sigma) for key, values in sampled.items())
     return FilteredReadouts(grid, *sampled.values(), *filtered)
-
-
-def uniform_grid(arc: FloatArray, spacing: float) -> FloatArray:
-    """Uniform grid (k,) [mm] over the receptor line, symmetric about the mid-line, at most `spacing` apart."""
-    half = min(-arc[0], arc[-1])
-    count = int(np.ceil(half / spacing))
-    return np.linspace(-half, half, 2 * count + 1)
-
-
-def resample(arc: FloatArray, values: FloatArray, grid: FloatArray) -> FloatArray:
-    """Read-out (k,) on the grid by a cubic spline through the receptor points (m,)."""
-    return np.asarray(make_interp_spline(arc, values, k=3)(grid))
 
 
 def kernel(wavelength: float, sigma: float, spacing: float) -> tuple[FloatArray, FloatArray]:

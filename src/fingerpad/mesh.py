@@ -41,6 +41,11 @@ class SectionMesh:
     receptor_facets: np.ndarray
     fixed: np.ndarray
 
+    def interfaces(self) -> np.ndarray:
+        """Facets (k,) between two layers."""
+        left, right = self.mesh.f2t
+        return np.flatnonzero((right >= 0) & (self.layer[left] != self.layer[right]))
+
 
 @dataclass(frozen=True)
 class _Outline:

@@ -10,6 +10,9 @@ from .scene import ActuatorRow, Condition, FloatArray, Interface, Readout, Scene
 from .strain import FilteredReadouts
 
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
+KEY = ["device", "interface", "readout"]  # columns of the score table: what has one score a condition
+CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
+NO_PREDICTION = "no prediction"
 
 
 def score_span(row: ActuatorRow, margin: float) -> tuple[float, float]:
@@ -43,11 +46,11 @@ def score_rows(
     ]
 
 
-def unpredicted_rows(scene: Scene, note: str) -> list[dict[str, Any]]:
-    """Rows, with no score and the note, for the interfaces at which the device prescribes no motion."""
+def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
+    """Rows, with no score, for the interfaces at which the device prescribes no motion."""
     silent = [interface for interface in Interface if interface not in scene.device.interfaces()]
     return [
-        _row(scene, condition, interface, readout, None, note)
+        _row(scene, condition, interface, readout, None, NO_PREDICTION)
         for condition in scene.device.conditions
         for interface in silent
         for readout in Readout

@@ -38,6 +38,17 @@ def receptor_readouts(strain_map: FloatArray, indented: FloatArray, actuated: Fl
 
 
 @dataclass(frozen=True)
+class Resampling:
+    """Linear map from the receptors, which no condition moves, to a uniform grid.
+
+    grid: (k,) arc lengths [mm]. weights: (k, m) [1]: a read-out (m,) at the receptors is weights @ read-out there.
+    """
+
+    grid: FloatArray
+    weights: FloatArray
+
+
+@dataclass(frozen=True)
 class FilteredReadouts:
     """Read-outs of one condition on the uniform grid, before and after the filter.
 

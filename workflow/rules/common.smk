@@ -4,7 +4,7 @@
 from difflib import get_close_matches
 
 from fingerpad.errors import FingerpadError
-from fingerpad.perception import read_ratings, read_stated_order
+from fingerpad.ratings import read_ratings, read_stated_order
 from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
 from fingerpad.validation import check_config, check_device, known_devices

@@ -1,5 +1,6 @@
-# Compliance of contact nodes and strain map of receptors for one device, and the compliance of its actuators' bodies.
-# REQUIRED INPUTS: results/{device}/mesh.npz. OUTPUTS: results/{device}/condensed.npz, results/{device}/body.npz
+# What every condition of a device shares: compliance of contact nodes, strain map of receptors and their resampling to
+# a uniform grid, and the compliance of its actuators' bodies.
+# REQUIRED INPUTS: results/{device}/mesh.npz. OUTPUTS: condensed.npz, resampling.npz and body.npz in results/{device}/
 
 
 rule condense:
@@ -10,6 +11,7 @@ rule condense:
         code=code("condense.py"),
     output:
         condensed="results/{device}/condensed.npz",
+        resampling="results/{device}/resampling.npz",
     log:
         "results/logs/{device}/condense.log",
     benchmark:
@@ -20,6 +22,7 @@ rule condense:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             scene_of(w).model.readout,
+            scene_of(w).model.gabor.spacing,
             scene_of(w).device.actuators,
             support.stroke(scene_of(w)),
         ),

@@ -143,7 +143,6 @@ rule figure_map:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
-        mesh="results/{device}/mesh.npz",
         condensed="results/{device}/condensed.npz",
         fields="results/{device}/fields.npz",
         solutions=lambda w: [

@@ -1,11 +1,13 @@
 # Gabor-filtered read-outs of one device, condition and interface. Equal stimuli share one solution.
-# REQUIRED INPUTS: results/{device}/{condition}/{interface}/solution.npz. OUTPUTS: filtered.npz beside it
+# REQUIRED INPUTS: results/{device}/resampling.npz, results/{device}/{condition}/{interface}/solution.npz.
+# OUTPUTS: filtered.npz beside the solution
 
 
 rule filter:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        resampling="results/{device}/resampling.npz",
         solution=solution_of,
         code=code("filter.py"),
     output:

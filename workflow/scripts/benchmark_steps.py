@@ -10,6 +10,7 @@ from typing import Any
 from fingerpad.condensation import condense_body, condense_section
 from fingerpad.edges import mesh_device
 from fingerpad.gabor import filtered_readouts
+from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import score_rows
 from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
@@ -38,16 +39,19 @@ def main(config: Path, devices: list[Path], repeats: int, timings: Path) -> None
         condensed, condense_seconds = timed(
             repeats, lambda section=section, scene=scene: condense_section(section, scene)
         )
+        resampling, resample_seconds = timed(
+            repeats, lambda arc=condensed.arc, scene=scene: resampling_to_grid(arc, scene.model.gabor.spacing)
+        )
         body = condense_body(scene) if scene.device.actuators.body else None
-        steps = {"mesh": mesh_seconds, "condense": condense_seconds}
-        steps["set-up"] = [sum(pair) for pair in zip(mesh_seconds, condense_seconds, strict=True)]
+        steps = {"mesh": mesh_seconds, "condense": condense_seconds, "resample": resample_seconds}
+        steps["set-up"] = [sum(seconds) for seconds in zip(*steps.values(), strict=True)]
         for interface in scene.device.interfaces():
 
             def whole_path(interface: Interface = interface) -> Solution:
                 condition = scene.device.conditions[-1]  # noqa: B023
                 solution = solve_condition(scene, condensed, body, condition, interface)  # noqa: B023
                 read = filtered_readouts(
-                    solution.arc,
+                    resampling,  # noqa: B023
                     solution.strain,
                     solution.change_of_strain,
                     scene.model.gabor,  # noqa: B023

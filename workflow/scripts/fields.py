@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fingerpad.fields import recover_fields
 from fingerpad.mesh import load_section
+from fingerpad.recovery import recover_fields
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import load, save

@@ -6,7 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.style import device_titles, save
-from fingerpad.perception import read_ratings
+from fingerpad.ratings import read_ratings
 from fingerpad.scenefile import load_scene
 
 

@@ -6,7 +6,6 @@ from fingerpad.compliance import CondensedSection
 from fingerpad.fields import Fields
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.style import save
-from fingerpad.mesh import load_section
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import load
@@ -15,7 +14,6 @@ from fingerpad.store import load
 def main(
     config: Path,
     device: Path,
-    mesh: Path,
     condensed: Path,
     fields: Path,
     solutions: list[Path],
@@ -29,7 +27,6 @@ def main(
         strain_map_figure(
             scene,
             dispersion,
-            load_section(mesh),
             load(fields, Fields),
             load(condensed, CondensedSection),
             {name: load(path, Solution) for name, path in zip(names, solutions, strict=True)},
@@ -43,7 +40,6 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         Path(job.input.device),
-        Path(job.input.mesh),
         Path(job.input.condensed),
         Path(job.input.fields),
         [Path(path) for path in job.input.solutions],

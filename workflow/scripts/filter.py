@@ -6,15 +6,22 @@ from fingerpad.gabor import filtered_readouts
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import load, save
+from fingerpad.strain import Resampling
 
 
-def main(config: Path, device: Path, solution: Path, filtered: Path) -> None:
+def main(config: Path, device: Path, resampling: Path, solution: Path, filtered: Path) -> None:
     """Read the receptors' strains, filter them, write both on the uniform grid."""
     found = load(solution, Solution)
     gabor = load_scene(config, device).model.gabor
-    save(filtered, filtered_readouts(found.arc, found.strain, found.change_of_strain, gabor))
+    save(filtered, filtered_readouts(load(resampling, Resampling), found.strain, found.change_of_strain, gabor))
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.config), Path(job.input.device), Path(job.input.solution), Path(job.output.filtered))
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.resampling),
+        Path(job.input.solution),
+        Path(job.output.filtered),
+    )

@@ -4,14 +4,13 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.perception import NO_PREDICTION
 from fingerpad.roughness import unpredicted_rows
 from fingerpad.scenefile import load_scene
 
 
 def main(config: Path, devices: list[Path], scores: list[Path], table: Path) -> None:
     """Read every score, add the rows for which there is no prediction, write the table."""
-    missing = [row for device in devices for row in unpredicted_rows(load_scene(config, device), NO_PREDICTION)]
+    missing = [row for device in devices for row in unpredicted_rows(load_scene(config, device))]
     found = [pd.read_csv(path, keep_default_na=False) for path in scores]
     pd.concat([*found, pd.DataFrame(missing)] if missing else found).to_csv(table, index=False, lineterminator="\n")
 

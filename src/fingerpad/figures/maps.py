@@ -20,10 +20,9 @@ from matplotlib.tri import Triangulation
 
 from ..compliance import CondensedSection
 from ..fields import Fields
-from ..mesh import SectionMesh
 from ..scene import ActuatorRow, Condition, FloatArray, Scene
 from ..solution import Solution
-from .outline import draw_actuators, interface_facets
+from .actuators import draw_actuators
 from .style import (
     BLUE,
     GREY,
@@ -65,7 +64,6 @@ COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 def strain_map_figure(
     scene: Scene,
     dispersion: str,
-    section: SectionMesh,
     fields: Fields,
     contact: CondensedSection,
     solutions: Mapping[str, Solution],
@@ -105,7 +103,7 @@ def strain_map_figure(
     for axes, beneath, condition in zip(maps, tractions, conditions, strict=False):
         loading = distinct.index(device.first_with_stimulus_of(condition.name).name)
         solution = solutions[condition.name]
-        drawn = _draw_map(axes, section, fields, loading, end)
+        drawn = _draw_map(axes, fields, loading, end)
         rise = np.array([0.0, solution.indentation])
         offsets = np.stack([condition.tangential[-1], condition.normal[-1]], axis=1) + rise
         draw_actuators(axes, row, offsets, 2.0 * BELOW)
@@ -169,18 +167,15 @@ def element_means(row: ActuatorRow, contact: CondensedSection, nodal: FloatArray
     return middle, (nodal[middle - 1] + 4.0 * nodal[middle] + nodal[middle + 1]) / 6.0
 
 
-def _draw_map(axes: Axes, section: SectionMesh, fields: Fields, loading: int, end: float) -> TriMesh:
+def _draw_map(axes: Axes, fields: Fields, loading: int, end: float) -> TriMesh:
     """Strain on the deformed elements, rasterised; the layers' interfaces and the boundary as lines."""
     moved = fields.corner + fields.displacement[loading]
     drawn = axes.tripcolor(
         Triangulation(moved[0], moved[1], np.arange(moved.shape[1]).reshape(-1, 3)), PERCENT * fields.strain[loading],
         shading="gouraud", cmap=COLOURS, norm=PowerNorm(0.5, 0.0, end), rasterized=True,
     )  # fmt: skip
-    vertices = np.empty((2, section.mesh.nvertices))
-    vertices[:, section.mesh.t.T.ravel()] = moved
-    for facets, colour in ((interface_facets(section), "white"), (section.mesh.boundary_facets(), "black")):
-        lines = vertices[:, section.mesh.facets[:, facets]].transpose(2, 1, 0)
-        axes.add_collection(LineCollection(list(lines), colors=colour, linewidths=THIN, capstyle="round"))
+    for lines, colour in ((fields.interface, "white"), (fields.boundary, "black")):
+        axes.add_collection(LineCollection(list(moved.T[lines]), colors=colour, linewidths=THIN, capstyle="round"))
     return drawn
 
 

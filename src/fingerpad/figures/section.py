@@ -7,15 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
-from matplotlib.colors import ListedColormap
+from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 from matplotlib.ticker import MultipleLocator
-from matplotlib.tri import Triangulation
 
 from ..mesh import SectionMesh
-from ..scene import ActuatorRow, Device, Model
-from .outline import BASE, curved_lines, draw_actuators, interface_facets, touching_face
+from ..profile import profile
+from ..scene import ActuatorRow, Device, FloatArray, Model
+from .actuators import BASE, draw_actuators
 from .style import THIN, VERMILLION, WIDE, letter, new_figure, styled, subtitle
 
 HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices
@@ -63,18 +63,28 @@ def _draw_section(axes: Axes, section: SectionMesh) -> None:
     mesh = section.mesh
     first, second, third = mesh.t
     a, b, c = mesh.nvertices + mesh.t2f  # midpoints of the facets 0-1, 1-2 and 0-2
-    quarters = np.hstack([np.array(t) for t in ((first, a, c), (a, second, b), (c, b, third), (a, b, c))])
-    layers = len(section.layer_names)
-    axes.tripcolor(
-        Triangulation(mesh.doflocs[0], mesh.doflocs[1], quarters.T), facecolors=np.tile(section.layer, 4),
-        cmap=ListedColormap([TINTS[i % len(TINTS)] for i in range(layers)]), vmin=-0.5, vmax=layers - 0.5,
-        rasterized=True,
-    )  # fmt: skip
-    lines = curved_lines(section, np.concatenate([interface_facets(section), mesh.boundary_facets()]))
+    x, y = around = mesh.doflocs[:, np.stack([first, a, second, b, third, c, first])]
+    clockwise = (x[2] - x[0]) * (y[4] - y[0]) < (x[4] - x[0]) * (y[2] - y[0])
+    around[:, :, clockwise] = around[:, ::-1, clockwise]  # where elements of one path turn alike, no seams show
+    turn = [Path.MOVETO, *[Path.LINETO] * 5, Path.CLOSEPOLY]
+    paths = []
+    for number in range(len(section.layer_names)):
+        own = around[:, :, section.layer == number].T.reshape(-1, 2)
+        paths.append(Path(own, np.tile(turn, len(own) // len(turn))))
+    tints = [TINTS[number % len(TINTS)] for number in range(len(paths))]
+    axes.add_collection(PathCollection(paths, facecolors=tints, linewidths=0.0, rasterized=True), autolim=False)
+    lines = _curved_lines(section, np.concatenate([section.interfaces(), mesh.boundary_facets()]))
     axes.add_collection(LineCollection(list(lines), colors="black", linewidths=THIN, capstyle="round"))
-    receptors = curved_lines(section, section.receptor_facets)
+    receptors = _curved_lines(section, section.receptor_facets)
     axes.add_collection(LineCollection(list(receptors), colors=VERMILLION, linewidths=1.0, capstyle="round"))
     axes.set_aspect("equal")
+
+
+def _curved_lines(section: SectionMesh, facets: np.ndarray) -> FloatArray:
+    """Undeformed facets (k, 3, 2): end, midpoint, end."""
+    ends = section.mesh.facets[:, facets]
+    middle = section.mesh.nvertices + facets
+    return np.asarray(section.mesh.doflocs[:, np.stack([ends[0], middle, ends[1]], axis=1)].transpose(1, 2, 0))
 
 
 def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
@@ -130,7 +140,7 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, reach: float)
     """The pad above a device's actuators at first touch, and how they are driven."""
     row = device.actuators
     _draw_section(axes, section)
-    face = np.array([0.0, touching_face(section, row)])
+    face = np.array([0.0, _touching_face(section, row)])
     draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH)
     below = row.body.thickness + BASE + ARROW / 2.0 if row.body else DEPTH / 2.0
     for x in row.positions:
@@ -144,6 +154,16 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, reach: float)
                 )  # fmt: skip
     axes.set(xlim=(-reach, reach), ylim=(-BELOW, ABOVE))
     subtitle(axes, device.title, _described(row))
+
+
+def _touching_face(section: SectionMesh, row: ActuatorRow) -> float:
+    """Height [mm] of the faces where the undeformed skin first touches one."""
+    skin = section.mesh.doflocs[:, section.skin]
+    heights = []
+    for centre in row.positions:
+        x, y = skin[:, np.abs(skin[0] - centre) <= row.width / 2.0]
+        heights.append(float((y + profile(row, x - centre)[0]).min()))
+    return min(heights)
 
 
 def _described(row: ActuatorRow) -> str:

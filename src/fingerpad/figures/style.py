@@ -127,8 +127,9 @@ def save(figure: Figure, stem: Path) -> None:
     """Write stem.png and stem.pdf, without dates and versions: same figure, same bytes."""
     with mpl.rc_context(RC):
         figure.align_ylabels()
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")  # laid out once, the same in both files
+        if engine := figure.get_layout_engine():
+            engine.execute(figure)
+        figure.set_layout_engine(None)  # laid out once, the same in both files
         figure.savefig(stem.with_name(f"{stem.name}.png"), metadata={"Software": None})
         figure.savefig(
             stem.with_name(f"{stem.name}.pdf"), metadata={"Creator": None, "Producer": None, "CreationDate": None}

@@ -1,4 +1,4 @@
-"""A section's lines and its actuators, as figures draw them [mm]."""
+"""A row of actuators, as figures draw it [mm]."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon, Rectangle
 
-from ..mesh import SectionMesh
 from ..profile import profile
 from ..scene import ActuatorRow, FloatArray
 from .style import THIN
@@ -14,19 +13,6 @@ from .style import THIN
 PROFILE_POINTS = 41  # along a rounded edge [1]
 BASE = 0.25  # mm of a deformable actuator's rigid base that is drawn
 FACE, UNDER = "#CFCFCF", "#5A5A5A"  # fill of actuators, and of the base of deformable ones
-
-
-def interface_facets(section: SectionMesh) -> np.ndarray:
-    """Facets (k,) between two layers."""
-    left, right = section.mesh.f2t
-    return np.flatnonzero((right >= 0) & (section.layer[left] != section.layer[right]))
-
-
-def curved_lines(section: SectionMesh, facets: np.ndarray) -> FloatArray:
-    """Undeformed facets (k, 3, 2): end, midpoint, end."""
-    ends = section.mesh.facets[:, facets]
-    middle = section.mesh.nvertices + facets
-    return np.asarray(section.mesh.doflocs[:, np.stack([ends[0], middle, ends[1]], axis=1)].transpose(1, 2, 0))
 
 
 def draw_actuators(axes: Axes, row: ActuatorRow, offsets: FloatArray, depth: float) -> None:
@@ -46,13 +32,3 @@ def draw_actuators(axes: Axes, row: ActuatorRow, offsets: FloatArray, depth: flo
         if row.body:
             corner = (float(placed[0, 0]), float(placed[0, 1]) - BASE)
             axes.add_patch(Rectangle(corner, row.width, BASE, facecolor=UNDER, edgecolor="black", linewidth=THIN))
-
-
-def touching_face(section: SectionMesh, row: ActuatorRow) -> float:
-    """Height [mm] of the faces where the undeformed skin first touches one."""
-    skin = section.mesh.doflocs[:, section.skin]
-    heights = []
-    for centre in row.positions:
-        x, y = skin[:, np.abs(skin[0] - centre) <= row.width / 2.0]
-        heights.append(float((y + profile(row, x - centre)[0]).min()))
-    return min(heights)

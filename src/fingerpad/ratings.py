@@ -1,0 +1,211 @@
+"""Perceived roughness: ratings, what is stated of their order, and published correlations, read and checked."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from .errors import RatingError
+from .scene import Interface, Readout
+
+RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
+ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
+PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "words", "source")
+
+
+class RatingKind(StrEnum):
+    """Where a rating comes from: an ordinal surrogate, read off a published figure, or measured."""
+
+    SURROGATE = "surrogate"
+    DIGITISED = "digitised"
+    MEASURED = "measured"
+
+    @property
+    def label(self) -> str:
+        """How figures and tables call it; a surrogate is always called an ordinal surrogate."""
+        return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
+
+
+class Relation(StrEnum):
+    """How the ratings of two conditions compare, as stated."""
+
+    LESS = "<"
+    EQUAL = "="
+
+
+def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) -> pd.DataFrame:
+    """Ratings of perceived roughness, checked against the devices they rate.
+
+    path: CSV with the columns device, condition, rating (a number >= 0, any unit: R² does not see it), kind
+    (surrogate, digitised or measured; one kind a device) and source. conditions_by_device: the condition names of
+    every known device. A device may be without ratings, but not with some only.
+
+    Returns those columns, `rating` as float. Raises RatingError, which names file, line, column, what was found
+    and what is allowed.
+
+    >>> devices = {d.name: [c.name for c in d.conditions] for d in (device1, device2, device3)}
+    >>> read_ratings(Path("data/ratings.csv"), devices)[["condition", "rating", "kind"]].iloc[0].tolist()
+    ['low_000', 1.0, 'surrogate']
+    """
+    rows: list[dict[str, Any]] = []
+    kinds: dict[str, tuple[str, int]] = {}
+    lines: dict[tuple[str, str], int] = {}
+    for line, row in _read_rows(path, RATING_COLUMNS):
+        device, condition, kind = row["device"], row["condition"], row["kind"]
+        _check_name(path, line, "device", device, conditions_by_device)
+        _check_name(path, line, "condition", condition, conditions_by_device[device])
+        _check_name(path, line, "kind", kind, [*RatingKind])
+        rating = _number(row["rating"])
+        if not (math.isfinite(rating) and rating >= 0.0):
+            raise _error(path, line, "rating", row["rating"], "a finite number, 0 or more")
+        if (device, condition) in lines:
+            first = lines[device, condition]
+            raise _error(path, line, "condition", condition, f"one row a condition; {device} has it on line {first}")
+        first_kind, first = kinds.setdefault(device, (kind, line))
+        if kind != first_kind:
+            raise _error(path, line, "kind", kind, f"one kind a device; {device} has '{first_kind}' on line {first}")
+        lines[device, condition] = line
+        rows.append({**row, "rating": rating})
+    for device in kinds:
+        missing = [name for name in conditions_by_device[device] if (device, name) not in lines]
+        if missing:
+            raise RatingError(
+                f"{path}, column condition: {device} has no rating for {listed(missing)};"
+                " allowed: ratings for all conditions of a device, or for none"
+            )
+    return pd.DataFrame(rows, columns=list(RATING_COLUMNS))
+
+
+def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) -> pd.DataFrame:
+    """What is stated about the order of ratings, checked against the devices.
+
+    path: CSV with the columns device, lower, relation (`<` or `=`), higher and source, a row for each pair of
+    conditions. Returns those columns. Raises RatingError as `read_ratings` does, and if the rows contradict
+    each other.
+    """
+    rows: list[dict[str, Any]] = []
+    for line, row in _read_rows(path, ORDER_COLUMNS):
+        _check_name(path, line, "device", row["device"], conditions_by_device)
+        for column in ("lower", "higher"):
+            _check_name(path, line, column, row[column], conditions_by_device[row["device"]])
+        _check_name(path, line, "relation", row["relation"], [*Relation])
+        rows.append(dict(row))
+    table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
+    for device, part in table.groupby("device", sort=False):
+        try:
+            order_matrix(conditions_by_device[device], part)
+        except RatingError as error:
+            raise RatingError(f"{path}: {device}: {error}") from error
+    return table
+
+
+def read_published(path: Path) -> pd.DataFrame:
+    """The published correlations: device, interface, readout, r2 (NaN where there are only words), words, source.
+
+    Raises RatingError as `read_ratings` does.
+    """
+    rows: list[dict[str, Any]] = []
+    for line, row in _read_rows(path, PUBLISHED_COLUMNS):
+        _check_name(path, line, "interface", row["interface"], [*Interface])
+        _check_name(path, line, "readout", row["readout"], [*Readout])
+        r2 = _number(row["r2"])
+        if row["r2"] and not 0.0 <= r2 <= 1.0:
+            raise _error(path, line, "r2", row["r2"], "a number from 0 to 1, or nothing")
+        rows.append({**row, "r2": r2})
+    return pd.DataFrame(rows, columns=list(PUBLISHED_COLUMNS))
+
+
+def order_matrix(conditions: Sequence[str], order: pd.DataFrame) -> NDArray[np.bool_]:
+    """What a stated order implies for every pair of conditions (its reflexive and transitive closure).
+
+    order: the rows of one device with columns lower, relation, higher. Returns an (n, n) matrix; [i, j] says
+    whether rating i <= rating j. Raises RatingError for an unknown condition, and for a contradiction.
+
+    >>> order_matrix(["a", "b"], pd.DataFrame([["a", "<", "b"]], columns=["lower", "relation", "higher"])).tolist()
+    [[True, True], [False, True]]
+    """
+    index = {name: i for i, name in enumerate(conditions)}
+    if unknown := [name for name in (*order["lower"], *order["higher"]) if name not in index]:
+        raise RatingError(f"stated order: found {listed(unknown[:1])}; allowed: {listed(conditions)}")
+    stated = [(index[a], r, index[b]) for a, r, b in order[["lower", "relation", "higher"]].itertuples(index=False)]
+    at_most = np.eye(len(conditions), dtype=bool)
+    for low, relation, high in stated:
+        at_most[low, high] = True
+        at_most[high, low] |= relation == Relation.EQUAL
+    for via in range(len(conditions)):
+        at_most |= at_most[:, [via]] & at_most[[via], :]
+    for low, relation, high in stated:
+        if relation == Relation.LESS and at_most[high, low]:
+            raise RatingError(
+                f"stated order contradicts itself: '{conditions[low]}' < '{conditions[high]}', and other rows"
+                f" say that '{conditions[high]}' is not above '{conditions[low]}'"
+            )
+    return at_most
+
+
+def _read_rows(path: Path, columns: Sequence[str]) -> Iterable[tuple[int, dict[str, str]]]:
+    """The rows of a CSV with exactly these columns, none without a source; each with its line number."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file, strict=True)
+            lines = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if any(map(str.strip, row))]
+    except OSError as error:
+        raise RatingError(f"{path}: cannot be read: {error.strerror}") from error
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise RatingError(f"{path}: is not a CSV file in UTF-8: {error}") from error
+    if len(lines) < 2:
+        found = "a header without rows" if lines else "an empty file"
+        raise RatingError(f"{path}: found {found}; allowed: rows with the columns {listed(columns)}")
+    line, header = lines[0]
+    for name in header:
+        if name not in columns:
+            raise _error(path, line, "header", name, columns)
+        if header.count(name) > 1:
+            raise _error(path, line, "header", name, f"each column once: {listed(columns)}")
+    if missing := [name for name in columns if name not in header]:
+        raise RatingError(f"{path}, line {line}: column {listed(missing)} is missing; allowed: {listed(columns)}")
+    rows = []
+    for line, cells in lines[1:]:
+        if len(cells) != len(header):
+            raise RatingError(
+                f"{path}, line {line}: found {len(cells)} values; allowed: {len(header)}, for {listed(header)}"
+            )
+        row = dict(zip(header, cells, strict=True))
+        if not row["source"]:
+            raise _error(path, line, "source", "", "where the row comes from")
+        rows.append((line, row))
+    return rows
+
+
+def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str]) -> None:
+    if found not in allowed:
+        raise _error(path, line, column, found, list(allowed))
+
+
+def _error(path: Path, line: int, column: str, found: str, allowed: Sequence[str]) -> RatingError:
+    """The one form of message; `allowed` is a phrase, or the names among which a guess is made."""
+    guess = [] if isinstance(allowed, str) else get_close_matches(found, allowed, n=1)
+    names = allowed if isinstance(allowed, str) else listed(allowed)
+    hint = f"; did you mean '{guess[0]}'?" if guess else ""
+    return RatingError(f"{path}, line {line}, column {column}: found '{found}'; allowed: {names}{hint}")
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names in a message."""
+    return ", ".join(f"'{name}'" for name in names)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
