@@ -13,10 +13,11 @@ from .condensation import arc_length, receptor_strain
 from .contact import ContactProblem, rest, switch_friction, touching_height
 from .elasticity import displacement_basis, node_dofs
 from .export import DeckSettings
-from .gabor import filtered_readouts, resample, uniform_grid
+from .gabor import filtered_readouts
 from .mesh import SectionMesh
 from .path import follow
 from .penalty import PenaltyLaw, PenaltyState, press, untouched
+from .resampling import resampling_to_grid
 from .roughness import roughness_score, score_span
 from .scene import Condition, FloatArray, Interface, Readout, Scene
 from .solution import contact_problem
@@ -151,12 +152,13 @@ def _turning_forces(
 def _outcome(scene: Scene, arc: FloatArray, strain: FloatArray, force: FloatArray) -> Outcome:
     """Read-outs on the uniform grid, and scores."""
     gabor, row = scene.model.gabor, scene.device.actuators
-    grid = uniform_grid(arc, gabor.spacing)
-    filtered = filtered_readouts(arc, strain[1], strain[1] - strain[0], gabor)
+    resampling = resampling_to_grid(arc, gabor.spacing)
+    grid = resampling.grid
+    filtered = filtered_readouts(resampling, strain[1], strain[1] - strain[0], gabor)
     span = score_span(row, scene.model.readout.span_margin)
     return Outcome(
         grid,
-        np.array([resample(arc, values, grid) for values in strain]),
+        np.array([resampling.weights @ values for values in strain]),
         force,
         {readout: roughness_score(grid, filtered.filtered(readout), span) for readout in Readout},
     )

@@ -6,8 +6,6 @@ up where undeformed skin lies over them. A coarse solution of all conditions fin
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from .condensation import condense_body, condense_section
@@ -33,7 +31,7 @@ def edge_intervals(scene: Scene) -> FloatArray:
     """
     nominal = nominal_edges(scene.device.actuators)
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
-    coarse = _coarser(scene)
+    coarse = scene.coarsened(COARSER)
     section = condense_section(mesh_section(coarse, wide), coarse)
     body = condense_body(coarse) if scene.device.actuators.body else None
     found: list[FloatArray] = []
@@ -50,21 +48,6 @@ def edge_intervals(scene: Scene) -> FloatArray:
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
     both = np.stack([start, stop], axis=1)
     return _joined(np.concatenate([both, -both[:, ::-1]]))
-
-
-def _coarser(scene: Scene) -> Scene:
-    """The scene with sizes and strides that are COARSER."""
-    numerics = scene.model.numerics
-    larger = replace(
-        numerics,
-        edge_size=COARSER * numerics.edge_size,
-        face_size=COARSER * numerics.face_size,
-        receptor_size=COARSER * numerics.receptor_size,
-        largest_size=COARSER * numerics.largest_size,
-        indentation_increments=int(np.ceil(numerics.indentation_increments / COARSER)),
-        stimulus_increments=1,
-    )
-    return replace(scene, model=replace(scene.model, numerics=larger))
 
 
 def _distinct(scene: Scene) -> list[Condition]:

@@ -27,6 +27,8 @@ SIMULTANEOUS = 12  # iterations in which all nodes may change state at once [1];
 MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is below any step that was ever needed
 SETTLED = 1e-6  # relative residual [1] below which forces are good enough to judge a single node's state
 EACH = 0.01  # share [1] of the tolerance for each force, as errors add up in a gap; source: some 100 nodes
+GIVING = 1e-5  # of the load [1] by which a face may give way elsewhere than it touches; source: a tenth of what a
+# certificate allows
 FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
 STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; source: rounding
 
@@ -81,6 +83,17 @@ class _Trial:
     slope: FloatArray
 
 
+@dataclass(frozen=True)
+class _Everywhere:
+    """Forces (n, 2) [N/mm], states (n,), displacements (n, 2), places (n,) and gaps (n,) [mm] of all contact nodes."""
+
+    force: FloatArray
+    status: np.ndarray
+    moved: FloatArray
+    place: FloatArray
+    gap: FloatArray
+
+
 def solve_increment(
     problem: ContactProblem, start: ContactState, actuator: FloatArray, patch: Patch | None
 ) -> tuple[ContactState, Patch]:
@@ -98,11 +111,10 @@ def solve_increment(
     needed = np.flatnonzero(status != OPEN)
     if needed.size == 0:
         needed = np.array([int(np.argmin(start.gap - heading[problem.actuator_of, 1] * length))])
-    # faces give way where the last increment promises that the skin will be
+    # the last increment promises where the skin will touch the faces
     guess = start.place + start.drift[:, 0] * length if straight else start.place
     body = faces(problem, guess)
-    if body:
-        patch = None
+    patch = None if body else patch
     iterations, residual, bias = 0, float("inf"), None
     while iterations < MAX_ITERATIONS:
         if patch is None or not np.isin(needed, patch.nodes).all():
@@ -113,42 +125,72 @@ def solve_increment(
         increment = _Increment(problem, patch, origin[nodes].T, bias, gap_scale, floor)
         trial, status_there, count = _settle(increment, start, guess[nodes], status[nodes], reference, iterations)
         iterations += count
-        force = np.zeros((status.size, 2))
-        force[nodes] = trial.force.reshape(2, -1).T
-        status = np.full(status.size, OPEN)
-        status[nodes] = status_there
-        moved = displacement(problem, force, body)
-        place = origin[:, 0] + moved[:, 0]
-        gap = origin[:, 1] + moved[:, 1] + profile(problem.row, place)[0]
-        guess = place
-        missed = (status == OPEN) & (gap < -problem.tolerance * gap_scale)
+        found = _everywhere(increment, origin, body, trial, status_there)
+        status, guess = found.status, found.place
+        missed = (status == OPEN) & (found.gap < -problem.tolerance * gap_scale)
         missed[nodes] = False
         if missed.any():
-            _touch(reference, start, place, gap, missed)
+            _touch(reference, start, found.place, found.gap, missed)
             status[missed] = _touched(problem)
             needed, ahead = np.flatnonzero(status != OPEN), ahead | missed
             continue
-        left = _residuals(problem, gap_scale, force.T.ravel(), place - reference, gap, status)
+        slip = found.place - reference
+        left = _residuals(problem, gap_scale, found.force.T.ravel(), slip, found.gap, status)
         residual = float(np.abs(left).max(initial=0.0))
-        if residual <= problem.tolerance:
-            slip = np.where(status > STICK, place - reference, 0.0)
-            state = ContactState(
-                actuator,
-                force,
-                status,
-                place,
-                gap,
-                heading,
-                np.stack([place - start.place, gap - start.gap], axis=1) / length,
-                (force - start.force) / length,
-                start.dissipation - float(force[:, 0] @ slip),
-                max(start.residual, residual),
-                start.iterations + iterations,
-                start.cuts,
-            )
-            return state, patch
-        bias = bias + moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left: once more
+        if residual > problem.tolerance:
+            bias = bias + found.moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left
+        elif _gives_elsewhere(problem, found, body, gap_scale):
+            body, patch, needed = faces(problem, found.place), None, np.flatnonzero(status != OPEN)
+        else:
+            return _accepted(start, actuator, found, slip, residual, iterations), patch
     raise NotConvergedError(residual)
+
+
+def _everywhere(
+    increment: _Increment, origin: FloatArray, body: list[Face], trial: _Trial, status: np.ndarray
+) -> _Everywhere:
+    """What a patch's trial means for all nodes, whose unloaded places are `origin` (n, 2) [mm]."""
+    nodes = increment.patch.nodes
+    force, states = np.zeros(origin.shape), np.full(origin.shape[0], OPEN)
+    force[nodes], states[nodes] = trial.force.reshape(2, -1).T, status
+    moved = displacement(increment.problem, force, body)
+    place, height = (origin + moved).T
+    return _Everywhere(force, states, moved, place, height + profile(increment.problem.row, place)[0])
+
+
+def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, body: list[Face], gap_scale: float) -> bool:
+    """Whether deformable faces give way noticeably elsewhere than the skin touches them now."""
+    if not body:
+        return False
+    astray = displacement(problem, found.force, faces(problem, found.place)) - found.moved
+    return bool(np.abs(astray[found.status != OPEN]).max(initial=0.0) > GIVING * gap_scale)
+
+
+def _accepted(
+    start: ContactState,
+    actuator: FloatArray,
+    found: _Everywhere,
+    slip: FloatArray,
+    residual: float,
+    iterations: int,
+) -> ContactState:
+    """The converged state at the end of an increment, of which nodes slipped by `slip` (n,) [mm]."""
+    length = float(np.abs(actuator - start.actuator).max())
+    work = -float(found.force[:, 0] @ np.where(found.status > STICK, slip, 0.0))
+    return ContactState(
+        actuator,
+        found.force,
+        found.status,
+        found.place,
+        found.gap,
+        (actuator - start.actuator) / length,
+        np.stack([found.place - start.place, found.gap - start.gap], axis=1) / length,
+        (found.force - start.force) / length,
+        start.dissipation + work,
+        max(start.residual, residual),
+        start.iterations + iterations,
+        start.cuts,
+    )
 
 
 def _foreseen(

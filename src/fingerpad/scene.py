@@ -8,7 +8,7 @@ is +y, into the skin; positive tangential displacement is +x.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -381,6 +381,18 @@ class Numerics:
         )
         _require(self.max_cuts >= 0, f"numerics: max_cuts {self.max_cuts} < 0")
 
+    def coarsened(self, factor: float) -> Numerics:
+        """Element sizes and load increments `factor` times as large; finer below 1. The edges' zone keeps its width."""
+        return replace(
+            self,
+            edge_size=factor * self.edge_size,
+            face_size=factor * self.face_size,
+            receptor_size=factor * self.receptor_size,
+            largest_size=factor * self.largest_size,
+            indentation_increments=max(round(self.indentation_increments / factor), 1),
+            stimulus_increments=max(round(self.stimulus_increments / factor), 1),
+        )
+
 
 @dataclass(frozen=True)
 class Skips:
@@ -429,6 +441,11 @@ class Scene:
 
     model: Model
     device: Device
+
+    def coarsened(self, factor: float) -> Scene:
+        """The scene with coarser numerics."""
+        numerics = self.model.numerics.coarsened(factor)
+        return replace(self, model=replace(self.model, numerics=numerics))
 
     def __post_init__(self) -> None:
         row = self.device.actuators

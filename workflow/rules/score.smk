@@ -1,5 +1,6 @@
-# Roughness scores: of one device, condition and interface, and the tidy table of all.
-# REQUIRED INPUTS: results/{device}/{condition}/{interface}/filtered.npz. OUTPUTS: score.csv beside it, results/scores.csv
+# Roughness scores: of one device, condition and interface, the same from a coarser mesh, and the tidy table of all.
+# REQUIRED INPUTS: results/{device}/{condition}/{interface}/filtered.npz.
+# OUTPUTS: score.csv beside it, results/{device}/check.csv, results/scores.csv
 
 
 rule score:
@@ -25,11 +26,31 @@ rule score:
         "../scripts/score.py"
 
 
+rule check:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        code=code("check.py"),
+    output:
+        scores="results/{device}/check.csv",
+    log:
+        "results/logs/{device}/check.log",
+    benchmark:
+        "results/benchmarks/{device}/check.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+    script:
+        "../scripts/check.py"
+
+
 rule scores:
     input:
         config=ancient(CONFIG),
         devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
         scores=cases("results/{device}/{condition}/{interface}/score.csv"),
+        checks=expand("results/{device}/check.csv", device=DEVICES),
         code=code("scores.py"),
     output:
         scores="results/scores.csv",

@@ -1,0 +1,47 @@
+"""All scores of a scene in one process: mesh, condensation, contact, read-outs, scores."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from .compliance import CondensedBody, CondensedSection
+from .condensation import condense_body, condense_section
+from .gabor import filtered_readouts
+from .mesh import mesh_section
+from .resampling import resampling_to_grid
+from .roughness import score_rows
+from .scene import FloatArray, Scene
+from .solution import solve_condition
+from .strain import Resampling
+
+
+@dataclass(frozen=True)
+class Condensed:
+    """All that conditions of a scene share."""
+
+    section: CondensedSection
+    body: CondensedBody | None
+    resampling: Resampling
+
+
+def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
+    """Mesh, fine at the edges' intervals (k, 2) [mm], and condense. Raises MeshError, CondensationError."""
+    section = condense_section(mesh_section(scene, edges), scene)
+    body = condense_body(scene) if scene.device.actuators.body else None
+    return Condensed(section, body, resampling_to_grid(section.arc, scene.model.gabor.spacing))
+
+
+def predicted_rows(scene: Scene, condensed: Condensed) -> list[dict[str, Any]]:
+    """Rows of the score table for all conditions and interfaces; equal stimuli are solved once. Raises ContactError."""
+    rows = []
+    for interface in scene.device.interfaces():
+        read = {}
+        for condition in scene.device.conditions:
+            first = scene.device.first_with_stimulus_of(condition.name).name
+            if first not in read:
+                found = solve_condition(scene, condensed.section, condensed.body, condition, interface)
+                strains = found.strain, found.change_of_strain
+                read[first] = filtered_readouts(condensed.resampling, *strains, scene.model.gabor)
+            rows.extend(score_rows(scene, condition, interface, read[first]))
+    return rows
