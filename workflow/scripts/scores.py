@@ -2,17 +2,16 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.roughness import unpredicted_rows
 from fingerpad.scenefile import load_scene
+from fingerpad.store import read_rows, write_rows
 
 
 def main(config: Path, devices: list[Path], scores: list[Path], table: Path) -> None:
     """Read every score, add the rows for which there is no prediction, write the table."""
+    found = [row for path in scores for row in read_rows(path)]
     missing = [row for device in devices for row in unpredicted_rows(load_scene(config, device))]
-    found = [pd.read_csv(path, keep_default_na=False) for path in scores]
-    pd.concat([*found, pd.DataFrame(missing)] if missing else found).to_csv(table, index=False, lineterminator="\n")
+    write_rows(table, [*found, *missing])
 
 
 if __name__ == "__main__":

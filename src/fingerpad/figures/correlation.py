@@ -18,6 +18,7 @@ from .style import (
     PERCENT,
     SCORE_SCALE,
     WIDE,
+    Shown,
     Styles,
     as_points,
     condition_styles,
@@ -51,7 +52,7 @@ def correlation_figure(
     scores, correlations: the tables of that name. ratings: device, condition, rating. titles: by device.
     """
     figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
-    styles = condition_styles(scores[scores["device"].isin(ratings["device"])])
+    styles = condition_styles(shown_in(scores[scores["device"].isin(ratings["device"])]))
     grid = figure.subplots(len(titles), len(Readout), squeeze=False)
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         for axes, readout in zip(row, Readout, strict=True):
@@ -124,6 +125,11 @@ def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
     return CAPTION.format(interface=interface, kinds=kinds)
+
+
+def shown_in(scores: pd.DataFrame) -> list[Shown]:
+    """The conditions of a table of scores, row by row."""
+    return [Shown(*row) for row in scores[list(Shown._fields)].itertuples(index=False)]
 
 
 def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:

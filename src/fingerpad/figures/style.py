@@ -5,14 +5,14 @@ Nothing rests on colour alone: phases differ in colour, lightness and marker, di
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -91,6 +91,15 @@ PERCENT = 100.0
 MINUS = "\N{MINUS SIGN}"
 
 
+class Shown(NamedTuple):
+    """A condition that a figure shows."""
+
+    device: str
+    condition: str
+    dispersion: str
+    phase_deg: float
+
+
 @dataclass(frozen=True)
 class Series:
     """How one condition is drawn, and what it is called."""
@@ -136,10 +145,9 @@ def save(figure: Figure, stem: Path) -> None:
         )
 
 
-def conditions_of(devices: Iterable[Device]) -> pd.DataFrame:
-    """Table of the devices' conditions: device, condition, dispersion, phase_deg."""
-    rows = [(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
-    return pd.DataFrame(rows, columns=["device", "condition", "dispersion", "phase_deg"])
+def conditions_of(devices: Iterable[Device]) -> list[Shown]:
+    """The devices' conditions, one after the other."""
+    return [Shown(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
 
 
 def device_titles(devices: Iterable[Device]) -> dict[str, str]:
@@ -147,36 +155,38 @@ def device_titles(devices: Iterable[Device]) -> dict[str, str]:
     return {device.name: device.title for device in devices}
 
 
-def condition_styles(conditions: pd.DataFrame) -> Styles:
-    """Styles of conditions (device, condition, dispersion, phase_deg; one row or more for each).
+def condition_styles(conditions: Iterable[Shown]) -> Styles:
+    """Styles of conditions, each of which may come more than once.
 
     Phases share colour and marker across devices, dispersions line and filling. Where a device has two conditions of
     one dispersion and phase (histories, say) each of its conditions is drawn in its own colour and called by its name.
     """
-    table = conditions[["device", "condition", "dispersion", "phase_deg"]].drop_duplicates()
+    shown = list(dict.fromkeys(conditions))
+    alike = Counter((one.device, one.dispersion, one.phase_deg) for one in shown)
+    by_name = {device for (device, _, _), count in alike.items() if count > 1}
+    spreads = Counter(device for device, _ in {(one.device, one.dispersion) for one in shown})
+    phases = sorted({one.phase_deg for one in shown if one.device not in by_name})
+    dispersions = list(
+        dict.fromkeys(one.dispersion for one in shown if one.device not in by_name and spreads[one.device] > 1)
+    )
+    named = [f"{one.device}: {one.condition}" for one in shown if one.device in by_name]
+    keys = [*(f"{phase:g}°" for phase in phases), *named]
     series: dict[tuple[str, str], Series] = {}
     legend: dict[str, Line2D] = {}
-    telling = ~table.duplicated(["device", "dispersion", "phase_deg"], keep=False).groupby(table["device"]).transform(
-        "any"
-    )
-    phases = sorted(table.loc[telling, "phase_deg"].unique())
-    several = table.groupby("device")["dispersion"].transform("nunique") > 1
-    dispersions = list(dict.fromkeys(table.loc[telling & several, "dispersion"]))
-    named = [f"{row.device}: {row.condition}" for row in table[~telling].itertuples()]
-    keys = [*(f"{phase:g}°" for phase in phases), *named]
-    for row, by_phase, spread in zip(table.itertuples(), telling, several, strict=True):
-        key = f"{row.phase_deg:g}°" if by_phase else f"{row.device}: {row.condition}"
+    for one in shown:
+        by_phase, several = one.device not in by_name, spreads[one.device] > 1
+        key = f"{one.phase_deg:g}°" if by_phase else f"{one.device}: {one.condition}"
         number = keys.index(key)
-        kind = dispersions.index(row.dispersion) if by_phase and spread else 0
-        one = Series(
-            (f"{plain(row.dispersion)}, {key}" if spread else key) if by_phase else row.condition,
+        kind = dispersions.index(one.dispersion) if by_phase and several else 0
+        look = Series(
+            (f"{plain(one.dispersion)}, {key}" if several else key) if by_phase else one.condition,
             COLOURS[number % len(COLOURS)],
             MARKERS[number % len(MARKERS)],
             LINES[kind % len(LINES)],
             FILLS[kind % len(FILLS)],
         )
-        series[row.device, row.condition] = one
-        legend.setdefault(key, Line2D([], [], color=one.colour, marker=one.marker, label=key))
+        series[one.device, one.condition] = look
+        legend.setdefault(key, Line2D([], [], color=look.colour, marker=look.marker, label=key))
     handles = [legend[key] for key in keys]
     for number, name in enumerate(dispersions):
         line, fill = LINES[number % len(LINES)], FILLS[number % len(FILLS)]
