@@ -91,8 +91,19 @@ def make_scores() -> pd.DataFrame:
                     score = 0.3 + 0.01 * number**2 if known else math.nan
                     kind = (condition.dispersion, condition.phase_deg, str(interface), str(readout))
                     note = "" if known else "no prediction"
-                    rows.append((device.name, condition.name, *kind, score, "mm2", note))
-    columns = ["device", "condition", "dispersion", "phase_deg", "interface", "readout", "score", "unit", "note"]
+                    rows.append((device.name, condition.name, *kind, score, 0.01 * score, "mm2", note))
+    columns = [
+        "device",
+        "condition",
+        "dispersion",
+        "phase_deg",
+        "interface",
+        "readout",
+        "score",
+        "score_error",
+        "unit",
+        "note",
+    ]
     return pd.DataFrame(rows, columns=columns)
 
 

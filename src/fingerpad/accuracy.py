@@ -9,26 +9,50 @@ those for the same device and read-out.
 
 from __future__ import annotations
 
-import pandas as pd
+from collections.abc import Mapping, Sequence
+from statistics import median
+from typing import Any
 
 COARSENING = 1.5  # [1]; source: the cheapest mesh whose errors still fall regularly (measured)
-CASE = ["device", "condition", "interface", "readout"]
-GROUP = ["device", "readout"]
+CASE = ("device", "condition", "interface", "readout")
+GROUP = ("device", "readout")
 
 
-def with_errors(scores: pd.DataFrame, coarser: pd.DataFrame) -> pd.DataFrame:
-    """The score table with a column `score_error` behind `score`, in the same unit; empty where there is no score.
+def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Rows of the score table with `score_error` behind `score`, in the same unit; None where there is no score.
 
-    coarser: score table of the coarser solution. Raises KeyError if it lacks a score.
+    coarser: rows of the coarser solution. Raises KeyError if it lacks a score.
     """
-    indexed = scores.set_index(CASE)
-    value = indexed["score"].astype(float)
-    second = coarser.set_index(CASE)["score"].astype(float)
-    predicted = value.dropna()
-    relative = ((predicted - second.loc[predicted.index]) / predicted).abs()
-    least = relative.groupby(GROUP).transform("median")
-    error = (relative.clip(lower=least) * predicted).reindex(indexed.index)
-    table = indexed.assign(score_error=error).reset_index()
-    columns = list(scores.columns)
-    columns.insert(columns.index("score") + 1, "score_error")
-    return table[columns]
+    second = {_of(row, CASE): float(row["score"]) for row in coarser}
+    relative = {
+        _of(row, CASE): abs(second[_of(row, CASE)] / float(row["score"]) - 1.0) for row in scores if _is_scored(row)
+    }
+    groups: dict[tuple[str, ...], list[float]] = {}
+    for row in scores:
+        if _is_scored(row):
+            groups.setdefault(_of(row, GROUP), []).append(relative[_of(row, CASE)])
+    table = []
+    for row in scores:
+        error = None
+        if _is_scored(row):
+            error = max(relative[_of(row, CASE)], median(groups[_of(row, GROUP)])) * float(row["score"])
+        table.append(_inserted(row, error))
+    return table
+
+
+def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:
+    return tuple(row[column] for column in columns)
+
+
+def _is_scored(row: Mapping[str, Any]) -> bool:
+    return row["score"] not in {None, ""}
+
+
+def _inserted(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:
+    """The row with its error behind its score."""
+    found: dict[str, Any] = {}
+    for column, value in row.items():
+        found[column] = value
+        if column == "score":
+            found["score_error"] = error
+    return found

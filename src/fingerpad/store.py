@@ -35,6 +35,12 @@ def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
         writer.writerows(rows)
 
 
+def read_rows(path: Path) -> list[dict[str, str]]:
+    """Rows of a CSV table that `write_rows` wrote, as text."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
 def _flattened(record: Any, prefix: str) -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for field in dataclasses.fields(record):

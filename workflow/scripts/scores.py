@@ -2,20 +2,18 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.accuracy import with_errors
 from fingerpad.roughness import unpredicted_rows
 from fingerpad.scenefile import load_scene
+from fingerpad.store import read_rows, write_rows
 
 
 def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Path], table: Path) -> None:
     """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table."""
+    found = [row for path in scores for row in read_rows(path)]
+    coarser = [row for path in checks for row in read_rows(path)]
     missing = [row for device in devices for row in unpredicted_rows(load_scene(config, device))]
-    found = [pd.read_csv(path, keep_default_na=False) for path in scores]
-    whole = pd.concat([*found, pd.DataFrame(missing)] if missing else found, ignore_index=True)
-    coarser = pd.concat([pd.read_csv(path, keep_default_na=False) for path in checks], ignore_index=True)
-    with_errors(whole, coarser).to_csv(table, index=False, lineterminator="\n")
+    write_rows(table, with_errors([*found, *missing], coarser))
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ from .style import (
     ORANGE,
     SCORE_SCALE,
     WIDE,
+    draw_errors,
     legend_below,
     letter,
     new_figure,
@@ -62,12 +63,15 @@ def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.
     """Bars of one device and read-out, a pair for each condition."""
     factor = SCORE_SCALE[readout][0]
     wide = scores.pivot(index="condition", columns="interface", values="score")
+    spread = scores.pivot(index="condition", columns="interface", values="score_error")
     conditions = scores.drop_duplicates("condition")
     places = np.arange(len(conditions))
     for interface, side in zip(Interface, (-0.5, 0.5), strict=True):
         heights = factor * wide.reindex(conditions["condition"])[interface].to_numpy(float)
         if np.isfinite(heights).any():
             axes.bar(places + side * BAR, heights, BAR, **LOOK[interface])
+            errors = factor * spread.reindex(conditions["condition"])[interface].to_numpy(float)
+            draw_errors(axes, places + side * BAR, heights, errors, along="y")
         else:
             note = str(scores.loc[scores["interface"] == interface, "note"].iloc[0])
             for place in places:

@@ -18,9 +18,11 @@ from .style import (
     PERCENT,
     SCORE_SCALE,
     WIDE,
+    Shown,
     Styles,
     as_points,
     condition_styles,
+    draw_errors,
     draw_point,
     legend_below,
     letter,
@@ -38,7 +40,7 @@ PADDING = 0.12  # of the axes beyond the outermost points, relative to their spr
 CAPTION = (
     "{interface}n: conditions; those with one and the same stimulus coincide. Line: least squares. Ratings: {kinds}."
     " range: of R² over all ratings with the stated order. τ: Kendall's. p: two-sided, of R²."
-    " spread: of the scores, over their mean."
+    " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
 )
 
 
@@ -51,7 +53,7 @@ def correlation_figure(
     scores, correlations: the tables of that name. ratings: device, condition, rating. titles: by device.
     """
     figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
-    styles = condition_styles(scores[scores["device"].isin(ratings["device"])])
+    styles = condition_styles(shown_in(scores[scores["device"].isin(ratings["device"])]))
     grid = figure.subplots(len(titles), len(Readout), squeeze=False)
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         for axes, readout in zip(row, Readout, strict=True):
@@ -85,6 +87,7 @@ def correlation_panel(
         slope, intercept = np.polyfit(x, y, 1)
         ends = np.array([x.min(), x.max()])
         axes.plot(ends, intercept + slope * ends, color=GREY, zorder=1)
+    draw_errors(axes, x, y, factor * points["score_error"].to_numpy(float), along="x")
     for name, one, other in zip(points["condition"], x, y, strict=True):
         draw_point(axes, one, other, styles.series[device, name])
     axes.margins(PADDING)
@@ -124,6 +127,11 @@ def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
     return CAPTION.format(interface=interface, kinds=kinds)
+
+
+def shown_in(scores: pd.DataFrame) -> list[Shown]:
+    """The conditions of a table of scores, row by row."""
+    return [Shown(*row) for row in scores[list(Shown._fields)].itertuples(index=False)]
 
 
 def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:

@@ -94,8 +94,7 @@ def strain_map_figure(
         2 * blocks, columns, squeeze=False, sharex=True, height_ratios=[map_height, TRACTION_HEIGHT] * blocks
     )
     maps, tractions = grid[0::2].ravel(), grid[1::2].ravel()
-    table = conditions_of([device])
-    styles = condition_styles(table[table["dispersion"] == dispersion])
+    styles = condition_styles(shown for shown in conditions_of([device]) if shown.dispersion == dispersion)
     means = [
         element_means(row, contact, KILO * nodal)[1] for s in solutions.values() for nodal in (s.pressure, s.shear)
     ]

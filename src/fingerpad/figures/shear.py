@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from ..scene import Interface, Readout
-from .correlation import caption, correlation_panel
+from .correlation import caption, correlation_panel, shown_in
 from .style import INTERFACE_NAME, WIDE, as_points, condition_styles, legend_below, letter, new_figure, styled
 
 HEIGHT = 108.0  # mm
@@ -23,7 +23,7 @@ def shear_figure(
     """
     figure = new_figure(WIDE, HEIGHT)
     scores, ratings, correlations = (t[t["device"] == device] for t in (scores, ratings, correlations))
-    styles = condition_styles(scores)
+    styles = condition_styles(shown_in(scores))
     grid = figure.subplots(len(Readout), len(COLUMNS), sharex="row")
     for row, readout in zip(grid, Readout, strict=True):
         for axes, interface in zip(row, COLUMNS, strict=True):

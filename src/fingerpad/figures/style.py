@@ -5,26 +5,27 @@ Nothing rests on colour alone: phases differ in colour, lightness and marker, di
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..scene import Device, Interface, Readout
+from ..scene import Device, FloatArray, Interface, Readout
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
 TEXT, TITLE = 7.0, 8.0  # font sizes [pt]; source: 7 pt stays legible in print
 THIN, LINE = 0.5, 1.0  # line widths [pt]
 MARKER = 4.5  # marker size [pt]
+CAP = 1.5  # half width of an error bar's end [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
 POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
@@ -91,6 +92,15 @@ PERCENT = 100.0
 MINUS = "\N{MINUS SIGN}"
 
 
+class Shown(NamedTuple):
+    """A condition that a figure shows."""
+
+    device: str
+    condition: str
+    dispersion: str
+    phase_deg: float
+
+
 @dataclass(frozen=True)
 class Series:
     """How one condition is drawn, and what it is called."""
@@ -136,10 +146,9 @@ def save(figure: Figure, stem: Path) -> None:
         )
 
 
-def conditions_of(devices: Iterable[Device]) -> pd.DataFrame:
-    """Table of the devices' conditions: device, condition, dispersion, phase_deg."""
-    rows = [(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
-    return pd.DataFrame(rows, columns=["device", "condition", "dispersion", "phase_deg"])
+def conditions_of(devices: Iterable[Device]) -> list[Shown]:
+    """The devices' conditions, one after the other."""
+    return [Shown(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
 
 
 def device_titles(devices: Iterable[Device]) -> dict[str, str]:
@@ -147,36 +156,38 @@ def device_titles(devices: Iterable[Device]) -> dict[str, str]:
     return {device.name: device.title for device in devices}
 
 
-def condition_styles(conditions: pd.DataFrame) -> Styles:
-    """Styles of conditions (device, condition, dispersion, phase_deg; one row or more for each).
+def condition_styles(conditions: Iterable[Shown]) -> Styles:
+    """Styles of conditions, each of which may come more than once.
 
     Phases share colour and marker across devices, dispersions line and filling. Where a device has two conditions of
     one dispersion and phase (histories, say) each of its conditions is drawn in its own colour and called by its name.
     """
-    table = conditions[["device", "condition", "dispersion", "phase_deg"]].drop_duplicates()
+    shown = list(dict.fromkeys(conditions))
+    alike = Counter((one.device, one.dispersion, one.phase_deg) for one in shown)
+    by_name = {device for (device, _, _), count in alike.items() if count > 1}
+    spreads = Counter(device for device, _ in {(one.device, one.dispersion) for one in shown})
+    phases = sorted({one.phase_deg for one in shown if one.device not in by_name})
+    dispersions = list(
+        dict.fromkeys(one.dispersion for one in shown if one.device not in by_name and spreads[one.device] > 1)
+    )
+    named = [f"{one.device}: {one.condition}" for one in shown if one.device in by_name]
+    keys = [*(f"{phase:g}°" for phase in phases), *named]
     series: dict[tuple[str, str], Series] = {}
     legend: dict[str, Line2D] = {}
-    telling = ~table.duplicated(["device", "dispersion", "phase_deg"], keep=False).groupby(table["device"]).transform(
-        "any"
-    )
-    phases = sorted(table.loc[telling, "phase_deg"].unique())
-    several = table.groupby("device")["dispersion"].transform("nunique") > 1
-    dispersions = list(dict.fromkeys(table.loc[telling & several, "dispersion"]))
-    named = [f"{row.device}: {row.condition}" for row in table[~telling].itertuples()]
-    keys = [*(f"{phase:g}°" for phase in phases), *named]
-    for row, by_phase, spread in zip(table.itertuples(), telling, several, strict=True):
-        key = f"{row.phase_deg:g}°" if by_phase else f"{row.device}: {row.condition}"
+    for one in shown:
+        by_phase, several = one.device not in by_name, spreads[one.device] > 1
+        key = f"{one.phase_deg:g}°" if by_phase else f"{one.device}: {one.condition}"
         number = keys.index(key)
-        kind = dispersions.index(row.dispersion) if by_phase and spread else 0
-        one = Series(
-            (f"{plain(row.dispersion)}, {key}" if spread else key) if by_phase else row.condition,
+        kind = dispersions.index(one.dispersion) if by_phase and several else 0
+        look = Series(
+            (f"{plain(one.dispersion)}, {key}" if several else key) if by_phase else one.condition,
             COLOURS[number % len(COLOURS)],
             MARKERS[number % len(MARKERS)],
             LINES[kind % len(LINES)],
             FILLS[kind % len(FILLS)],
         )
-        series[row.device, row.condition] = one
-        legend.setdefault(key, Line2D([], [], color=one.colour, marker=one.marker, label=key))
+        series[one.device, one.condition] = look
+        legend.setdefault(key, Line2D([], [], color=look.colour, marker=look.marker, label=key))
     handles = [legend[key] for key in keys]
     for number, name in enumerate(dispersions):
         line, fill = LINES[number % len(LINES)], FILLS[number % len(FILLS)]
@@ -201,6 +212,11 @@ def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:
         [x], [y], linestyle="none", marker=series.marker, color=series.colour, fillstyle=series.fill,
         markerfacecoloralt="white", clip_on=False, zorder=3,
     )  # fmt: skip
+
+
+def draw_errors(axes: Axes, x: FloatArray, y: FloatArray, error: FloatArray, along: str) -> None:
+    """Bars of estimated error (n,) on both sides of points (n,), along the axis "x" or "y"."""
+    axes.errorbar(x, y, fmt="none", ecolor=GREY, elinewidth=THIN, capsize=CAP, capthick=THIN, **{f"{along}err": error})
 
 
 def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "") -> None:

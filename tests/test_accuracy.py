@@ -1,0 +1,38 @@
+"""Errors of scores from a coarser solution."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from fingerpad.accuracy import with_errors
+
+
+def row(condition: str, score: float | str | None, interface: str = "shear") -> dict[str, Any]:
+    return {
+        "device": "d",
+        "condition": condition,
+        "interface": interface,
+        "readout": "strain",
+        "score": score,
+        "unit": "mm2",
+    }
+
+
+def test_error_is_the_difference_and_no_less_than_the_median() -> None:
+    """Differences of 1, 2 and 6 %: the smallest is lifted to the median. Scores from a file are text."""
+    scores = [row("a", "1.0"), row("b", "2.0"), row("c", "4.0")]
+    found = with_errors(scores, [row("a", "1.01"), row("b", "1.96"), row("c", "4.24")])
+    assert [each["score_error"] for each in found] == pytest.approx([0.02, 0.04, 0.24])
+    assert list(found[0]) == ["device", "condition", "interface", "readout", "score", "score_error", "unit"]
+
+
+def test_what_has_no_score_has_no_error() -> None:
+    found = with_errors([row("a", "1.0"), row("a", None, "frictionless")], [row("a", "1.1")])
+    assert found[1]["score_error"] is None
+
+
+def test_a_missing_check_is_an_error() -> None:
+    with pytest.raises(KeyError, match="'b'"):
+        with_errors([row("b", "1.0")], [row("a", "1.0")])
