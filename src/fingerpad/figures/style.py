@@ -13,19 +13,19 @@ from textwrap import wrap
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..scene import Device, FloatArray, Interface, Readout
+from ..scene import Device, Interface, Readout
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
 TEXT, TITLE = 7.0, 8.0  # font sizes [pt]; source: 7 pt stays legible in print
 THIN, LINE = 0.5, 1.0  # line widths [pt]
 MARKER = 4.5  # marker size [pt]
-CAP = 1.5  # half width of an error bar's end [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
 POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
@@ -214,9 +214,12 @@ def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:
     )  # fmt: skip
 
 
-def draw_errors(axes: Axes, x: FloatArray, y: FloatArray, error: FloatArray, along: str) -> None:
+def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, along: str) -> None:
     """Bars of estimated error (n,) on both sides of points (n,), along the axis "x" or "y"."""
-    axes.errorbar(x, y, fmt="none", ecolor=GREY, elinewidth=THIN, capsize=CAP, capthick=THIN, **{f"{along}err": error})
+    if along == "x":
+        axes.hlines(y, x - error, x + error, color=GREY, linewidth=LINE, zorder=2)
+    else:
+        axes.vlines(x, y - error, y + error, color=GREY, linewidth=LINE, zorder=2)
 
 
 def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "") -> None:
