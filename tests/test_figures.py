@@ -20,7 +20,7 @@ from fingerpad.fields import Fields
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.correlation import correlation_figure
-from fingerpad.figures.maps import element_means, strain_map_figure
+from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.section import section_figure
 from fingerpad.figures.shear import shear_figure
@@ -310,16 +310,6 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         1.5, none, none, traction, 0.5 * traction, place, np.where(traction > 0.0, Status.STICK, Status.OPEN), none,
         none, none, 1, 0, Certificate(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
     )  # fmt: skip
-
-
-def test_element_means_keep_the_force() -> None:
-    contact = make_contact(PINS)
-    nodal = np.random.default_rng(1).random(contact.weight.size)
-    nodal[[0, 24, 25, 49, 50, 74]] = 0.0  # no contact at the ends
-    middle, mean = element_means(PINS, contact, nodal)
-    assert len(middle) == 12 * 3
-    # an end of an actuator's candidates carries no force, so every other node's share is counted in full
-    assert float(mean.sum()) * 0.1 == pytest.approx(float(nodal @ contact.weight), rel=1e-12)
 
 
 @pytest.mark.parametrize("device", [PHASED, FORCED, UNRATED, SINGLE], ids=lambda device: str(device.name))

@@ -7,6 +7,7 @@ from typing import Any
 
 from .compliance import CondensedBody, CondensedSection
 from .condensation import condense_body, condense_section
+from .edges import edge_intervals
 from .gabor import filtered_readouts
 from .mesh import mesh_section
 from .resampling import resampling_to_grid
@@ -30,6 +31,12 @@ def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
     section = condense_section(mesh_section(scene, edges), scene)
     body = condense_body(scene) if scene.device.actuators.body else None
     return Condensed(section, body, resampling_to_grid(section.arc, scene.model.gabor.spacing))
+
+
+def rows_at(scene: Scene, coarsening: float) -> list[dict[str, Any]]:
+    """Rows of the score table on sizes and increments `coarsening` times the scene's [1]; edges as for the scene."""
+    other = scene.coarsened(coarsening)
+    return predicted_rows(other, condense_scene(other, edge_intervals(scene)))
 
 
 def predicted_rows(scene: Scene, condensed: Condensed) -> list[dict[str, Any]]:

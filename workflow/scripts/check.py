@@ -3,17 +3,14 @@
 from pathlib import Path
 
 from fingerpad.accuracy import COARSENING
-from fingerpad.edges import edge_intervals
-from fingerpad.prediction import condense_scene, predicted_rows
+from fingerpad.prediction import rows_at
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
 
 
 def main(config: Path, device: Path, scores: Path) -> None:
     """Read the scene, solve all its conditions coarsely, write their scores."""
-    scene = load_scene(config, device)
-    coarser = scene.coarsened(COARSENING)
-    write_rows(scores, predicted_rows(coarser, condense_scene(coarser, edge_intervals(scene))))
+    write_rows(scores, rows_at(load_scene(config, device), COARSENING))
 
 
 if __name__ == "__main__":

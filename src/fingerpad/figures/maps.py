@@ -20,7 +20,7 @@ from matplotlib.tri import Triangulation
 
 from ..compliance import CondensedSection
 from ..fields import Fields
-from ..scene import ActuatorRow, Condition, FloatArray, Scene
+from ..scene import ActuatorRow, Condition, Scene
 from ..solution import Solution
 from .actuators import draw_actuators
 from .style import (
@@ -47,7 +47,7 @@ WIDTHS = (NARROW, MIDDLE, WIDE)  # mm, of figures with one, two or three panels 
 ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
-CAPTION = "{counted}, at the end of the stimulus; displacements to scale. Tractions: means over skin elements."
+CAPTION = "{counted}, at the end of the stimulus; displacements to scale. Tractions: linear between nodes."
 BOLD = 1.2  # width of bold letters, of plain ones [1]
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
@@ -55,7 +55,6 @@ COVERED = 99.5  # per cent of the area in view that the colours tell apart; the 
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
-MIDPOINT = 0.5  # weight over distance of a node's neighbours [1]: 2/3 at midpoints, 1/3 at vertices (Simpson)
 DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the shear traction
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 
@@ -95,10 +94,8 @@ def strain_map_figure(
     )
     maps, tractions = grid[0::2].ravel(), grid[1::2].ravel()
     styles = condition_styles(shown for shown in conditions_of([device]) if shown.dispersion == dispersion)
-    means = [
-        element_means(row, contact, KILO * nodal)[1] for s in solutions.values() for nodal in (s.pressure, s.shear)
-    ]
-    limits = HEADROOM * min(float(mean.min()) for mean in means), HEADROOM * max(float(mean.max()) for mean in means)
+    drawn_tractions = KILO * np.array([traction for s in solutions.values() for traction in (s.pressure, s.shear)])
+    limits = HEADROOM * float(drawn_tractions.min()), HEADROOM * float(drawn_tractions.max())
     for axes, beneath, condition in zip(maps, tractions, conditions, strict=False):
         loading = distinct.index(device.first_with_stimulus_of(condition.name).name)
         solution = solutions[condition.name]
@@ -153,19 +150,6 @@ def colour_end(fields: Fields, window: tuple[tuple[float, float], tuple[float, f
     return STEP * math.ceil(PERCENT * float(covered) / STEP)
 
 
-def element_means(row: ActuatorRow, contact: CondensedSection, nodal: FloatArray) -> tuple[np.ndarray, FloatArray]:
-    """Midpoint node (k,) of every skin element under an actuator, and the element's mean (k,) of a nodal traction (n,).
-
-    The mean is (left + 4 middle + right) / 6. Elements that the candidate nodes cut off are left out.
-    """
-    inner = np.arange(1, len(nodal) - 1)
-    distance = np.hypot(*(contact.position[2:] - contact.position[:-2]).T)
-    nearest = np.argmin(np.abs(contact.position[:, [0]] - np.asarray(row.positions)), axis=1)
-    whole = nearest[:-2] == nearest[2:]
-    middle = inner[whole & (contact.weight[1:-1] > MIDPOINT * distance)]
-    return middle, (nodal[middle - 1] + 4.0 * nodal[middle] + nodal[middle + 1]) / 6.0
-
-
 def _draw_map(axes: Axes, fields: Fields, loading: int, end: float) -> TriMesh:
     """Strain on the deformed elements, rasterised; the layers' interfaces and the boundary as lines."""
     moved = fields.corner + fields.displacement[loading]
@@ -181,18 +165,17 @@ def _draw_map(axes: Axes, fields: Fields, loading: int, end: float) -> TriMesh:
 def _draw_tractions(
     axes: Axes, row: ActuatorRow, contact: CondensedSection, solution: Solution, condition: Condition
 ) -> None:
-    """Mean pressure and shear of the elements in contact, one line an actuator."""
+    """Pressure and shear of the nodes in contact, one line an actuator."""
     nearest = np.argmin(np.abs(contact.position[:, [0]] - np.asarray(row.positions)), axis=1)
     centre = np.asarray(row.positions) + condition.tangential[-1]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
-    middle, pressure = element_means(row, contact, KILO * solution.pressure)
-    _, shear = element_means(row, contact, KILO * solution.shear)
+    pressure, shear = KILO * solution.pressure, KILO * solution.shear
     for number in range(len(row.positions)):
-        own = np.flatnonzero(nearest[middle] == number)
+        own = np.flatnonzero(nearest == number)
         touched = own[pressure[own] > 0.0]
         if touched.size == 0:
             continue
-        shown = own[(own >= touched[0] - 1) & (own <= touched[-1] + 1)]  # from and to an element without contact
-        x = centre[number] + solution.place[middle[shown]]
+        shown = own[(own >= touched[0] - 1) & (own <= touched[-1] + 1)]  # from and to a node without contact
+        x = centre[number] + solution.place[shown]
         axes.plot(x, pressure[shown], color=BLUE)
         axes.plot(x, shear[shown], color=VERMILLION, linestyle=DASHED)
