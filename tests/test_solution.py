@@ -10,6 +10,7 @@ import pytest
 from fingerpad.contact import face_shape
 from fingerpad.errors import ContactError
 from fingerpad.gabor import filtered_readouts
+from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
 from fingerpad.scene import Condition, Interface, Readout
 from fingerpad.solution import certify, contact_problem, indented_state
@@ -85,7 +86,8 @@ def test_increments_leave_little_trace(condition: str) -> None:
     for readout in Readout:
         scores = []
         for solution in (solved("device2", condition, Interface.SHEAR), fine):
-            found = filtered_readouts(solution.arc, solution.strain, solution.change_of_strain, base.model.gabor)
+            resampling = resampling_to_grid(solution.arc, base.model.gabor.spacing)
+            found = filtered_readouts(resampling, solution.strain, solution.change_of_strain, base.model.gabor)
             scores.append(roughness_score(found.arc, found.filtered(readout), span))
         assert scores[0] == pytest.approx(scores[1], rel=5e-3)
 
