@@ -16,6 +16,7 @@ rule condense:
         "results/logs/{device}/condense.log",
     benchmark:
         "results/benchmarks/{device}/condense.tsv"
+    priority: 2
     conda:
         ENVIRONMENT
     params:
@@ -41,6 +42,7 @@ rule condense_body:
         "results/logs/{device}/condense_body.log",
     benchmark:
         "results/benchmarks/{device}/condense_body.tsv"
+    priority: 2
     conda:
         ENVIRONMENT
     params:

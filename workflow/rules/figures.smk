@@ -45,6 +45,7 @@ rule fields:
         "results/logs/{device}/fields.log",
     benchmark:
         "results/benchmarks/{device}/fields.tsv"
+    priority: 1
     conda:
         ENVIRONMENT
     params:

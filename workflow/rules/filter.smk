@@ -14,6 +14,7 @@ rule filter:
         filtered="results/{device}/{condition}/{interface}/filtered.npz",
     log:
         "results/logs/{device}/{condition}/{interface}/filter.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:

@@ -13,6 +13,7 @@ rule mesh:
         "results/logs/{device}/mesh.log",
     benchmark:
         "results/benchmarks/{device}/mesh.tsv"
+    priority: 2
     conda:
         ENVIRONMENT
     params:

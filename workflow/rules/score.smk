@@ -13,6 +13,7 @@ rule score:
         score="results/{device}/{condition}/{interface}/score.csv",
     log:
         "results/logs/{device}/{condition}/{interface}/score.log",
+    priority: 2
     conda:
         ENVIRONMENT
     params:

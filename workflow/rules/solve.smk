@@ -16,6 +16,7 @@ rule solve:
         "results/logs/{device}/{condition}/{interface}/solve.log",
     benchmark:
         "results/benchmarks/{device}/{condition}/{interface}/solve.tsv"
+    priority: 2
     conda:
         ENVIRONMENT
     params:
