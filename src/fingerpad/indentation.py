@@ -11,6 +11,7 @@ from .profile import profile
 from .scene import Criterion, FloatArray
 
 END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
+FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
 END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: 1e-4 of the indentation
 
 
@@ -27,7 +28,8 @@ def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit
     state = rest(problem, touch)
     patch = None
     over_face = np.abs(state.place) <= problem.row.half_face
-    stride = (float(problem.position[over_face, 1].max()) - touch) / increments
+    rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
+    stride = max(rise / increments, END_STEP)
     missing, step = _missing(problem, state, criterion), stride
     beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
     weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
@@ -48,10 +50,12 @@ def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit
         else:
             closed = (missing - left) / step if np.isfinite(missing) else 0.0
             state, missing = advanced, left
-            step = min(stride, left / closed) if closed > 0.0 else stride
+            longest = stride * max(1.0, (height - touch) / (FAR * stride * increments))
+            step = min(longest, left / closed) if closed > 0.0 else longest
             weight = 2.0 * weight
         if beyond:
-            step = (beyond[0] - float(state.actuator[0, 1])) * weight * missing / (weight * missing - beyond[1])
+            share = weight * missing / (weight * missing - beyond[1]) if np.isfinite(missing) else 0.5
+            step = (beyond[0] - float(state.actuator[0, 1])) * share
     return state
 
 

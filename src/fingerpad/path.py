@@ -11,6 +11,8 @@ from .errors import ContactError
 from .increment import NotConvergedError, Patch, solve_increment
 from .scene import FloatArray
 
+CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
+
 
 def follow(
     problem: ContactProblem, state: ContactState, target: FloatArray, increments: int, patch: Patch | None = None
@@ -31,6 +33,7 @@ def advance(
         return state, patch
     done, step = 0.0, 1.0 / increments
     smallest = step / 2.0**problem.max_cuts
+    cuts = 0
     while done < 1.0:
         goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
         try:
@@ -39,11 +42,12 @@ def advance(
             step = min(2.0 * step, 1.0 / increments)
         except NotConvergedError as failure:
             step /= 2.0
+            cuts += 1
             state = replace(state, cuts=state.cuts + 1)
-            if step < smallest:
+            if step < smallest or cuts > CRAWL * problem.max_cuts:
                 raise ContactError(
                     f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
-                    f" increment {int(done * increments) + 1}/{increments} halved {problem.max_cuts} times, residual"
+                    f" increment {int(done * increments) + 1}/{increments} halved {cuts} times, residual"
                     f" {failure.residual:.1e} > {problem.tolerance:.0e}; try more increments or a finer mesh at the"
                     " actuators' edges"
                 ) from failure
