@@ -28,6 +28,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/benchmark.smk"
+include: "workflow/rules/stress.smk"
 
 
 rule all:

@@ -23,3 +23,23 @@ class CondensationError(FingerpadError):
 
 class ContactError(FingerpadError):
     """A frictional contact path could not be followed, or a solution failed its certificate."""
+
+
+class ConvergenceError(ContactError):
+    """An increment of contact did not converge, however small."""
+
+
+class UniquenessError(ContactError):
+    """The laws of contact lost their unique solution: friction is too large, or skin hangs on a wall."""
+
+
+class CriterionError(ContactError):
+    """Pre-indentation did not bring about the contact that was asked for."""
+
+
+class CertificateError(ContactError):
+    """A solution disobeys the laws it was solved for."""
+
+
+class ReachError(ContactError):
+    """Contact reaches beyond the skin nodes that were considered."""

@@ -50,15 +50,16 @@ ACTUATORS = (1, 64)  # [1]
 PITCH = 0.1  # smallest [mm]
 FILLED = (0.3, 1.0)  # width of an actuator over pitch [1]; 1 is touching
 BODY = (0.02, 0.5)  # thickness of a deformable actuator over its width [1]
-ELEMENTS = (15, 40)  # of skin along the row [1]
-CLOSENESS = 1e-3  # smallest element on the skin over the largest [1], for one actuator; times their number
+BODY_ELEMENTS = 8  # of a deformable actuator along its smallest division [1]
+ELEMENTS = (12, 30)  # of skin along the row [1]
+CLOSENESS = 1e-3  # smallest element on the skin over the largest [1], for one actuator; times their number squared
 FRICTION = (0.01, 10.0)  # [1], beside 0
 AMPLITUDE = (1e-6, 2.0)  # of a stimulus [mm]
-INDENTATION_INCREMENTS = (3, 20)  # [1]
-STIMULUS_INCREMENTS = (1, 4)  # [1]
+INDENTATION_INCREMENTS = (3, 15)  # [1]
+STIMULUS_INCREMENTS = (1, 3)  # [1]
 ROWS = (1, 8)  # of a stimulus's history [1]
 CYCLES = 10  # most in a stimulus [1]
-ROWS_A_CYCLE = 8  # [1]
+ROWS_A_CYCLE = 6  # [1]
 TOLERANCE, MAX_CUTS = 1e-9, 10  # of the shipped model (config/config.yaml)
 
 
@@ -84,6 +85,7 @@ def random_scene(number: int) -> Scene:
     criterion = Criterion(rng.choice(list(Criterion)))
     numerics = replace(
         group.model.numerics,
+        edge_size=row.width / BODY_ELEMENTS,
         indentation_increments=_whole(rng, INDENTATION_INCREMENTS),
         stimulus_increments=_whole(rng, STIMULUS_INCREMENTS),
     )
@@ -108,14 +110,14 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     height = width * rng.uniform(*FLATNESS)
     count = _whole(rng, PAD_LAYERS)
     pad = tuple(_layer(rng, f"pad_{i}", THICKNESS) for i in range(count - 1))
-    deep = tuple(width * bound for bound in DEPTH)
+    deep = width * DEPTH[0], width * DEPTH[1]
     pad, dorsal = (*pad, _layer(rng, "pad", deep)), (_layer(rng, "dorsal", deep),)
     finger = Finger(width, height, width * rng.uniform(0.3, 0.6), width * 0.5, pad, dorsal)
     row = _row(rng, width * _decades(rng, SPAN))
     span = row.positions[-1] - row.positions[0] + row.width
     spacing = span / _whole(rng, ELEMENTS)
     numerics = Numerics(
-        edge_size=spacing * _decades(rng, (CLOSENESS * len(row.positions), 1.0)),
+        edge_size=spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0)),
         edge_zone=spacing * CLOSENESS,
         face_size=spacing,
         growth=1.0,
@@ -172,7 +174,7 @@ def _condition(rng: np.random.Generator, count: int, stroke: float) -> Condition
     if kind is Stimulus.HISTORY:
         moves = rng.uniform(-1.0, 1.0, (_whole(rng, ROWS), count, 2))
     elif kind is Stimulus.WAVE:
-        cycles, lag = rng.integers(1, CYCLES + 1), rng.uniform(0.0, math.pi)
+        cycles, lag = int(_decades(rng, (1.0, CYCLES + 1.0))), rng.uniform(0.0, math.pi)
         time = 2.0 * math.pi * np.arange(1, cycles * ROWS_A_CYCLE + 1) / ROWS_A_CYCLE
         angle = time[:, None] + lag * np.arange(count)
         moves = np.stack([np.sin(angle), np.cos(angle)], axis=2)

@@ -8,7 +8,7 @@ import numpy as np
 
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState, Status, reevaluated_gap
-from .errors import ContactError
+from .errors import CertificateError, ContactError, MeshError, ReachError
 from .indentation import indent
 from .path import follow
 from .scene import Condition, FloatArray, Interface, Readout, Scene
@@ -48,7 +48,8 @@ class Solution:
     indentation: height of the faces above the lowest point of the undeformed pad [mm]. indented_force: (n, 2) [N/mm]
     after pre-indentation. force: (n_times, n, 2) [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the
     end. place: (n,) x of the skin nodes from their actuator's centre at the end [mm]. status: (n,) at the end. arc:
-    (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts: of the whole path. certificate.
+    (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts, searches: of the whole
+    path. certificate.
     """
 
     indentation: float
@@ -63,15 +64,16 @@ class Solution:
     change_of_strain: FloatArray
     iterations: int
     cuts: int
+    searches: int
     certificate: Certificate
 
 
 def contact_problem(
     scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
 ) -> ContactProblem:
-    """The contact problem of a scene and an interface."""
+    """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
     numerics = scene.model.numerics
-    return ContactProblem(
+    problem = ContactProblem(
         section.position,
         section.compliance,
         scene.device.actuators,
@@ -80,6 +82,14 @@ def contact_problem(
         numerics.newton_tolerance,
         numerics.max_cuts,
     )
+    centres = problem.row.positions
+    missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
+    if missed.size:
+        raise MeshError(
+            f"{scene.device.name}: no skin node is near the actuator at x = {centres[missed[0]]:g} mm, nor near"
+            f" {missed.size - 1} others of {len(centres)}; try a smaller numerics.face_size"
+        )
+    return problem
 
 
 def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
@@ -119,7 +129,7 @@ def solve_condition(
         last = states[-1]
         certificate = certify(problem, section, last)
     except ContactError as error:
-        raise ContactError(
+        raise type(error)(
             f"device={scene.device.name}, condition={condition.name}, interface={interface}: {error}"
         ) from error
     forces = np.array([state.force for state in states[1:]])
@@ -137,12 +147,14 @@ def solve_condition(
         readouts[Readout.CHANGE_OF_STRAIN],
         last.iterations,
         last.cuts,
+        last.searches,
         certificate,
     )
 
 
 def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
-    """Check a state against the laws it was solved for. Raises ContactError, with the figures, beyond a limit."""
+    """Check a state against the laws it was solved for. Raises CertificateError, with the figures, beyond a limit, and
+    ReachError if contact comes to the last node considered."""
     active = state.status != Status.OPEN
     pressure = state.force[:, 1] / section.weight
     largest = float(pressure.max(initial=0.0))
@@ -167,12 +179,12 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     }
     for name, (found, allowed) in checks.items():
         if not found <= allowed:
-            raise ContactError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
+            raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
     index = problem.actuator_of
     for number, centre in enumerate(problem.row.positions):
         own = np.flatnonzero(index == number)
         if active[own[0]] or active[own[-1]]:
-            raise ContactError(
+            raise ReachError(
                 f"certificate: contact at the actuator at x = {centre:g} mm reaches the last skin node that was"
                 " considered; the stimulus moves it too far sideways"
             )
