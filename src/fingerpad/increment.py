@@ -33,9 +33,7 @@ MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; s
 SIMULTANEOUS = 12  # iterations in which all nodes may change state at once [1]; after that, the worst one alone
 MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is below any step that was ever needed
 SETTLED = 1e-6  # relative residual [1] below which forces are good enough to judge a single node's state
-FACE_SHIFT = (
-    5e-5  # share [1] of the load by which faces may give way elsewhere; source: half of what certificates allow
-)
+FACE_SHIFT = 5e-5  # share [1] of the indentation by which faces may be amiss; source: half of what certificates allow
 EACH = 0.01  # share [1] of the tolerance for each force, as errors add up in a gap; source: some 100 nodes
 FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
 STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; source: rounding
@@ -140,7 +138,8 @@ def solve_increment(
             continue
         residual = _residual(problem, gap_scale, force.T.ravel(), place - reference, gap, status)
         if residual <= problem.tolerance:
-            there = _elsewhere(problem, place, force, moved, FACE_SHIFT * gap_scale) if body else []
+            allowed = max(FACE_SHIFT * float(np.abs(actuator).max()), problem.tolerance * gap_scale)
+            there = _elsewhere(problem, place, force, moved, allowed) if body else []
             if there:
                 body, patch, needed = there, None, np.flatnonzero(status != OPEN)
                 continue
