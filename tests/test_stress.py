@@ -9,16 +9,19 @@ from dataclasses import asdict, replace
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from fingerpad import errors
+from fingerpad.closedforms.blocks import half_plane
 from fingerpad.compliance import CondensedSection
-from fingerpad.errors import FingerpadError
+from fingerpad.errors import FingerpadError, MeshError
+from fingerpad.indentation import indent
 from fingerpad.randomscene import FRICTION, GROUP, MODULUS, PITCH, POISSON, THICKNESS, random_group, random_scene
-from fingerpad.scene import Interface
-from fingerpad.solution import solve_condition
+from fingerpad.scene import ActuatorRow, Condition, Criterion, Interface
+from fingerpad.solution import contact_problem, solve_condition
 from fingerpad.stress import SOLVED, Outcome, condensed_group, outcome, outcomes, summary
 
 GROUPS = range(8)
@@ -132,6 +135,29 @@ def test_outcomes_do_not_depend_on_threads() -> None:
     for one, two in zip(*said, strict=True):
         assert one[0] == two[0]
         assert float(one[1]) == pytest.approx(float(two[1]), rel=1e-6)
+
+
+def test_a_cylinder_is_fully_in_contact_when_it_touches() -> None:
+    """No flat face to cover, and no stride to take from it."""
+    problem = half_plane(1 / 16, 1 / 16, 0.3, ActuatorRow((0.0,), 1.0, 0.5), 0.5).problem
+    state = indent(problem, Criterion.FULL, 20, 1.0)
+    assert 0.0 < state.actuator[0, 1] < 1e-2
+    assert state.force[:, 1].sum() > 0.0
+
+
+def test_actuators_finer_than_the_skins_nodes_are_refused() -> None:
+    """Each must have a node; the message says what to change."""
+    scene = random_scene(0)
+    span = scene.device.actuators.positions[-1] or 1.0
+    row = ActuatorRow(tuple(np.linspace(-span, span, 2000)), span / 2000, 0.0)
+    crowded = replace(scene, device=replace(scene.device, actuators=row, conditions=(_still(2000),)))
+    with pytest.raises(MeshError, match=r"stress_00000: no skin node is near the actuator .*numerics\.face_size"):
+        contact_problem(crowded, condensed(0), None, Interface.SHEAR)
+
+
+def _still(count: int) -> Condition:
+    """A stimulus that does not move."""
+    return Condition("still", "test", 0.0, np.array([1.0]), np.zeros((1, count)), np.zeros((1, count)))
 
 
 def test_summary_counts_what_is_there() -> None:

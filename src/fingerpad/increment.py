@@ -109,7 +109,7 @@ def solve_increment(
         needed = np.array([int(np.argmin(start.gap - heading[problem.actuator_of, 1] * length))])
     # faces give way where the last increment promises that the skin will be
     guess = start.place + start.drift[:, 0] * length if straight else start.place
-    body = faces(problem, guess)
+    expected, body = guess, faces(problem, guess)
     patch = None if body else patch
     iterations, searched, residual, bias = 0, False, float("inf"), None
     while iterations < MAX_ITERATIONS:
@@ -138,10 +138,10 @@ def solve_increment(
             continue
         residual = _residual(problem, gap_scale, force.T.ravel(), place - reference, gap, status)
         if residual <= problem.tolerance:
-            allowed = max(FACE_SHIFT * float(np.abs(actuator).max()), problem.tolerance * gap_scale)
-            there = _elsewhere(problem, place, force, moved, allowed) if body else []
-            if there:
-                body, patch, needed = there, None, np.flatnonzero(status != OPEN)
+            allowed = max(FACE_SHIFT * (gap_scale - length), problem.tolerance * gap_scale)
+            if body and _amiss(problem, place, force, moved) > allowed:
+                expected = (expected + place) / 2.0  # half-way: nodes may pass each other for ever
+                body, patch, needed = faces(problem, expected), None, np.flatnonzero(status != OPEN)
                 continue
             # backward Euler: friction works along the whole slip with the force at its end
             work = float(force[:, 0] @ np.where(status > STICK, place - reference, 0.0))
@@ -165,15 +165,12 @@ def solve_increment(
     raise NotConvergedError(residual)
 
 
-def _elsewhere(
-    problem: ContactProblem, place: FloatArray, force: FloatArray, moved: FloatArray, allowed: float
-) -> list[Face]:
-    """Faces at the places (n,) [mm] where the skin now is, if they would give way by more than `allowed` [mm] otherwise
-    there than in `moved` (n, 2) [mm], which was found with faces where the skin was expected; else nothing.
+def _amiss(problem: ContactProblem, place: FloatArray, force: FloatArray, moved: FloatArray) -> float:
+    """How much [mm] faces give way otherwise where the skin now is, at the places (n,) [mm], than in `moved` (n, 2)
+    [mm], which was found with faces where the skin was expected.
     """
-    there = faces(problem, place)
-    shift = (displacement(problem, force, there) - moved)[force.any(axis=1)]
-    return there if np.abs(shift).max(initial=0.0) > allowed else []
+    shift = displacement(problem, force, faces(problem, place)) - moved
+    return float(np.abs(shift[force.any(axis=1)]).max(initial=0.0))
 
 
 def _foreseen(
