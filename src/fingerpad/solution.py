@@ -11,6 +11,7 @@ from .contact import ContactProblem, ContactState, Status, reevaluated_gap
 from .errors import CertificateError, ContactError, MeshError, ReachError
 from .indentation import indent
 from .path import follow
+from .profile import profile
 from .scene import Condition, FloatArray, Interface, Readout, Scene
 from .strain import receptor_readouts
 from .symmetry import indent_by_halves
@@ -21,6 +22,7 @@ FRICTIONLESS_SHARE = 4  # of the increments, one is enough without friction [1];
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
 TENSION_LIMIT = 1e-6  # of the largest pressure [1]
 CONE_LIMIT = 1e-6  # of the largest shear that friction allows [1]
+ADJACENT = 0.75  # distance of two nodes over the skin that belongs to them [1]; at most 0.6 if none lies between
 DISSIPATION_LIMIT = 1e-9  # of the work of friction's largest force along the indentation [1]
 
 
@@ -182,12 +184,34 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     for name, (found, allowed) in checks.items():
         if not found <= allowed:
             raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
-    index = problem.actuator_of
-    for number, centre in enumerate(problem.row.positions):
-        own = np.flatnonzero(index == number)
-        if active[own[0]] or active[own[-1]]:
-            raise ReachError(
-                f"certificate: contact at the actuator at x = {centre:g} mm reaches the last skin node that was"
-                " considered; the stimulus moves it too far sideways"
-            )
+    _require_within_reach(problem, section, state, PENETRATION_LIMIT * indentation)
     return certificate
+
+
+def _require_within_reach(
+    problem: ContactProblem, section: CondensedSection, state: ContactState, allowed: float
+) -> None:
+    """Raise ReachError if an actuator touches, or overlaps by more than `allowed` [mm], skin that was not considered
+    to be its own.
+
+    Contact may reach an actuator's last node where the next node of the skin is a neighbour's; but no node may press
+    into another actuator than the one it was given to.
+    """
+    own, x = problem.actuator_of, problem.position[:, 0]
+    active = state.status != Status.OPEN
+    # nodes of second-order elements are half an element apart, and carry at least 1/6 and 4/6 of it
+    adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
+    first = np.append(True, ~adjacent)
+    last = np.append(~adjacent, True)
+    centre = np.asarray(problem.row.positions)[:, None] + state.actuator[:, :1]
+    place = (state.place + centre[own, 0] - centre).T  # (n, n_actuators)
+    nearest = np.argmin(np.abs(place), axis=1)
+    there = place[np.arange(x.size), nearest]
+    height = state.gap - profile(problem.row, state.place)[0] + (state.actuator[own] - state.actuator[nearest])[:, 1]
+    overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
+    beyond = np.flatnonzero(active & (first | last) | overlapping)
+    if beyond.size:
+        raise ReachError(
+            f"certificate: contact at the actuator at x = {problem.row.positions[own[beyond[0]]]:g} mm reaches the last"
+            " skin node that was considered; the stimulus moves it too far sideways"
+        )
