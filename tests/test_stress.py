@@ -122,7 +122,7 @@ def test_outcomes_are_reproducible_in_any_order() -> None:
 
 
 def test_outcomes_do_not_depend_on_threads() -> None:
-    """One thread and two: the same outcomes, strains within rounding."""
+    """One thread and two: the same outcomes; strains within ten times what gaps and forces are solved to (1e-9)."""
     code = "from fingerpad.stress import *\nfor row in outcomes(range(5)): print(row.outcome, repr(row.largest_strain))"
     said = []
     for threads in ("1", "2"):
@@ -134,7 +134,7 @@ def test_outcomes_do_not_depend_on_threads() -> None:
         said.append([line.split() for line in done.stdout.splitlines()])
     for one, two in zip(*said, strict=True):
         assert one[0] == two[0]
-        assert float(one[1]) == pytest.approx(float(two[1]), rel=1e-6)
+        assert float(one[1]) == pytest.approx(float(two[1]), rel=1e-8, abs=1e-15)
 
 
 def test_a_cylinder_is_fully_in_contact_when_it_touches() -> None:
