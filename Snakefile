@@ -30,6 +30,7 @@ include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/benchmark.smk"
 include: "workflow/rules/calculix.smk"
+include: "workflow/rules/stress.smk"
 
 
 rule all:

@@ -7,10 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.condensation import receptor_strain
 from fingerpad.edges import edge_intervals, mesh_device
-from fingerpad.elasticity import displacement_basis
+from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import MeshError, SceneError
 from fingerpad.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
+from fingerpad.scene import ActuatorRow
 from scenes import scene, section
 
 DEVICES = ("device1", "device2", "device3")
@@ -117,3 +119,42 @@ def test_other_layers_and_outlines_mesh_too() -> None:
         other = replace(base, model=replace(base.model, finger=changed))
         mesh = mesh_section(other, nominal_edges(other.device.actuators))
         assert set(np.unique(mesh.layer)) == set(range(6))
+
+
+def test_thicknesses_may_have_any_number_of_digits() -> None:
+    """Layers of 1/3 mm, and of 10 um, mesh and are read: no slivers between lines that should be one."""
+    base = scene("device2")
+    finger = base.model.finger
+    pad = tuple(
+        replace(layer, thickness=thickness)
+        for layer, thickness in zip(finger.pad, (1.0 / 3.0, 0.01, 4.0 / 3.0, 3.0), strict=True)
+    )
+    changed = replace(base, model=replace(base.model, finger=replace(finger, pad=pad)))
+    mesh = mesh_section(changed, nominal_edges(changed.device.actuators))
+    x, y = mesh.mesh.p[:, mesh.mesh.t]
+    twice_areas = np.abs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]))
+    assert twice_areas.min() > 1e-8  # mm²; a sliver of rounding would have 1e-11
+    points, strain = receptor_strain(mesh, changed)
+    linear = 1e-3 * mesh.mesh.doflocs[1]
+    dofs = node_dofs(displacement_basis(mesh.mesh))
+    field = np.zeros(strain.shape[1])
+    field[dofs[1]] = linear
+    read = (strain @ field).reshape(-1, 3)
+    assert np.abs(read - [0.0, 1e-3, 0.0]).max() < 1e-12
+    assert points.shape[0] == read.shape[0]
+
+
+def test_layers_that_reach_below_the_other_side_are_refused() -> None:
+    """The parallel layers of the pad must fit above the bone on the dorsal side too."""
+    finger = scene("device2").model.finger
+    thin = tuple(replace(layer, thickness=0.5) for layer in finger.dorsal)
+    with pytest.raises(SceneError, match=r"the dorsal layers are 1 mm thick together and must reach below 2 mm"):
+        replace(finger, dorsal=thin)
+
+
+def test_touching_actuators_are_no_overlap() -> None:
+    """Widths may fill the pitch, though places are rounded."""
+    pitch = 0.1
+    ActuatorRow(tuple((i - 31.5) * pitch for i in range(64)), pitch, 0.0)
+    with pytest.raises(SceneError, match="overlap"):
+        ActuatorRow((0.0, 0.0999), pitch, 0.0)

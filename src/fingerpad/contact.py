@@ -74,7 +74,8 @@ class ContactState:
     heading: (n_actuators, 2) movement of the actuators in the last increment over its length [1], zero at rest.
     drift: (n, 2) change of place and gap over that length [1]. trend: (n, 2) change of force over it [N/mm²].
     dissipation: frictional work so far [N mm per mm]. residual: of the contact equations, relative, the largest so
-    far [1]. iterations, cuts: Newton iterations and halved increments so far.
+    far [1]. iterations, cuts, searches: Newton iterations, halved increments and increments whose states did not settle
+    all at once, so far.
     """
 
     actuator: FloatArray
@@ -89,6 +90,7 @@ class ContactState:
     residual: float
     iterations: int
     cuts: int
+    searches: int
 
 
 def touching_height(problem: ContactProblem) -> float:
@@ -106,7 +108,9 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
     nothing = np.zeros((count, 2))
     status = np.full(count, int(Status.OPEN))
     gap = y + profile(problem.row, x)[0]
-    return ContactState(actuator, nothing, status, x, gap, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0, 0)
+    return ContactState(
+        actuator, nothing, status, x, gap, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0, 0, 0
+    )
 
 
 def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:

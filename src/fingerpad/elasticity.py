@@ -6,13 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
-from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, FacetBasis, MeshTri2
+from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
 from skfem.helpers import ddot, eye, sym_grad, trace
 
 from .compliance import VOIGT
 from .scene import FloatArray, Material
 
 QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
+FACET_ENDS = np.array([[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 0.0], [0.0, 1.0]]])  # of a triangle
+GAUSS_POINTS = (1.0 + np.array([-1.0, 1.0]) / np.sqrt(3.0)) / 2.0  # on a facet of length 1 [1]
 
 
 def lame(material: Material) -> tuple[float, float]:
@@ -25,9 +27,15 @@ def lame(material: Material) -> tuple[float, float]:
     return modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), modulus / (2.0 * (1.0 + nu))
 
 
-def displacement_basis(mesh: MeshTri2, elements: np.ndarray | None = None) -> Basis:
-    """Basis of second-order displacements on a second-order mesh (isoparametric), or on some of its elements."""
-    return Basis(mesh, ElementVector(ElementTriP2()), intorder=QUADRATURE_ORDER, elements=elements)
+def displacement_basis(
+    mesh: MeshTri2, elements: np.ndarray | None = None, points: tuple[FloatArray, FloatArray] | None = None
+) -> Basis:
+    """Basis of second-order displacements on a second-order mesh (isoparametric), or on some of its elements.
+
+    points: where it is evaluated, as reference coordinates (2, n) and weights (n,), if not for assembly.
+    """
+    element = ElementVector(ElementTriP2())
+    return Basis(mesh, element, intorder=QUADRATURE_ORDER, quadrature=points, elements=elements)
 
 
 def node_dofs(basis: Basis) -> np.ndarray:
@@ -63,26 +71,25 @@ def facet_strain(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarra
     Returns positions (2, n_points) [mm], n_points = 2 n_facets ordered by facet, and the map
     (3 n_points, n_unknowns) to exx, eyy and engineering shear gxy = 2 exy [1], point by point.
     """
-    element = ElementVector(ElementTriP2())
-    side = (mesh.f2t[1, facets] == element_of_facet).astype(int)
     rows, columns, entries = [], [], []
     positions = np.empty((2, facets.size, 2))
-    for which in (0, 1):
-        chosen = np.flatnonzero(side == which)
+    local = np.argmax(mesh.t2f[:, element_of_facet] == facets, axis=0)
+    for which, (start, stop) in enumerate(FACET_ENDS):
+        chosen = np.flatnonzero(local == which)
         if chosen.size == 0:
             continue
-        basis = FacetBasis(mesh, element, facets=facets[chosen], intorder=3, side=which)
-        here = np.asarray(basis.global_coordinates())
-        positions[:, chosen, :] = here
+        points = np.outer(start, 1.0 - GAUSS_POINTS) + np.outer(stop, GAUSS_POINTS)
+        basis = displacement_basis(mesh, element_of_facet[chosen], (points, np.full(2, 0.5)))
+        positions[:, chosen, :] = np.asarray(basis.global_coordinates())
         point = 2 * chosen[:, None] + np.arange(2)
-        for local in range(basis.Nbfun):
-            gradient = np.asarray(basis.basis[local][0].grad)
+        for function in range(basis.Nbfun):
+            gradient = np.asarray(basis.basis[function][0].grad)
             for component, value in enumerate((gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0])):
                 rows.append((VOIGT * point + component).ravel())
-                columns.append(np.broadcast_to(basis.element_dofs[local][:, None], point.shape).ravel())
+                columns.append(np.broadcast_to(basis.element_dofs[function][:, None], point.shape).ravel())
                 entries.append(value.ravel())
     size = VOIGT * 2 * facets.size
-    unknowns = displacement_basis(mesh).N
+    unknowns = 2 * mesh.doflocs.shape[1]
     strain = csr_matrix(
         (np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(size, unknowns)
     )

@@ -27,3 +27,23 @@ class ContactError(FingerpadError):
 
 class CalculixError(FingerpadError):
     """CalculiX failed on a deck, took too long, or printed something else than was asked for."""
+
+
+class ConvergenceError(ContactError):
+    """An increment of contact did not converge, however small."""
+
+
+class UniquenessError(ContactError):
+    """The laws of contact lost their unique solution: friction is too large, or skin hangs on a wall."""
+
+
+class CriterionError(ContactError):
+    """Pre-indentation did not bring about the contact that was asked for."""
+
+
+class CertificateError(ContactError):
+    """A solution disobeys the laws it was solved for."""
+
+
+class ReachError(ContactError):
+    """Contact reaches beyond the skin nodes that were considered."""

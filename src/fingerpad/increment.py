@@ -10,6 +10,12 @@ forces f = K u only few unknowns remain,
 and a change of state costs a small dense system, while K serves until contact leaves the patch.
 
 If states do not settle, steps are damped by a line search and one node at a time changes.
+
+The equations of every set of states have a determinant, and its sign tells more than whether they can be solved. Where
+it is positive for all states the solution is unique, as without friction on a flat face, where K is positive definite.
+A path from rest meets states of positive sign as long as it advances: sign and d(load)/d(path) change together. With
+large friction, or skin on a steep wall, the sign of some states is negative (det k = k_xx + z mu k_yx for one node that
+slips: Klarbring 1990). A solution there is one of three or more, and none that loading leads to: it is not accepted.
 """
 
 from __future__ import annotations
@@ -37,11 +43,12 @@ SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 
 class NotConvergedError(Exception):
-    """An increment did not converge: it is to be halved."""
+    """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign."""
 
-    def __init__(self, residual: float) -> None:
-        super().__init__(residual)
+    def __init__(self, residual: float, turned: bool = False) -> None:
+        super().__init__(residual, turned)
         self.residual = residual
+        self.turned = turned
 
 
 @dataclass(frozen=True)
@@ -113,9 +120,9 @@ def solve_increment(
         needed = np.array([int(np.argmin(start.gap - heading[problem.actuator_of, 1] * length))])
     # the last increment promises where the skin will touch the faces
     guess = start.place + start.drift[:, 0] * length if straight else start.place
-    body = faces(problem, guess)
+    expected, body = guess, faces(problem, guess)
     patch = None if body else patch
-    iterations, residual, bias = 0, float("inf"), None
+    iterations, searched, residual, bias, share = 0, False, float("inf"), None, 1.0
     while iterations < MAX_ITERATIONS:
         if patch is None or not np.isin(needed, patch.nodes).all():
             patch, bias = _patch(problem, np.union1d(needed, np.flatnonzero(ahead)), body), None
@@ -124,7 +131,7 @@ def solve_increment(
         floor = _rounding(problem, patch, origin[nodes], gap_scale)
         increment = _Increment(problem, patch, origin[nodes].T, bias, gap_scale, floor)
         trial, status_there, count = _settle(increment, start, guess[nodes], status[nodes], reference, iterations)
-        iterations += count
+        iterations, searched = iterations + count, searched or count > SIMULTANEOUS
         found = _everywhere(increment, origin, body, trial, status_there)
         status, guess = found.status, found.place
         missed = (status == OPEN) & (found.gap < -problem.tolerance * gap_scale)
@@ -135,14 +142,17 @@ def solve_increment(
             needed, ahead = np.flatnonzero(status != OPEN), ahead | missed
             continue
         slip = found.place - reference
-        left = _residuals(problem, gap_scale, found.force.T.ravel(), slip, found.gap, status)
-        residual = float(np.abs(left).max(initial=0.0))
+        residual = _residual(problem, gap_scale, found.force.T.ravel(), slip, found.gap, status)
         if residual > problem.tolerance:
             bias = bias + found.moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left
         elif _gives_elsewhere(problem, found, body, gap_scale):
-            body, patch, needed = faces(problem, found.place), None, np.flatnonzero(status != OPEN)
+            # after a first correction only half-way: nodes may pass each other for ever
+            expected, share = expected + share * (found.place - expected), 0.5
+            body, patch, needed = faces(problem, expected), None, np.flatnonzero(status != OPEN)
         else:
-            return _accepted(start, actuator, found, slip, residual, iterations), patch
+            reached = _accepted(start, actuator, found, slip, residual)
+            iterations, searches = start.iterations + iterations, start.searches + int(searched)
+            return replace(reached, iterations=iterations, searches=searches), patch
     raise NotConvergedError(residual)
 
 
@@ -163,33 +173,28 @@ def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, body: list[Fac
     if not body:
         return False
     astray = displacement(problem, found.force, faces(problem, found.place)) - found.moved
-    return bool(np.abs(astray[found.status != OPEN]).max(initial=0.0) > GIVING * gap_scale)
+    return bool(np.abs(astray[found.status != OPEN]).max(initial=0.0) > max(GIVING, problem.tolerance) * gap_scale)
 
 
 def _accepted(
-    start: ContactState,
-    actuator: FloatArray,
-    found: _Everywhere,
-    slip: FloatArray,
-    residual: float,
-    iterations: int,
+    start: ContactState, actuator: FloatArray, found: _Everywhere, slip: FloatArray, residual: float
 ) -> ContactState:
     """The converged state at the end of an increment, of which nodes slipped by `slip` (n,) [mm]."""
     length = float(np.abs(actuator - start.actuator).max())
+    # backward Euler: friction works along the whole slip with the force at its end
     work = -float(found.force[:, 0] @ np.where(found.status > STICK, slip, 0.0))
-    return ContactState(
-        actuator,
-        found.force,
-        found.status,
-        found.place,
-        found.gap,
-        (actuator - start.actuator) / length,
-        np.stack([found.place - start.place, found.gap - start.gap], axis=1) / length,
-        (found.force - start.force) / length,
-        start.dissipation + work,
-        max(start.residual, residual),
-        start.iterations + iterations,
-        start.cuts,
+    return replace(
+        start,
+        actuator=actuator,
+        force=found.force,
+        status=found.status,
+        place=found.place,
+        gap=found.gap,
+        heading=(actuator - start.actuator) / length,
+        drift=np.stack([found.place - start.place, found.gap - start.gap], axis=1) / length,
+        trend=(found.force - start.force) / length,
+        dissipation=start.dissipation + work,
+        residual=max(start.residual, residual),
     )
 
 
@@ -290,12 +295,14 @@ def _settle(
     moved = np.concatenate([guess - increment.origin[0], np.zeros(nodes.size)])
     trial = _at(increment, moved, status, reference[nodes])
     released = np.zeros(nodes.size, dtype=bool)
-    residual = float("inf")
+    residual, turned = float("inf"), False
     for iteration in range(MAX_ITERATIONS - done):
-        step = _newton_step(increment, trial, status)
+        matrix, right, unknown = _newton_equations(increment, trial, status)
+        step = _solved(matrix, right, unknown, 2 * nodes.size)
         if step is None:
             break
         settling = iteration >= SIMULTANEOUS
+        turned = turned or (settling and _is_turned(matrix))
         trial = (_searched if settling else _stepped)(increment, trial, step, status, reference[nodes])
         slip = trial.place - reference[nodes]
         following = _next_status(increment, trial, slip, status, released)
@@ -305,6 +312,9 @@ def _settle(
         if changed.size == 0:
             # a residual that one more step did not lower is rounding
             if residual <= EACH * problem.tolerance or before <= residual <= problem.tolerance:
+                if _is_turned(matrix):
+                    turned = True
+                    break
                 return _obeying(problem, trial, status), status, iteration + 1
         elif settling:
             if residual > SETTLED:
@@ -318,7 +328,7 @@ def _settle(
         if touching.size:
             _touch_there(reference, start, nodes, trial, touching)
         trial = _at(increment, trial.moved, status, reference[nodes])
-    raise NotConvergedError(residual)
+    raise NotConvergedError(residual, turned)
 
 
 def _touch_there(
@@ -345,8 +355,12 @@ def _at(increment: _Increment, moved: FloatArray, status: np.ndarray, reference:
     return _Trial(moved, (moved - increment.bias) @ increment.patch.response, place, height - touching, slope)
 
 
-def _newton_step(increment: _Increment, trial: _Trial, status: np.ndarray) -> FloatArray | None:
-    """Change (2b,) [mm] of the displacements in one Newton step within the given states; None if it is singular."""
+def _newton_equations(
+    increment: _Increment, trial: _Trial, status: np.ndarray
+) -> tuple[FloatArray, FloatArray, np.ndarray]:
+    """Matrix (m, m) and right side (m,) of one Newton step within the given states, and its unknowns (m,) among the
+    displacements (2b,).
+    """
     response, force, count = increment.patch.response, trial.force, status.size
     slip, open_ = np.flatnonzero(status > STICK), np.flatnonzero(status == OPEN)
     unknown = np.concatenate([slip, open_, count + open_])
@@ -359,15 +373,22 @@ def _newton_step(increment: _Increment, trial: _Trial, status: np.ndarray) -> Fl
         drag = SLIP_SIGN[status[slip]] * increment.problem.friction
         transposed[:, : slip.size] += drag * forces.take(pressing, 1)
         right[: slip.size] -= drag * force[pressing]
+    return transposed.T, right, unknown
+
+
+def _solved(matrix: FloatArray, right: FloatArray, unknown: np.ndarray, size: int) -> FloatArray | None:
+    """Change (size,) [mm] of the displacements in a Newton step; None if its equations are singular."""
+    step = np.zeros(size)
     try:
-        change = np.linalg.solve(transposed.T, right)
+        step[unknown] = np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:
         return None
-    if not np.all(np.isfinite(change)):
-        return None
-    step = np.zeros(2 * count)
-    step[unknown] = change
-    return step
+    return step if np.all(np.isfinite(step)) else None
+
+
+def _is_turned(matrix: FloatArray) -> bool:
+    """Whether the determinant of the states' equations is negative."""
+    return bool(np.linalg.slogdet(matrix)[0] < 0.0)
 
 
 def _stepped(
@@ -404,18 +425,19 @@ def _cone(problem: ContactProblem, force: FloatArray, status: np.ndarray, floor:
     return np.concatenate([excess, shearing[open_], pressing[open_]]) / _largest(force, floor)
 
 
-def _residuals(
+def _residual(
     problem: ContactProblem,
     gap_scale: float,
     force: FloatArray,
     slip: FloatArray,
     gap: FloatArray,
     status: np.ndarray,
-) -> FloatArray:
-    """Residuals of all equations [1]: gaps and slips over the load, forces over the largest."""
-    return np.concatenate(
+) -> float:
+    """Largest residual of all equations [1]: gaps and slips over the load, forces over the largest."""
+    left = np.concatenate(
         [gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, _cone(problem, force, status, 0.0)]
     )
+    return float(np.abs(left).max(initial=0.0))
 
 
 def _largest(force: FloatArray, floor: float) -> float:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from .contact import ContactProblem, ContactState, Status, rest, touching_height
-from .errors import ContactError
+from .errors import CriterionError
 from .path import advance
 from .profile import profile
 from .scene import Criterion, FloatArray
 
 END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
+FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
 END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: 1e-4 of the indentation
+
+LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
 
 
 def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
@@ -21,20 +24,21 @@ def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit
     the way from first touch to where the undeformed skin over the outermost face would lie. limit: largest
     indentation [mm].
 
-    Raises ContactError if the criterion is not met within the limit.
+    Raises CriterionError if the criterion is not met within the limit.
     """
     touch = touching_height(problem)
     state = rest(problem, touch)
     patch = None
     over_face = np.abs(state.place) <= problem.row.half_face
-    stride = (float(problem.position[over_face, 1].max()) - touch) / increments
+    rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
+    stride = max(rise / increments, END_STEP)
     missing, step = _missing(problem, state, criterion), stride
     beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
     weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
     while missing > END_TOLERANCE:
         height = float(state.actuator[0, 1]) + step
         if height - touch > limit:
-            raise ContactError(
+            raise CriterionError(
                 f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm:"
                 f" {missing:.3g} mm are missing at {height - step - touch:.3g} mm"
             )
@@ -48,10 +52,15 @@ def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit
         else:
             closed = (missing - left) / step if np.isfinite(missing) else 0.0
             state, missing = advanced, left
-            step = min(stride, left / closed) if closed > 0.0 else stride
+            if beyond and height > beyond[0] - LEAST_STEP:
+                beyond = None  # what lay beyond in one increment does not in many: friction remembers them
+            longest = stride * max(1.0, (height - touch) / (FAR * stride * increments))
+            step = min(longest, left / closed) if closed > 0.0 else longest
             weight = 2.0 * weight
-        if beyond:
-            step = (beyond[0] - float(state.actuator[0, 1])) * weight * missing / (weight * missing - beyond[1])
+        if beyond and missing > 0.0:
+            share = weight * missing / (weight * missing - beyond[1]) if np.isfinite(missing) else 0.5
+            step = (beyond[0] - float(state.actuator[0, 1])) * share
+        step = max(step, LEAST_STEP)
     return state
 
 

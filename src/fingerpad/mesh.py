@@ -145,7 +145,7 @@ def _base(outline: _Outline, numerics: Numerics) -> MeshTri:
     """Coarsest conforming mesh of half a section, in logical coordinates."""
     finger = outline.finger
     a, _ = outline.semi_axes
-    depths = {0.0, finger.parallel_depth}
+    depths = {0.0, round(finger.parallel_depth, 9)}
     for stack in (finger.pad, finger.dorsal):
         depths.update(np.round(np.cumsum([layer.thickness for layer in stack[:-1]]), 9))
     lines = np.array(sorted(depths))
@@ -265,7 +265,8 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tup
 def _require_valid(section: SectionMesh) -> None:
     """Raise MeshError if the map of any element has a non-positive Jacobian at its corners or midpoints."""
     local = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])
-    determinant = section.mesh.mapping().detDF(local)
+    gradient = section.mesh.mapping().DF(local)
+    determinant = gradient[0, 0] * gradient[1, 1] - gradient[0, 1] * gradient[1, 0]
     sign = np.sign(determinant[:, :1])
     bad = np.flatnonzero(np.any(determinant * sign <= 0.0, axis=1))
     if bad.size:

@@ -7,9 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from .contact import ContactProblem, ContactState
-from .errors import ContactError
+from .errors import ConvergenceError, UniquenessError
 from .increment import NotConvergedError, Patch, solve_increment
 from .scene import FloatArray
+
+NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
+CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
 
 
 def follow(
@@ -17,7 +20,8 @@ def follow(
 ) -> ContactState:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
 
-    Raises ContactError if an increment does not converge after problem.max_cuts halvings.
+    Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
+    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see increment).
     """
     return advance(problem, state, target, increments, patch)[0]
 
@@ -27,10 +31,11 @@ def advance(
 ) -> tuple[ContactState, Patch | None]:
     """`follow` that starts from a patch already condensed, if there is one, and gives the last one back."""
     start = state.actuator
-    if np.array_equal(start, target):
+    if np.abs(target - start).max() <= NEGLIGIBLE * max(np.abs(start).max(), np.abs(target).max()):
         return state, patch
     done, step = 0.0, 1.0 / increments
     smallest = step / 2.0**problem.max_cuts
+    cuts = 0
     while done < 1.0:
         goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
         try:
@@ -39,12 +44,18 @@ def advance(
             step = min(2.0 * step, 1.0 / increments)
         except NotConvergedError as failure:
             step /= 2.0
+            cuts += 1
             state = replace(state, cuts=state.cuts + 1)
-            if step < smallest:
-                raise ContactError(
+            if step < smallest or cuts > CRAWL * problem.max_cuts:
+                kind, advice = (
+                    (UniquenessError, "there the states of contact have no unique solution; try less friction")
+                    if failure.turned
+                    else (ConvergenceError, "try more increments")
+                )
+                raise kind(
                     f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
-                    f" increment {int(done * increments) + 1}/{increments} halved {problem.max_cuts} times, residual"
-                    f" {failure.residual:.1e} > {problem.tolerance:.0e}; try more increments or a finer mesh at the"
+                    f" increment {int(done * increments) + 1}/{increments} halved {cuts - 1} times, residual"
+                    f" {failure.residual:.1e} > {problem.tolerance:.0e}; {advice} or a finer mesh at the"
                     " actuators' edges"
                 ) from failure
     return state, patch

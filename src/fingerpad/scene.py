@@ -18,6 +18,8 @@ from .errors import SceneError
 
 FloatArray = NDArray[np.float64]
 
+ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
+
 
 class Interface(StrEnum):
     """How actuators and skin touch: with Coulomb friction, or with friction 0 ("shear off")."""
@@ -125,6 +127,12 @@ class Finger:
             f"finger: the layers leave no bone: pad {self.pad_thickness:g} mm + dorsal {self.dorsal_thickness:g} mm"
             f" >= height {self.height:g} mm",
         )
+        for name, thickness in (("pad", self.pad_thickness), ("dorsal", self.dorsal_thickness)):
+            _require(
+                self.parallel_depth < thickness,
+                f"finger: the {name} layers are {thickness:g} mm thick together and must reach below"
+                f" {self.parallel_depth:g} mm, where the last layer of the other side begins",
+            )
         half_outline = math.pi * (self.width + self.height) / 4.0
         _require(
             self.nail_width < half_outline,
@@ -207,7 +215,7 @@ class ActuatorRow:
         )
         for left, right in zip(self.positions, self.positions[1:], strict=False):
             _require(
-                right - left >= self.width,
+                right - left >= self.width * (1.0 - ROUNDING),
                 f"actuators: neighbours at x = {left:g} and {right:g} mm overlap: width {self.width:g} mm is more"
                 f" than their distance {right - left:g} mm",
             )

@@ -8,9 +8,10 @@ import numpy as np
 
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState, Status, reevaluated_gap
-from .errors import ContactError
+from .errors import CertificateError, ContactError, MeshError, ReachError
 from .indentation import indent
 from .path import follow
+from .profile import profile
 from .scene import Condition, FloatArray, Interface, Readout, Scene
 from .strain import receptor_readouts
 from .symmetry import indent_by_halves
@@ -21,6 +22,7 @@ FRICTIONLESS_SHARE = 4  # of the increments, one is enough without friction [1];
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
 TENSION_LIMIT = 1e-6  # of the largest pressure [1]
 CONE_LIMIT = 1e-6  # of the largest shear that friction allows [1]
+ADJACENT = 0.75  # distance of two nodes over the skin that belongs to them [1]; at most 0.6 if none lies between
 DISSIPATION_LIMIT = 1e-9  # of the work of friction's largest force along the indentation [1]
 
 
@@ -48,7 +50,8 @@ class Solution:
     indentation: height of the faces above the lowest point of the undeformed pad [mm]. indented_force: (n, 2) [N/mm]
     after pre-indentation. force: (n_times, n, 2) [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the
     end. place: (n,) x of the skin nodes from their actuator's centre at the end [mm]. status: (n,) at the end. arc:
-    (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts: of the whole path. certificate.
+    (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts, searches: of the whole
+    path. certificate.
     """
 
     indentation: float
@@ -63,15 +66,16 @@ class Solution:
     change_of_strain: FloatArray
     iterations: int
     cuts: int
+    searches: int
     certificate: Certificate
 
 
 def contact_problem(
     scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
 ) -> ContactProblem:
-    """The contact problem of a scene and an interface."""
+    """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
     numerics = scene.model.numerics
-    return ContactProblem(
+    problem = ContactProblem(
         section.position,
         section.compliance,
         scene.device.actuators,
@@ -80,6 +84,14 @@ def contact_problem(
         numerics.newton_tolerance,
         numerics.max_cuts,
     )
+    centres = problem.row.positions
+    missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
+    if missed.size:
+        raise MeshError(
+            f"{scene.device.name}: no skin node is near the actuator at x = {centres[missed[0]]:g} mm, nor near"
+            f" {missed.size - 1} others of {len(centres)}; try a smaller numerics.face_size"
+        )
+    return problem
 
 
 def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
@@ -127,7 +139,7 @@ def solve_condition(
         last = states[-1]
         certificate = certify(problem, section, last)
     except ContactError as error:
-        raise ContactError(
+        raise type(error)(
             f"device={scene.device.name}, condition={condition.name}, interface={interface}: {error}"
         ) from error
     forces = np.array([state.force for state in states[1:]])
@@ -145,12 +157,14 @@ def solve_condition(
         readouts[Readout.CHANGE_OF_STRAIN],
         last.iterations,
         last.cuts,
+        last.searches,
         certificate,
     )
 
 
 def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
-    """Check a state against the laws it was solved for. Raises ContactError, with the figures, beyond a limit."""
+    """Check a state against the laws it was solved for. Raises CertificateError, with the figures, beyond a limit, and
+    ReachError if contact comes to the last node considered."""
     active = state.status != Status.OPEN
     pressure = state.force[:, 1] / section.weight
     largest = float(pressure.max(initial=0.0))
@@ -166,22 +180,46 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     )
     indentation = float(np.abs(state.actuator).max())
     work = friction_limit * indentation
+    # what lies within the tolerance of gaps may just touch, and rounding may pull
+    slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max() * section.weight.max())
     checks = {
         "contact residual": (certificate.contact, problem.tolerance),
         "penetration [mm]": (certificate.penetration, PENETRATION_LIMIT * indentation),
-        "tension [MPa]": (-certificate.smallest_pressure, TENSION_LIMIT * largest),
+        "tension [MPa]": (-certificate.smallest_pressure, max(TENSION_LIMIT * largest, slight)),
         "excess over the friction cone": (certificate.cone_excess, CONE_LIMIT),
         "negative dissipation [N mm/mm]": (-certificate.dissipation, DISSIPATION_LIMIT * work),
     }
     for name, (found, allowed) in checks.items():
         if not found <= allowed:
-            raise ContactError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
-    index = problem.actuator_of
-    for number, centre in enumerate(problem.row.positions):
-        own = np.flatnonzero(index == number)
-        if active[own[0]] or active[own[-1]]:
-            raise ContactError(
-                f"certificate: contact at the actuator at x = {centre:g} mm reaches the last skin node that was"
-                " considered; the stimulus moves it too far sideways"
-            )
+            raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
+    _require_within_reach(problem, section, state, PENETRATION_LIMIT * indentation)
     return certificate
+
+
+def _require_within_reach(
+    problem: ContactProblem, section: CondensedSection, state: ContactState, allowed: float
+) -> None:
+    """Raise ReachError if an actuator touches, or overlaps by more than `allowed` [mm], skin that was not considered
+    to be its own.
+
+    Contact may reach an actuator's last node where the next node of the skin is a neighbour's; but no node may press
+    into another actuator than the one it was given to.
+    """
+    own, x = problem.actuator_of, problem.position[:, 0]
+    active = state.status != Status.OPEN
+    # nodes of second-order elements are half an element apart, and carry at least 1/6 and 4/6 of it
+    adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
+    first = np.append(True, ~adjacent)
+    last = np.append(~adjacent, True)
+    centre = np.asarray(problem.row.positions)[:, None] + state.actuator[:, :1]
+    place = (state.place + centre[own, 0] - centre).T  # (n, n_actuators)
+    nearest = np.argmin(np.abs(place), axis=1)
+    there = place[np.arange(x.size), nearest]
+    height = state.gap - profile(problem.row, state.place)[0] + (state.actuator[own] - state.actuator[nearest])[:, 1]
+    overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
+    beyond = np.flatnonzero(active & (first | last) | overlapping)
+    if beyond.size:
+        raise ReachError(
+            f"certificate: contact at the actuator at x = {problem.row.positions[own[beyond[0]]]:g} mm reaches the last"
+            " skin node that was considered; the stimulus moves it too far sideways"
+        )
