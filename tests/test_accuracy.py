@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from fingerpad.accuracy import with_errors
+from fingerpad.accuracy import true_errors, with_errors
 
 
 def row(condition: str, score: float | str | None, interface: str = "shear") -> dict[str, Any]:
@@ -31,6 +31,14 @@ def test_error_is_the_difference_and_no_less_than_the_median() -> None:
 def test_what_has_no_score_has_no_error() -> None:
     found = with_errors([row("a", "1.0"), row("a", None, "frictionless")], [row("a", "1.1")])
     assert found[1]["score_error"] is None
+
+
+def test_true_errors_stand_beside_stated_ones() -> None:
+    stated = row("a", "2.0") | {"score_error": "0.1"}
+    (found,) = true_errors([stated, row("a", "", "frictionless")], [row("a", "1.9")])
+    assert found["stated"] == pytest.approx(0.05)
+    assert found["error"] == pytest.approx(0.05)
+    assert found["error_over_stated"] == pytest.approx(1.0)
 
 
 def test_a_missing_check_is_an_error() -> None:

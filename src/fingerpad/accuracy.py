@@ -41,6 +41,22 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
     return table
 
 
+def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Rows of all scores with their stated error and the one against a reference, both over the score [1], and the ratio
+    of the second to the first. Raises KeyError if the reference lacks a score.
+    """
+    finer = {_of(row, CASE): float(row["score"]) for row in reference}
+    table = []
+    for row in scores:
+        if _is_scored(row):
+            score, stated = float(row["score"]), float(row["score_error"])
+            error = score - finer[_of(row, CASE)]
+            case = dict(zip(CASE, _of(row, CASE), strict=True))
+            ratio = abs(error) / stated
+            table.append(case | {"stated": stated / score, "error": error / score, "error_over_stated": ratio})
+    return table
+
+
 def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:
     return tuple(row[column] for column in columns)
 

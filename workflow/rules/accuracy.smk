@@ -1,6 +1,8 @@
 # How far the library is off closed forms: contact, partial slip, layers, near incompressibility, orders of convergence.
-# Not part of `all`: ask for it with `snakemake accuracy`.
-# REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms.{png,pdf}
+# And how far scores are off a reference of 20 times the unknowns, and whether their stated errors are honest.
+# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (a quarter of an hour, 5 GB).
+# REQUIRED INPUTS: scene files, results/scores.csv.
+# OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms.{png,pdf}, results/accuracy/scores.csv
 
 
 rule accuracy:
@@ -8,6 +10,42 @@ rule accuracy:
         "results/accuracy/closed_forms.csv",
         "results/figures/accuracy_closed_forms.png",
         "results/figures/accuracy_closed_forms.pdf",
+
+
+rule honesty:
+    input:
+        scores="results/scores.csv",
+        references=expand("results/{device}/reference.csv", device=DEVICES),
+        code=code("honesty.py"),
+    output:
+        table="results/accuracy/scores.csv",
+    log:
+        "results/logs/honesty.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/honesty.py"
+
+
+rule reference:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        code=code("reference.py"),
+    output:
+        scores="results/{device}/reference.csv",
+    log:
+        "results/logs/{device}/reference.log",
+    benchmark:
+        "results/benchmarks/{device}/reference.tsv"
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=6000,
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+    script:
+        "../scripts/reference.py"
 
 
 rule closed_forms:
