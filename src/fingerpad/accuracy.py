@@ -42,8 +42,8 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
 
 
 def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of all scores with their stated error and the one against a reference, both over the score [1], and the ratio
-    of the second to the first. Raises KeyError if the reference lacks a score.
+    """Rows of all scores with the error that they state and the one against a reference, both over the score [1], and
+    the ratio of the second to the first. Raises KeyError if the reference lacks a score.
     """
     finer = {_of(row, CASE): float(row["score"]) for row in reference}
     table = []
