@@ -188,9 +188,7 @@ def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray)
         finger.pad_thickness - finger.parallel_depth
     )
     depth = np.where(centre[1] > b, centre[1], depth)  # dorsal tissue is far from the pad, however near its skin
-    # distance from the row's end, seen from the same depth: the sides of the finger rise beside it
-    end = b - b * np.sqrt(1.0 - (outermost / a) ** 2) + depth
-    beyond = np.hypot(np.maximum(np.abs(centre[0]) - outermost, 0.0), np.maximum(centre[1] - end, 0.0))
+    beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
     to_face = np.hypot(depth, beyond)
     to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)
     size: FloatArray = np.minimum.reduce(
