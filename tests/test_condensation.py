@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
-from fingerpad.condensation import condense, contact_tractions, receptor_strain, section_stiffness
+from fingerpad.condensation import condense, contact_tractions, receptor_strain, section_stiffness, unit_loads
 from fingerpad.errors import CondensationError
 from fingerpad.recovery import recover_fields
 from fingerpad.scene import Interface
@@ -94,7 +94,7 @@ def test_a_singular_stiffness_is_a_named_error() -> None:
     matrix, dofs = section_stiffness(mesh, base)
     none = csr_matrix((0, matrix.shape[0]))
     with pytest.raises(CondensationError, match="nothing holds"):
-        condense(matrix, dofs, np.array([], dtype=int), mesh.skin[:5], none)
+        condense(matrix, dofs, np.array([], dtype=int), unit_loads(dofs, mesh.skin[:5], matrix.shape[0]), none)
 
 
 def test_body_compliance_is_its_own_mirror_image() -> None:

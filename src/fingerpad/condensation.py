@@ -1,11 +1,9 @@
 """Condensation: the tissue's stiffness, factorised once, reduced to two small dense maps.
 
-With the contact forces f (`traction`) and everything else unloaded, linear tissue answers
-    u_c = C f            displacement of the skin in contact; C compliance
-    eps_r = E f          strain along the receptor line.
-Both come out of one sparse factorisation: the unknowns are ordered [interior, receptors, contact], so that the
-trailing blocks of K = L U are factors of the Schur complement S of receptors and contact; C and E follow from them
-with dense triangular solves and no right-hand side ever sees the interior.
+With forces f on the skin that actuators can reach (`traction`), nodal forces L f, and everything else unloaded,
+    K u = L f,      u_c = L^T u = C f      displacement of the skin in contact; C compliance
+                    eps_r = B u = E f      strain along the receptor line.
+K is factorised once, and a solution for every unit force gives a column of both maps (docs/decisions/0014).
 """
 
 from __future__ import annotations
@@ -13,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix, csr_matrix, diags_array
 from scipy.sparse.linalg import SuperLU, splu
 
@@ -26,18 +23,22 @@ from .traction import Tractions, linear_tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
+AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
 CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
 
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
-    """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one."""
+    """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one; and on
+    its mirror image.
+    """
     row = scene.device.actuators
     stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
     points = section.mesh.doflocs[:, section.skin]
     x, y = points[:, 1::2]
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
     near = distance <= row.width / 2.0 + stroke + CONTACT_MARGIN
-    return linear_tractions(section.skin, points, near & (y < scene.model.finger.height / 2.0))
+    near &= y < scene.model.finger.height / 2.0
+    return linear_tractions(section.skin, points, near | near[::-1])
 
 
 def section_stiffness(
@@ -64,30 +65,23 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
     matrix, dofs = section_stiffness(section, scene, elements)
     points, strain = receptor_strain(section, scene)
-    row_place, row_side = _folded(np.ones(points.shape[0], dtype=bool))
     tractions = contact_tractions(section, scene)
-    near = np.isin(section.skin, tractions.nodes)
-    either = near | near[::-1]
-    place, side = _folded(either)
-    right = section.skin[either][side > 0]
+    columns = _unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
+    rows = _unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
+    first, read = 2 * np.count_nonzero(columns.side < 0), strain[VOIGT * np.count_nonzero(rows.side < 0) :]
     still = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0])
     axis = dofs[:, x == 0.0]
-    first = VOIGT * np.count_nonzero(row_side < 0)
-    parts = [condense(matrix, dofs, np.union1d(still, axis[sideways]), right, strain[first:]) for sideways in (0, 1)]
-
-    columns = _Unfolding(place, side, np.array([-1.0, 1.0]))
-    rows = _Unfolding(row_place, row_side, np.array([1.0, 1.0, -1.0]))
-    keep = np.repeat(near[either], 2)
-    loads = tractions.by_component()
-    compliance = _unfold(parts[0][0], parts[1][0], columns, columns)[np.ix_(keep, keep)]
-    compliance = loads.T @ (compliance @ loads)
+    parts = [
+        condense(matrix, dofs, np.union1d(still, axis[sideways]), loads[:, first:], read)
+        for sideways, loads in enumerate(_folded_loads(section, tractions, dofs, matrix.shape[0]))
+    ]
     return CondensedSection(
         tractions.position,
         tractions.weight,
-        (compliance + compliance.T) / 2.0,  # Betti, but for rounding
+        _unfold(parts[0][0], parts[1][0], columns, columns),
         points,
         arc_length(points),
-        _unfold(parts[0][1], parts[1][1], rows, columns)[:, keep] @ loads,
+        _unfold(parts[0][1], parts[1][1], rows, columns),
         max(part[2] for part in parts),
     )
 
@@ -110,13 +104,31 @@ class _Unfolding:
         return np.asarray(np.where(self.side[:, None] > 0, 1.0, self.mirror).ravel())
 
 
-def _folded(chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Place on the right half and side (+-1) of the chosen points of a line that mirrors end to end (n,)."""
-    line = np.arange(chosen.size)
-    side = np.where(2 * line >= chosen.size - 1, 1, -1)
-    on_right = np.where(side > 0, line, line[::-1])
-    rank = np.cumsum(chosen & (side > 0)) - 1
-    return rank[on_right][chosen], side[chosen]
+def _unfolding(count: int, mirror: FloatArray) -> _Unfolding:
+    """Unfolding of `count` points on a line that mirrors end to end; a point in the middle lies on the right."""
+    line = np.arange(count)
+    left = count // 2
+    on_right = line >= left
+    return _Unfolding(np.where(on_right, line, line[::-1]) - left, np.where(on_right, 1, -1), mirror)
+
+
+def _folded_loads(
+    section: SectionMesh, tractions: Tractions, dofs: np.ndarray, size: int
+) -> tuple[csc_matrix, csc_matrix]:
+    """Nodal forces (size, 2m) on the right half from unit resultants that act together with their mirror image, and
+    against it.
+    """
+    index = np.flatnonzero(np.isin(section.skin, tractions.nodes))
+    x = section.mesh.doflocs[0, tractions.nodes]
+    right, mirror = dofs[:, section.skin[index]].T, dofs[:, section.skin[::-1][index]].T
+    forces = tractions.by_component()
+    sides = []
+    for unknowns, there, sign in ((right, x >= 0.0, 1.0), (mirror, x < 0.0, np.array([-1.0, 1.0]))):
+        own = np.flatnonzero(np.repeat(there, 2))
+        signs = (sign * np.ones_like(unknowns)).ravel()[own]
+        placing = csc_matrix((signs, (unknowns.ravel()[own], own)), shape=(size, unknowns.size))
+        sides.append(placing @ forces)
+    return csc_matrix(sides[0] + sides[1]), csc_matrix(sides[0] - sides[1])
 
 
 def _unfold(symmetric: FloatArray, antisymmetric: FloatArray, rows: _Unfolding, columns: _Unfolding) -> FloatArray:
@@ -138,54 +150,53 @@ def condense_body(scene: Scene) -> CondensedBody:
     y = mesh.doflocs[1]
     face = np.flatnonzero(y == y.max())
     face = face[np.argsort(mesh.doflocs[0, face])]
-    none = csr_matrix((0, matrix.shape[0]))
     dofs = node_dofs(basis)
-    compliance, _, _ = condense(matrix, dofs, dofs[:, y == y.min()].ravel(), face, none)
+    loads = unit_loads(dofs, face, matrix.shape[0])
+    none = csr_matrix((0, matrix.shape[0]))
+    compliance, _, _ = condense(matrix, dofs, dofs[:, y == y.min()].ravel(), loads, none)
     return CondensedBody(mesh.doflocs[0, face], compliance)
 
 
-def condense(
-    matrix: csc_matrix, dofs: np.ndarray, fixed: np.ndarray, contact: np.ndarray, strain: csr_matrix
-) -> tuple[FloatArray, FloatArray, float]:
-    """Compliance (2n, 2n), strain map (n_rows of strain, 2n) and relative residual for contact nodes `contact`.
+def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:
+    """Unit forces on both unknowns of some nodes (n,): a matrix (size, 2n) for `condense`."""
+    unknowns = dofs[:, nodes].T.ravel()
+    return csc_matrix((np.ones(unknowns.size), (unknowns, np.arange(unknowns.size))), shape=(size, unknowns.size))
 
-    matrix: stiffness; dofs: (2, n_nodes) unknowns of the nodes; fixed: unknowns that do not move (a contact node's may
-    be among them: it then answers no load); strain: rows that are read, as a linear map of all unknowns.
+
+def condense(
+    matrix: csc_matrix, dofs: np.ndarray, fixed: np.ndarray, loads: csc_matrix, strain: csr_matrix
+) -> tuple[FloatArray, FloatArray, float]:
+    """Compliance (k, k), strain map (n_rows of strain, k) and relative residual of k loads.
+
+    matrix: stiffness; dofs: (2, n_nodes) unknowns of the nodes; fixed: unknowns that do not move (loads on them are
+    borne without an answer); loads: nodal forces (n_unknowns, k) of unit forces; strain: rows that are read, as a
+    linear map of all unknowns.
 
     Raises CondensationError if the stiffness is singular or the residual is beyond RESIDUAL_TOLERANCE.
     """
-    all_loaded = dofs[:, contact].T.ravel()
-    moving = ~np.isin(all_loaded, fixed)
-    loaded = all_loaded[moving]
-    read = np.setdiff1d(np.unique(strain.indices), np.concatenate([loaded, fixed]))
     free = np.ones(matrix.shape[0], dtype=bool)
-    free[np.concatenate([loaded, read, fixed])] = False
-    inner = _fill_reducing(matrix, dofs, free)
-    order = np.concatenate([inner, read, loaded])
-    permuted = csc_matrix(matrix[order][:, order])
+    free[fixed] = False
+    order = _fill_reducing(matrix, dofs, free)
+    permuted, right, read = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order]
     factors = _factorise(permuted, "NATURAL")
-    kept = read.size + loaded.size
-    first = order.size - kept
-    if not np.array_equal(factors.perm_c[first:], np.arange(first, order.size)):
-        raise CondensationError("the factorisation moved the contact unknowns: is the tissue in one piece?")
-
     pivots = np.abs(factors.U.diagonal())
     if pivots.min() < PIVOT_LIMIT * pivots.max():
         raise CondensationError("the stiffness is singular: nothing holds some of the tissue")
 
-    lower = factors.L[first:, first:].toarray()
-    upper = factors.U[first:, first:].toarray()
-    unit = np.zeros((kept, loaded.size))
-    unit[read.size + np.arange(loaded.size), np.arange(loaded.size)] = 1.0
-    answer = solve_triangular(upper, solve_triangular(lower, unit, lower=True, unit_diagonal=True))
-    compliance = np.zeros((all_loaded.size, all_loaded.size))
-    compliance[np.ix_(moving, moving)] = (answer[read.size :] + answer[read.size :].T) / 2.0  # Betti, but for rounding
-    residual = _residual(permuted, factors, answer)
+    count = right.shape[1]
+    compliance, strain_map = np.zeros((count, count)), np.zeros((strain.shape[0], count))
+    mix = np.random.default_rng(0).standard_normal(count)
+    mixed = np.zeros(order.size)
+    for start in range(0, count, AT_ONCE):
+        block = slice(start, start + AT_ONCE)
+        field = factors.solve(right[:, block].toarray(order="F"))
+        compliance[:, block] = right.T @ field
+        strain_map[:, block] = read @ field
+        mixed += field @ mix[block]
+    residual = _residual(permuted, mixed, right @ mix)
     if not residual <= RESIDUAL_TOLERANCE:
         raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
-    strain_map = np.zeros((strain.shape[0], all_loaded.size))
-    strain_map[:, moving] = strain[:, order[first:]] @ answer
-    return compliance, strain_map, residual
+    return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
 
 
 def receptor_strain(section: SectionMesh, scene: Scene) -> tuple[FloatArray, csr_matrix]:
@@ -228,15 +239,7 @@ def _factorise(matrix: csc_matrix, ordering: str) -> SuperLU:
     return splu(matrix, permc_spec=ordering, diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
-def _residual(matrix: csc_matrix, factors: SuperLU, answer: FloatArray) -> float:
-    """Backward error [1] of K u = f for one random load on the contact unknowns, with the condensed answer inside.
-
-    max |K u - f| / (max row sum of |K| times max |u|): what is left after the rounding that the numbers allow.
-    """
-    load = np.random.default_rng(0).standard_normal((answer.shape[1],))
-    right = np.zeros(matrix.shape[0])
-    right[-load.size :] = load
-    field = factors.solve(right)
-    field[-answer.shape[0] :] = answer @ load
+def _residual(matrix: csc_matrix, field: FloatArray, load: FloatArray) -> float:
+    """Backward error [1] of K u = f: max |K u - f| / (max row sum of |K| times max |u|). Rounding leaves some 1e-16."""
     scale = float(np.abs(matrix).sum(axis=1).max()) * float(np.abs(field).max())
-    return float(np.abs(matrix @ field - right).max()) / scale
+    return float(np.abs(matrix @ field - load).max()) / scale

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri, MeshTri2
 
-from ..condensation import condense
+from ..condensation import condense, unit_loads
 from ..contact import ContactProblem, ContactState, rest, touching_height
 from ..elasticity import displacement_basis, node_dofs, stiffness
 from ..path import follow
@@ -94,11 +94,9 @@ def block_contact(
     face = face[np.argsort(x[face])]
     tractions = linear_tractions(face, mesh.doflocs[:, face], np.abs(x[face[1::2]]) < reach)
     matrix = stiffness(basis, [material], np.zeros(mesh.t.shape[1], dtype=int))
-    compliance, _, _ = condense(matrix, dofs, fixed, tractions.nodes, csr_matrix((0, matrix.shape[0])))
-    loads = tractions.by_component()
-    problem = ContactProblem(
-        tractions.position, loads.T @ (compliance @ loads), row, None, friction, TOLERANCE, MAX_CUTS
-    )
+    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
+    compliance, _, _ = condense(matrix, dofs, fixed, loads, csr_matrix((0, matrix.shape[0])))
+    problem = ContactProblem(tractions.position, compliance, row, None, friction, TOLERANCE, MAX_CUTS)
     return Block(problem, tractions.weight, int(basis.N))
 
 

@@ -18,7 +18,7 @@ from functools import partial
 import numpy as np
 from skfem import ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri2
 
-from ..condensation import condense
+from ..condensation import condense, unit_loads
 from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
 from ..scene import FloatArray, Layer, Model
 from .blocks import refined_block
@@ -155,7 +155,7 @@ def layered(name: str, layers: Sequence[Layer], above: int, load: Load, spacing:
     interface = np.flatnonzero(on_line & np.all(np.abs(ends[0]) <= WINDOW, axis=0))
     adjacent = mesh.f2t[:, interface]
     points, read = facet_strain(mesh, interface, np.where(number[adjacent[0]] == above, adjacent[0], adjacent[1]))
-    compliance, strain, _ = condense(matrix, dofs, fixed, face, read)
+    compliance, strain, _ = condense(matrix, dofs, fixed, unit_loads(dofs, face, matrix.shape[0]), read)
     found = (strain @ force).reshape(-1, 3)
     wanted = exact(layers, above, load, points[0])
     middle = int(np.argmin(np.abs(x[face])))
