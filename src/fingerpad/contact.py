@@ -125,53 +125,70 @@ def switch_friction(state: ContactState) -> ContactState:
 
 
 @dataclass(frozen=True)
-class Face:
-    """Skin nodes (k,) over one deformable actuator, and the compliance (2k, 2k) [mm per N/mm] of its face where they
-    are, ordered x0, x1, ..., y0, y1, ...
+class Touch:
+    """Where skin nodes (n,) touch the deformable faces: three nodes (n, 3) each, of all faces' nodes one actuator after
+    the other, and their shape functions (n, 3) there.
     """
 
-    nodes: np.ndarray
-    compliance: FloatArray
+    node: np.ndarray
+    shape: FloatArray
 
 
-def faces(problem: ContactProblem, place: FloatArray) -> list[Face]:
-    """Compliance of every deformable actuator's face at the places (n,) [mm] of the skin nodes; none if rigid."""
+def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
+    """Where on their actuator's face the nodes are, from their places (n,) [mm]; None if the actuators are rigid."""
     if problem.body is None:
-        return []
-    found = []
-    for number in range(len(problem.row.positions)):
-        nodes = np.flatnonzero(problem.actuator_of == number)
-        shape = face_shape(problem.body, place[nodes])
-        parts = [[shape @ problem.body.compliance[i::2, j::2] @ shape.T for j in (0, 1)] for i in (0, 1)]
-        found.append(Face(nodes, np.block(parts)))
-    return found
+        return None
+    node, shape = face_shape(problem.body, place)
+    return Touch(node + (problem.actuator_of * problem.body.coordinate.size)[:, None], shape)
 
 
-def displacement(problem: ContactProblem, force: FloatArray, body: list[Face]) -> FloatArray:
+def displacement(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
     """Displacement (n, 2) [mm] of the skin relative to the actuators' bases: C f and what their faces give way."""
     moved = (problem.by_component @ force.T.ravel()).reshape(2, -1).T
-    for face in body:
-        moved[face.nodes] += (face.compliance @ force[face.nodes].T.ravel()).reshape(2, -1).T
-    return np.asarray(moved)
+    if problem.body is None or there is None:
+        return np.asarray(moved)
+    actuators, size = len(problem.row.positions), problem.body.coordinate.size
+    on_face = [
+        np.bincount(there.node.ravel(), (there.shape * component[:, None]).ravel(), minlength=actuators * size)
+        for component in force.T
+    ]
+    given = (np.stack(on_face, axis=1).reshape(actuators, -1) @ problem.body.compliance).reshape(-1, 2)
+    return np.asarray(moved + np.einsum("ij,ijk->ik", there.shape, given[there.node]))
+
+
+def face_compliance(problem: ContactProblem, there: Touch, nodes: np.ndarray) -> FloatArray:
+    """Compliance (2b, 2b) [mm per N/mm] of deformable faces under some nodes (b,), ordered x0, x1, ..., y0, y1, ..."""
+    found = np.zeros((2 * nodes.size, 2 * nodes.size))
+    if problem.body is None:
+        return found
+    size = problem.body.coordinate.size
+    for number in range(len(problem.row.positions)):
+        own = np.flatnonzero(problem.actuator_of[nodes] == number)
+        shape = np.zeros((own.size, size))
+        np.put_along_axis(shape, there.node[nodes[own]] - number * size, there.shape[nodes[own]], axis=1)
+        for i in (0, 1):
+            for j in (0, 1):
+                block = shape @ problem.body.compliance[i::2, j::2] @ shape.T
+                found[np.ix_(i * nodes.size + own, j * nodes.size + own)] = block
+    return found
 
 
 def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
     """Gaps (n,) [mm] computed anew from a state's forces, with the actuators' compliance where the skin now is."""
-    body = faces(problem, state.place)
-    x, y = (unloaded(problem, state.actuator) + displacement(problem, state.force, body)).T
+    there = touch(problem, state.place)
+    x, y = (unloaded(problem, state.actuator) + displacement(problem, state.force, there)).T
     return np.asarray(y + profile(problem.row, x)[0])
 
 
-def face_shape(body: CondensedBody, at: FloatArray) -> FloatArray:
-    """Second-order shape functions (n, k) of a face's k nodes at coordinates (n,) [mm], held at its ends beyond."""
+def face_shape(body: CondensedBody, at: FloatArray) -> tuple[np.ndarray, FloatArray]:
+    """Nodes (n, 3) of the face around coordinates (n,) [mm], and their second-order shape functions (n, 3) there, held
+    at the face's ends beyond.
+    """
     nodes = body.coordinate
     at = np.clip(at, nodes[0], nodes[-1])
-    cell = np.clip(np.searchsorted(nodes[::2], at, side="right") - 1, 0, nodes.size // 2 - 1)
-    left, right = nodes[2 * cell], nodes[2 * cell + 2]
-    local = (at - left) / (right - left)
-    shape = np.zeros((at.size, nodes.size))
-    every = np.arange(at.size)
-    shape[every, 2 * cell] = (1.0 - local) * (1.0 - 2.0 * local)
-    shape[every, 2 * cell + 1] = 4.0 * local * (1.0 - local)
-    shape[every, 2 * cell + 2] = local * (2.0 * local - 1.0)
-    return shape
+    left = 2 * np.clip(np.searchsorted(nodes[::2], at, side="right") - 1, 0, nodes.size // 2 - 1)
+    local = (at - nodes[left]) / (nodes[left + 2] - nodes[left])
+    shape = np.stack(
+        [(1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0)], axis=1
+    )
+    return left[:, None] + np.arange(3), shape

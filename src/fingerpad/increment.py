@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .contact import ContactProblem, ContactState, Face, Status, displacement, faces, unloaded
+from .contact import ContactProblem, ContactState, Status, Touch, displacement, face_compliance, touch, unloaded
 from .profile import profile
 from .scene import FloatArray
 
@@ -80,7 +80,8 @@ class _Increment:
 @dataclass(frozen=True)
 class _Trial:
     """Displacements (2b,) [mm] of the patch's nodes and the forces (2b,) [N/mm] they take, ordered x0, x1, ..., y0, y1,
-    ...; places (b,), gaps (b,) [mm], slopes (b,) [1] of the profile there.
+    ...; places (b,), gaps (b,) [mm], slopes (b,) [1] of the profile there. largest: force component [N/mm], or the
+    floor.
     """
 
     moved: FloatArray
@@ -88,6 +89,7 @@ class _Trial:
     place: FloatArray
     gap: FloatArray
     slope: FloatArray
+    largest: float
 
 
 @dataclass(frozen=True)
@@ -120,19 +122,19 @@ def solve_increment(
         needed = np.array([int(np.argmin(start.gap - heading[problem.actuator_of, 1] * length))])
     # the last increment promises where the skin will touch the faces
     guess = start.place + start.drift[:, 0] * length if straight else start.place
-    expected, body = guess, faces(problem, guess)
-    patch = None if body else patch
+    expected, there = guess, touch(problem, guess)
+    patch = patch if there is None else None
     iterations, searched, residual, bias, share = 0, False, float("inf"), None, 1.0
     while iterations < MAX_ITERATIONS:
-        if patch is None or not np.isin(needed, patch.nodes).all():
-            patch, bias = _patch(problem, np.union1d(needed, np.flatnonzero(ahead)), body), None
+        if patch is None or not _holds(patch, needed, problem.position.shape[0]):
+            patch, bias = _patch(problem, np.union1d(needed, np.flatnonzero(ahead)), there), None
         nodes = patch.nodes
         bias = np.zeros(2 * nodes.size) if bias is None else bias
         floor = _rounding(problem, patch, origin[nodes], gap_scale)
         increment = _Increment(problem, patch, origin[nodes].T, bias, gap_scale, floor)
         trial, status_there, count = _settle(increment, start, guess[nodes], status[nodes], reference, iterations)
         iterations, searched = iterations + count, searched or count > SIMULTANEOUS
-        found = _everywhere(increment, origin, body, trial, status_there)
+        found = _everywhere(increment, origin, there, trial, status_there)
         status, guess = found.status, found.place
         missed = (status == OPEN) & (found.gap < -problem.tolerance * gap_scale)
         missed[nodes] = False
@@ -145,10 +147,10 @@ def solve_increment(
         residual = _residual(problem, gap_scale, found.force.T.ravel(), slip, found.gap, status)
         if residual > problem.tolerance:
             bias = bias + found.moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left
-        elif _gives_elsewhere(problem, found, body, gap_scale):
+        elif _gives_elsewhere(problem, found, there, gap_scale):
             # after a first correction only half-way: nodes may pass each other for ever
             expected, share = expected + share * (found.place - expected), 0.5
-            body, patch, needed = faces(problem, expected), None, np.flatnonzero(status != OPEN)
+            there, patch, needed = touch(problem, expected), None, np.flatnonzero(status != OPEN)
         else:
             reached = _accepted(start, actuator, found, slip, residual)
             iterations, searches = start.iterations + iterations, start.searches + int(searched)
@@ -157,22 +159,22 @@ def solve_increment(
 
 
 def _everywhere(
-    increment: _Increment, origin: FloatArray, body: list[Face], trial: _Trial, status: np.ndarray
+    increment: _Increment, origin: FloatArray, there: Touch | None, trial: _Trial, status: np.ndarray
 ) -> _Everywhere:
     """What a patch's trial means for all nodes, whose unloaded places are `origin` (n, 2) [mm]."""
     nodes = increment.patch.nodes
     force, states = np.zeros(origin.shape), np.full(origin.shape[0], OPEN)
     force[nodes], states[nodes] = trial.force.reshape(2, -1).T, status
-    moved = displacement(increment.problem, force, body)
+    moved = displacement(increment.problem, force, there)
     place, height = (origin + moved).T
     return _Everywhere(force, states, moved, place, height + profile(increment.problem.row, place)[0])
 
 
-def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, body: list[Face], gap_scale: float) -> bool:
+def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: Touch | None, gap_scale: float) -> bool:
     """Whether deformable faces give way noticeably elsewhere than the skin touches them now."""
-    if not body:
+    if there is None:
         return False
-    astray = displacement(problem, found.force, faces(problem, found.place)) - found.moved
+    astray = displacement(problem, found.force, touch(problem, found.place)) - found.moved
     return bool(np.abs(astray[found.status != OPEN]).max(initial=0.0) > max(GIVING, problem.tolerance) * gap_scale)
 
 
@@ -245,15 +247,19 @@ def _touch(reference: FloatArray, start: ContactState, place: FloatArray, gap: F
     reference[came] = start.place[came] + fraction * (place[came] - start.place[came])
 
 
-def _patch(problem: ContactProblem, nodes: np.ndarray, body: list[Face]) -> Patch:
+def _holds(patch: Patch, nodes: np.ndarray, count: int) -> bool:
+    """Whether some nodes, of `count` in all, lie within a patch."""
+    held = np.zeros(count, dtype=bool)
+    held[patch.nodes] = True
+    return bool(held[nodes].all())
+
+
+def _patch(problem: ContactProblem, nodes: np.ndarray, there: Touch | None) -> Patch:
     """Stiffness of some nodes, all other nodes unloaded. Raises NotConvergedError if their compliance is singular."""
     unknowns = np.concatenate([nodes, problem.position.shape[0] + nodes])
     compliance = problem.by_component.take(unknowns, 0).take(unknowns, 1)
-    for face in body:
-        _, here, there = np.intersect1d(nodes, face.nodes, assume_unique=True, return_indices=True)
-        rows = np.concatenate([here, nodes.size + here])
-        own = np.concatenate([there, face.nodes.size + there])
-        compliance[np.ix_(rows, rows)] += face.compliance[np.ix_(own, own)]
+    if there is not None:
+        compliance += face_compliance(problem, there, nodes)
     held = np.flatnonzero(np.diag(compliance) == 0.0)
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     try:
@@ -307,7 +313,7 @@ def _settle(
         slip = trial.place - reference[nodes]
         following = _next_status(increment, trial, slip, status, released)
         changed = np.flatnonzero(following != status)
-        left = np.abs(_cone(problem, trial.force, status, increment.force_floor))
+        left = np.abs(_cone(problem, trial.force, status, trial.largest))
         before, residual = residual, float(left.max(initial=0.0))
         if changed.size == 0:
             # a residual that one more step did not lower is rounding
@@ -322,12 +328,14 @@ def _settle(
             changed = changed[[int(np.argmax(_violation(increment, trial, slip, status)[changed]))]]
         opened = following[changed] == OPEN
         touching = changed[(status[changed] == OPEN) & ~released[changed]]
+        moves = np.any((status[changed] == OPEN) | (following[changed] == STICK))
         status = status.copy()
         status[changed] = following[changed]
         released[changed[opened]] = True
         if touching.size:
             _touch_there(reference, start, nodes, trial, touching)
-        trial = _at(increment, trial.moved, status, reference[nodes])
+        if moves:  # nodes come to the profile or stop; those that leave or set off are where they were
+            trial = _at(increment, trial.moved, status, reference[nodes])
     raise NotConvergedError(residual, turned)
 
 
@@ -352,7 +360,8 @@ def _at(increment: _Increment, moved: FloatArray, status: np.ndarray, reference:
     touching = -(y + drop)
     height = np.where(status == OPEN, moved[count:], touching)
     moved = np.concatenate([along, height])
-    return _Trial(moved, (moved - increment.bias) @ increment.patch.response, place, height - touching, slope)
+    force = (moved - increment.bias) @ increment.patch.response
+    return _Trial(moved, force, place, height - touching, slope, _largest(force, increment.force_floor))
 
 
 def _newton_equations(
@@ -402,10 +411,10 @@ def _searched(
     increment: _Increment, trial: _Trial, step: FloatArray, status: np.ndarray, reference: FloatArray
 ) -> _Trial:
     """The first point on the way back from `step` to `trial` where the residuals have become smaller."""
-    before = np.linalg.norm(_cone(increment.problem, trial.force, status, increment.force_floor))
+    before = np.linalg.norm(_cone(increment.problem, trial.force, status, trial.largest))
     for halvings in range(MAX_HALVINGS + 1):
         there = _at(increment, trial.moved + step / 2.0**halvings, status, reference)
-        if np.linalg.norm(_cone(increment.problem, there.force, status, increment.force_floor)) < before:
+        if np.linalg.norm(_cone(increment.problem, there.force, status, there.largest)) < before:
             break
     return there
 
@@ -417,12 +426,12 @@ def _obeying(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> _Tri
     return replace(trial, force=np.concatenate([shearing, pressing]))
 
 
-def _cone(problem: ContactProblem, force: FloatArray, status: np.ndarray, floor: float) -> FloatArray:
-    """Residuals of slipping and open nodes' equations [1], of forces (2n,) [N/mm]: over the largest."""
+def _cone(problem: ContactProblem, force: FloatArray, status: np.ndarray, largest: float) -> FloatArray:
+    """Residuals of slipping and open nodes' equations [1], of forces (2n,) [N/mm]: over the `largest`."""
     shearing, pressing = force.reshape(2, -1)
     open_ = status == OPEN
     excess = (shearing + SLIP_SIGN[status] * problem.friction * pressing)[status > STICK]
-    return np.concatenate([excess, shearing[open_], pressing[open_]]) / _largest(force, floor)
+    return np.concatenate([excess, shearing[open_], pressing[open_]]) / largest
 
 
 def _residual(
@@ -434,9 +443,8 @@ def _residual(
     status: np.ndarray,
 ) -> float:
     """Largest residual of all equations [1]: gaps and slips over the load, forces over the largest."""
-    left = np.concatenate(
-        [gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, _cone(problem, force, status, 0.0)]
-    )
+    forces = _cone(problem, force, status, _largest(force, 0.0))
+    left = np.concatenate([gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, forces])
     return float(np.abs(left).max(initial=0.0))
 
 
@@ -455,7 +463,7 @@ def _next_status(
     """
     problem = increment.problem
     shearing, pressing = trial.force.reshape(2, -1)
-    small_force = problem.tolerance * _largest(trial.force, increment.force_floor)
+    small_force = problem.tolerance * trial.largest
     small_gap = problem.tolerance * increment.gap_scale
     following = status.copy()
     following[(status != OPEN) & (pressing < -small_force)] = OPEN
