@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, diags_array
 from scipy.sparse.linalg import SuperLU, splu
+from threadpoolctl import threadpool_limits
 
 from .compliance import VOIGT, CondensedBody, CondensedSection
 from .elasticity import displacement_basis, facet_strain, node_dofs, stiffness
@@ -187,12 +188,13 @@ def condense(
     compliance, strain_map = np.zeros((count, count)), np.zeros((strain.shape[0], count))
     mix = np.random.default_rng(0).standard_normal(count)
     mixed = np.zeros(order.size)
-    for start in range(0, count, AT_ONCE):
-        block = slice(start, start + AT_ONCE)
-        field = factors.solve(right[:, block].toarray(order="F"))
-        compliance[:, block] = right.T @ field
-        strain_map[:, block] = read @ field
-        mixed += field @ mix[block]
+    with threadpool_limits(1):  # the factors' blocks are small: more threads take longer, and round otherwise
+        for start in range(0, count, AT_ONCE):
+            block = slice(start, start + AT_ONCE)
+            field = factors.solve(right[:, block].toarray(order="F"))
+            compliance[:, block] = right.T @ field
+            strain_map[:, block] = read @ field
+            mixed += field @ mix[block]
     residual = _residual(permuted, mixed, right @ mix)
     if not residual <= RESIDUAL_TOLERANCE:
         raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
