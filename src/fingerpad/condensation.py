@@ -62,6 +62,8 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
 
     Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE.
     """
+    if not scene.model.skips.halved_condensation:
+        return _condense_whole(section, scene)
     x = section.mesh.doflocs[0]
     elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
     matrix, dofs = section_stiffness(section, scene, elements)
@@ -85,6 +87,17 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
         _unfold(parts[0][1], parts[1][1], rows, columns),
         max(part[2] for part in parts),
     )
+
+
+def _condense_whole(section: SectionMesh, scene: Scene) -> CondensedSection:
+    """`condense_section` of the whole section at once."""
+    matrix, dofs = section_stiffness(section, scene)
+    points, strain = receptor_strain(section, scene)
+    tractions = contact_tractions(section, scene)
+    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
+    compliance, strain_map, residual = condense(matrix, dofs, dofs[:, section.fixed].ravel(), loads, strain)
+    arc = arc_length(points)
+    return CondensedSection(tractions.position, tractions.weight, compliance, points, arc, strain_map, residual)
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,8 @@ class ContactProblem:
 
     position: (n, 2) undeformed contact nodes [mm]. compliance: (2n, 2n) [mm per N/mm], ordered x0, y0, ...
     row: the actuators. body: condensed body of a deformable actuator, or None. friction: coefficient [1].
-    tolerance: relative, on forces and gaps. max_cuts: halvings of an increment.
+    tolerance: relative, on forces and gaps. max_cuts: halvings of an increment. patches: whether an increment takes
+    only nodes in contact or about to be, or all.
     """
 
     position: FloatArray
@@ -51,6 +52,7 @@ class ContactProblem:
     friction: float
     tolerance: float
     max_cuts: int
+    patches: bool = True
 
     @cached_property
     def by_component(self) -> FloatArray:

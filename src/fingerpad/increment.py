@@ -127,7 +127,7 @@ def solve_increment(
     iterations, searched, residual, bias, share = 0, False, float("inf"), None, 1.0
     while iterations < MAX_ITERATIONS:
         if patch is None or not _holds(patch, needed, problem.position.shape[0]):
-            patch, bias = _patch(problem, np.union1d(needed, np.flatnonzero(ahead)), there), None
+            patch, bias = _patch(problem, _taken(problem, needed, ahead), there), None
         nodes = patch.nodes
         bias = np.zeros(2 * nodes.size) if bias is None else bias
         floor = _rounding(problem, patch, origin[nodes], gap_scale)
@@ -245,6 +245,11 @@ def _touch(reference: FloatArray, start: ContactState, place: FloatArray, gap: F
     came = nodes & (start.status == OPEN)
     fraction = np.clip(start.gap[came] / (start.gap[came] - gap[came]), 0.0, 1.0)
     reference[came] = start.place[came] + fraction * (place[came] - start.place[came])
+
+
+def _taken(problem: ContactProblem, needed: np.ndarray, ahead: np.ndarray) -> np.ndarray:
+    """Nodes (b,) that a patch takes, of those `needed` (k,) and those that may be `ahead` (n,)."""
+    return np.union1d(needed, np.flatnonzero(ahead)) if problem.patches else np.arange(ahead.size)
 
 
 def _holds(patch: Patch, nodes: np.ndarray, count: int) -> bool:

@@ -13,8 +13,8 @@ from .mesh import mesh_section
 from .resampling import resampling_to_grid
 from .roughness import score_rows
 from .scene import FloatArray, Scene
-from .solution import solve_condition
-from .strain import Resampling
+from .solution import Solution, indent_device, stimulate
+from .strain import FilteredReadouts, Resampling
 
 
 @dataclass(frozen=True)
@@ -40,15 +40,22 @@ def rows_at(scene: Scene, coarsening: float) -> list[dict[str, Any]]:
 
 
 def predicted_rows(scene: Scene, condensed: Condensed) -> list[dict[str, Any]]:
-    """Rows of the score table for all conditions and interfaces; equal stimuli are solved once. Raises ContactError."""
+    """Rows of the score table for all conditions and interfaces. Raises ContactError."""
     rows = []
     for interface in scene.device.interfaces():
-        read = {}
+        read: dict[str, FilteredReadouts] = {}
+        indented = None
         for condition in scene.device.conditions:
-            first = scene.device.first_with_stimulus_of(condition.name).name
-            if first not in read:
-                found = solve_condition(scene, condensed.section, condensed.body, condition, interface)
-                strains = found.strain, found.change_of_strain
-                read[first] = filtered_readouts(condensed.resampling, *strains, scene.model.gabor)
-            rows.extend(score_rows(scene, condition, interface, read[first]))
+            solved_as = scene.solved_as(condition.name).name
+            if solved_as not in read:
+                if indented is None or not scene.model.skips.shared_indentation:
+                    indented = indent_device(scene, condensed.section, condensed.body, interface)
+                read[solved_as] = read_out(scene, condensed, stimulate(scene, condensed.section, indented, condition))
+            rows.extend(score_rows(scene, condition, interface, read[solved_as]))
     return rows
+
+
+def read_out(scene: Scene, condensed: Condensed, solution: Solution) -> FilteredReadouts:
+    """Filtered read-outs of a solution."""
+    strains = solution.strain, solution.change_of_strain
+    return filtered_readouts(condensed.resampling, *strains, scene.model.gabor)

@@ -135,7 +135,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
         GaborFilter(2.8, 1.15, 1.12, 0.02),
         ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
         numerics,
-        Skips(mirrored_half=bool(rng.random() < 0.5), frictionless_path=bool(rng.random() < 0.5)),
+        Skips(True, True, True, bool(rng.random() < 0.5), bool(rng.random() < 0.5), inactive_nodes=True),
     )
     stroke = np.full((1, len(row.positions)), _decades(rng, AMPLITUDE))
     farthest = Condition("farthest", "random", 0.0, np.array([1.0]), np.zeros_like(stroke), stroke)

@@ -292,7 +292,7 @@ class Device:
         raise SceneError(f"{self.name}: no condition {name!r}; there are {[c.name for c in self.conditions]}")
 
     def first_with_stimulus_of(self, name: str) -> Condition:
-        """The first condition with the same stimulus: equal stimuli are solved once."""
+        """The first condition with the same stimulus."""
         wanted = self.condition(name)
         return next(c for c in self.conditions if c.same_stimulus(wanted))
 
@@ -406,12 +406,19 @@ class Numerics:
 class Skips:
     """What a scene may skip; each switch turns one saving off for comparison (docs/skipping.md).
 
-    mirrored_half: pre-indentation of a row that mirrors solves one half. frictionless_path: without friction the path
-    leaves no trace, so it is followed in a few increments.
+    halved_condensation: the section mirrors, so half of it is condensed twice. equal_stimuli: conditions with the same
+    stimulus are solved once. shared_indentation: pre-indentation, the same for all conditions, is solved once where one
+    process solves several. mirrored_half: pre-indentation of a row that mirrors solves one half. frictionless_path:
+    without friction the path leaves no trace, so it is followed in a few increments. inactive_nodes: an increment
+    takes only nodes in contact or about to be.
     """
 
+    halved_condensation: bool
+    equal_stimuli: bool
+    shared_indentation: bool
     mirrored_half: bool
     frictionless_path: bool
+    inactive_nodes: bool
 
 
 @dataclass(frozen=True)
@@ -449,6 +456,12 @@ class Scene:
 
     model: Model
     device: Device
+
+    def solved_as(self, name: str) -> Condition:
+        """The condition whose solution holds for that one as well: the first with its stimulus."""
+        if not self.model.skips.equal_stimuli:
+            return self.device.condition(name)
+        return self.device.first_with_stimulus_of(name)
 
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""

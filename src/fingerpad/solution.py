@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +72,15 @@ class Solution:
     certificate: Certificate
 
 
+@dataclass(frozen=True)
+class Indented:
+    """A device pressed onto the finger: the same for all conditions."""
+
+    interface: Interface
+    problem: ContactProblem
+    state: ContactState
+
+
 def contact_problem(
     scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
 ) -> ContactProblem:
@@ -83,6 +94,7 @@ def contact_problem(
         scene.model.contact.coefficient(interface),
         numerics.newton_tolerance,
         numerics.max_cuts,
+        scene.model.skips.inactive_nodes,
     )
     centres = problem.row.positions
     missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
@@ -120,28 +132,30 @@ def follow_condition(
     return states[1:]
 
 
-def solve_condition(
-    scene: Scene,
-    section: CondensedSection,
-    body: CondensedBody | None,
-    condition: Condition,
-    interface: Interface,
-) -> Solution:
-    """Solve the whole path of one condition.
+def indent_device(
+    scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
+) -> Indented:
+    """Press the device onto the finger: where the stimuli of all conditions begin.
+
+    Raises MeshError if an actuator is nearest to no skin node, ContactError, naming device and interface, if the path
+    cannot be followed.
+    """
+    problem = contact_problem(scene, section, body, interface)
+    with _named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
+        return Indented(interface, problem, indented_state(scene, problem))
+
+
+def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:
+    """Solve the stimulus of one condition on the pressed finger.
 
     Raises ContactError, naming device, condition and interface, if the path cannot be followed, if its certificate
     exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
-    problem = contact_problem(scene, section, body, interface)
-    try:
-        before = indented_state(scene, problem)
+    problem, before = indented.problem, indented.state
+    with _named(f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"):
         states = [before, *follow_condition(scene, problem, before, condition)]
         last = states[-1]
         certificate = certify(problem, section, last)
-    except ContactError as error:
-        raise type(error)(
-            f"device={scene.device.name}, condition={condition.name}, interface={interface}: {error}"
-        ) from error
     forces = np.array([state.force for state in states[1:]])
     readouts = receptor_readouts(section.strain, before.force, forces)
     return Solution(
@@ -160,6 +174,26 @@ def solve_condition(
         last.searches,
         certificate,
     )
+
+
+def solve_condition(
+    scene: Scene,
+    section: CondensedSection,
+    body: CondensedBody | None,
+    condition: Condition,
+    interface: Interface,
+) -> Solution:
+    """The whole path of one condition: `indent_device`, then `stimulate`. Raises what they raise."""
+    return stimulate(scene, section, indent_device(scene, section, body, interface), condition)
+
+
+@contextmanager
+def _named(what: str) -> Iterator[None]:
+    """Name in every ContactError what was being solved."""
+    try:
+        yield
+    except ContactError as error:
+        raise type(error)(f"{what}: {error}") from error
 
 
 def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:

@@ -59,9 +59,9 @@ def device_file(wildcards):
 
 
 def solution_of(wildcards):
-    """The solution of the first condition with the wildcard condition's stimulus: equal stimuli are solved once."""
-    first = scene_of(wildcards).device.first_with_stimulus_of(condition_of(wildcards).name)
-    return f"results/{wildcards.device}/{first.name}/{wildcards.interface}/solution.npz"
+    """The solution that holds for the wildcard condition: equal stimuli are solved once."""
+    solved = scene_of(wildcards).solved_as(condition_of(wildcards).name)
+    return f"results/{wildcards.device}/{solved.name}/{wildcards.interface}/solution.npz"
 
 
 def code(script):

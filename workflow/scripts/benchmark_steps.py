@@ -4,17 +4,17 @@ import resource
 import statistics
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from fingerpad.condensation import condense_body, condense_section
-from fingerpad.edges import mesh_device
-from fingerpad.gabor import filtered_readouts
-from fingerpad.resampling import resampling_to_grid
+from fingerpad.edges import edge_intervals
+from fingerpad.mesh import mesh_section
+from fingerpad.prediction import Condensed, condense_scene, read_out
 from fingerpad.roughness import score_rows
-from fingerpad.scene import Interface
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution, solve_condition
+from fingerpad.solution import Indented, indent_device, stimulate
 from fingerpad.store import write_rows
 
 MEBIBYTE = 1024.0  # KiB in one; the system counts peak memory in KiB
@@ -30,43 +30,38 @@ def timed(repeats: int, work: Callable[[], Any]) -> tuple[Any, list[float]]:
     return result, seconds
 
 
+def from_stimulus_to_score(scene: Scene, condensed: Condensed, indented: Indented) -> None:
+    """The last condition on the pressed finger: stimulus, certificate, read-outs, scores."""
+    condition = scene.device.conditions[-1]
+    read = read_out(scene, condensed, stimulate(scene, condensed.section, indented, condition))
+    score_rows(scene, condition, indented.interface, read)
+
+
 def main(config: Path, devices: list[Path], repeats: int, timings: Path) -> None:
-    """Read the scenes, time mesh, condensation and the whole path of the last condition, write one row a step."""
+    """Read the scenes, time set-up and the whole path of the last condition, write one row a step."""
     rows: list[dict[str, Any]] = []
     for path in devices:
         scene = load_scene(config, path)
-        section, mesh_seconds = timed(repeats, lambda scene=scene: mesh_device(scene))
-        condensed, condense_seconds = timed(
-            repeats, lambda section=section, scene=scene: condense_section(section, scene)
-        )
-        resampling, resample_seconds = timed(
-            repeats, lambda arc=condensed.arc, scene=scene: resampling_to_grid(arc, scene.model.gabor.spacing)
-        )
-        body = condense_body(scene) if scene.device.actuators.body else None
-        steps = {"mesh": mesh_seconds, "condense": condense_seconds, "resample": resample_seconds}
-        steps["set-up"] = [sum(seconds) for seconds in zip(*steps.values(), strict=True)]
+        edges, edge_seconds = timed(repeats, lambda scene=scene: edge_intervals(scene))
+        section, mesh_seconds = timed(repeats, lambda scene=scene, edges=edges: mesh_section(scene, edges))
+        condensed, condense_seconds = timed(repeats, lambda scene=scene, edges=edges: condense_scene(scene, edges))
+        steps = {"edges": edge_seconds, "mesh": mesh_seconds, "mesh and condense": condense_seconds}
+        steps["set-up"] = [sum(seconds) for seconds in zip(edge_seconds, condense_seconds, strict=True)]
         for interface in scene.device.interfaces():
-
-            def whole_path(interface: Interface = interface) -> Solution:
-                condition = scene.device.conditions[-1]  # noqa: B023
-                solution = solve_condition(scene, condensed, body, condition, interface)  # noqa: B023
-                read = filtered_readouts(
-                    resampling,  # noqa: B023
-                    solution.strain,
-                    solution.change_of_strain,
-                    scene.model.gabor,  # noqa: B023
-                )
-                score_rows(scene, condition, interface, read)  # noqa: B023
-                return solution
-
-            _, steps[f"condition, {interface}"] = timed(repeats, whole_path)
+            indenting = partial(indent_device, scene, condensed.section, condensed.body, interface)
+            indented, indent_seconds = timed(repeats, indenting)
+            _, stimulus_seconds = timed(repeats, partial(from_stimulus_to_score, scene, condensed, indented))
+            steps[f"pre-indentation, {interface}"] = indent_seconds
+            steps[f"stimulus to score, {interface}"] = stimulus_seconds
+            whole = [sum(seconds) for seconds in zip(indent_seconds, stimulus_seconds, strict=True)]
+            steps[f"condition, {interface}"] = whole
         for step, seconds in steps.items():
             rows.append(
                 {
                     "device": scene.device.name,
                     "step": step,
                     "unknowns": 2 * section.mesh.doflocs.shape[1],
-                    "contact_nodes": condensed.position.shape[0],
+                    "contact_nodes": condensed.section.position.shape[0],
                     "n": repeats,
                     "median_s": round(statistics.median(seconds), 4),
                     "lowest_s": round(min(seconds), 4),
