@@ -28,8 +28,8 @@ include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/notebooks.smk"
 include: "workflow/rules/accuracy.smk"
-include: "workflow/rules/benchmark.smk"
 include: "workflow/rules/calculix.smk"
+include: "workflow/rules/benchmark.smk"
 include: "workflow/rules/stress.smk"
 
 

@@ -14,10 +14,10 @@ from fingerpad.calculix import read_printed, run
 from fingerpad.condensation import condense_section
 from fingerpad.crosscheck import (
     Law,
-    calculix_outcome,
     coarsened,
     differences,
     fingerpad_outcome,
+    printed_outcome,
     sharpened,
 )
 from fingerpad.edges import mesh_device
@@ -97,7 +97,7 @@ def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
     section = mesh_device(small)
     path, seconds = run(input_deck(small, section, condition, SETTINGS), tmp_path, 300.0)
     assert seconds > 0.0
-    reference = calculix_outcome(small, section, read_printed(path, 4, 2, SETTINGS))
+    reference = printed_outcome(small, section, read_printed(path, 4, 2, SETTINGS))
     found = fingerpad_outcome(small, condense_section(section, small), None, condition, SETTINGS, Law.PENALTIES)
     apart = differences(found, reference)
     assert apart["pressing_indented"] < 0.01

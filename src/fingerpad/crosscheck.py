@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from .calculix import Printed
+from .calculix import Printed, read_printed, run
 from .compliance import CondensedBody, CondensedSection
-from .condensation import arc_length, receptor_strain
+from .condensation import arc_length, condense_body, condense_section, receptor_strain
 from .contact import ContactProblem, rest, switch_friction, touching_height
+from .edges import mesh_device
 from .elasticity import displacement_basis, node_dofs
-from .export import DeckSettings
+from .export import DeckSettings, input_deck
 from .gabor import filtered_readouts
 from .mesh import SectionMesh
 from .path import follow
@@ -20,7 +24,7 @@ from .penalty import PenaltyLaw, PenaltyState, press, untouched
 from .resampling import resampling_to_grid
 from .roughness import roughness_score, score_span
 from .scene import Condition, FloatArray, Interface, Readout, Scene
-from .solution import contact_problem
+from .solution import contact_problem, indented_state
 from .strain import maximum_principal
 
 # source: the change of strain no longer moves in its fourth digit (measured)
@@ -66,7 +70,39 @@ def sharpened(scene: Scene) -> Scene:
     return replace(scene, device=replace(scene.device, actuators=actuators))
 
 
-def calculix_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Outcome:
+def body_of(scene: Scene) -> CondensedBody | None:
+    """The condensed body of deformable actuators."""
+    return condense_body(scene) if scene.device.actuators.body else None
+
+
+def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings]:
+    """The case's scene with the shipped mesh, and the settings of its deck: it indents as deep as fingerpad does.
+
+    case: `edges` (rounded or sharp), `friction` (never, stimulus or always), and the deck's slopes and increments.
+    """
+    scene = sharpened(scene) if case["edges"] == "sharp" else scene
+    friction = scene.model.contact.friction
+    acting = 0.0 if case["friction"] == "never" else friction
+    indenting = friction if case["friction"] == "always" else 0.0
+    interface = Interface.SHEAR if indenting else Interface.FRICTIONLESS
+    problem = contact_problem(scene, condense_section(mesh_device(scene), scene), body_of(scene), interface)
+    depth = float(indented_state(scene, problem).actuator[0, 1])
+    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
+    return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
+
+
+def calculix_outcome(
+    scene: Scene, section: SectionMesh, condition: Condition, settings: DeckSettings, folder: Path, limit: float
+) -> tuple[Outcome, float]:
+    """Outcome of a deck that CalculiX solves in a folder, and the seconds it took. Raises CalculixError if it fails or
+    takes longer than the limit [s].
+    """
+    table, seconds = run(input_deck(scene, section, condition, settings), folder, limit)
+    printed = read_printed(table, len(scene.device.actuators.positions), 1 + condition.time.size, settings)
+    return printed_outcome(scene, section, printed), seconds
+
+
+def printed_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Outcome:
     """Outcome of what CalculiX printed: strain by the same map from displacement as fingerpad's."""
     points, strain = receptor_strain(section, scene)
     unknowns = node_dofs(displacement_basis(section.mesh))[:, printed.node]

@@ -48,6 +48,24 @@ rule reference:
         "../scripts/reference.py"
 
 
+rule increments:
+    input:
+        config=ancient(CONFIG),
+        devices=[SCENES / "devices" / f"{name}.yaml" for name in DEVICES],
+        scores="results/scores.csv",
+        code=code("increments.py"),
+    output:
+        table="results/accuracy/increments.csv",
+    log:
+        "results/logs/increments.log",
+    conda:
+        ENVIRONMENT
+    params:
+        multiples=[2, 4, 16],
+    script:
+        "../scripts/increments.py"
+
+
 rule closed_forms:
     input:
         config=ancient(CONFIG),

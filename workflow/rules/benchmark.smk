@@ -1,12 +1,17 @@
-# Run times: of set-up and of a condition in one process, and of the whole graph against empty scripts.
-# Not part of `all`: ask for them with `snakemake benchmark`, alone on the machine.
-# REQUIRED INPUTS: scene files. OUTPUTS: results/benchmark/timings.csv, results/benchmark/graph.csv
+# Run times: of set-up and of a condition in one process, of the whole graph against empty scripts, against error on ladders
+# of meshes (beside CalculiX where ccx is installed), with the size of a scene, and with every skip off.
+# Not part of `all`: ask for them with `snakemake benchmark`, alone on the machine (half an hour).
+# REQUIRED INPUTS: scene files, results/scores.csv, results/device2/reference.csv.
+# OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
 
 rule benchmark:
     input:
         "results/benchmark/timings.csv",
         "results/benchmark/graph.csv",
+        "results/benchmark/skipping.csv",
+        "results/figures/benchmark.png",
+        "results/figures/benchmark.pdf",
 
 
 rule benchmark_steps:
@@ -43,3 +48,89 @@ rule benchmark_graph:
         repeats=3,
     script:
         "../scripts/benchmark_graph.py"
+
+
+rule benchmark_ladder:
+    input:
+        config=CONFIG,
+        device=SCENES / "devices" / "device2.yaml",
+        reference="results/device2/reference.csv",
+        code=code("benchmark_ladder.py"),
+    output:
+        table="results/benchmark/ladder.csv",
+        decks=directory("results/benchmark/decks"),
+    log:
+        "results/logs/benchmark_ladder.log",
+    conda:
+        ENVIRONMENT
+    threads: workflow.cores
+    params:
+        condition="alternate_180",
+        factors={
+            "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5],
+            "plain": [6.0, 4.0, 3.0, 2.0],
+            "calculix": [8.0, 5.6, 4.0, 2.8, 2.0],
+        },
+        case=CALCULIX_CASE,
+        limit=1800,
+        repeats=3,
+    script:
+        "../scripts/benchmark_ladder.py"
+
+
+rule benchmark_growth:
+    input:
+        config=CONFIG,
+        device=SCENES / "devices" / "device2.yaml",
+        code=code("benchmark_growth.py"),
+    output:
+        sizes="results/benchmark/growth.csv",
+        fits="results/benchmark/exponents.csv",
+    log:
+        "results/logs/benchmark_growth.log",
+    conda:
+        ENVIRONMENT
+    threads: workflow.cores
+    params:
+        factors=[2.0, 1.4, 1.0, 0.7, 0.5],
+        counts=[4, 8, 16, 32, 64],
+        repeats=3,
+    script:
+        "../scripts/benchmark_growth.py"
+
+
+rule skipping:
+    input:
+        config=CONFIG,
+        devices=[SCENES / "devices" / f"{name}.yaml" for name in DEVICES],
+        scores="results/scores.csv",
+        code=code("skipping.py"),
+    output:
+        switches="results/benchmark/skipping.csv",
+        always="results/benchmark/always.csv",
+    log:
+        "results/logs/skipping.log",
+    conda:
+        ENVIRONMENT
+    threads: workflow.cores
+    params:
+        repeats=3,
+    script:
+        "../scripts/skipping.py"
+
+
+rule figure_benchmark:
+    input:
+        ladder="results/benchmark/ladder.csv",
+        sizes="results/benchmark/growth.csv",
+        fits="results/benchmark/exponents.csv",
+        code=code("figure_benchmark.py"),
+    output:
+        png="results/figures/benchmark.png",
+        pdf="results/figures/benchmark.pdf",
+    log:
+        "results/logs/figure_benchmark.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/figure_benchmark.py"

@@ -3,37 +3,25 @@
 from pathlib import Path
 from typing import Any
 
-from fingerpad.calculix import installed, read_printed, run
-from fingerpad.compliance import CondensedBody
-from fingerpad.condensation import condense_body, condense_section
-from fingerpad.crosscheck import Law, Outcome, calculix_outcome, coarsened, differences, fingerpad_outcome, sharpened
+from fingerpad.calculix import installed
+from fingerpad.condensation import condense_section
+from fingerpad.crosscheck import (
+    Law,
+    Outcome,
+    body_of,
+    calculix_outcome,
+    coarsened,
+    differences,
+    fingerpad_outcome,
+    prepared,
+)
 from fingerpad.edges import mesh_device
 from fingerpad.errors import CalculixError, ContactError
-from fingerpad.export import DeckSettings, input_deck
-from fingerpad.scene import Interface, Scene
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import contact_problem, indented_state
 from fingerpad.store import write_rows
 
 SHARED = ("edges", "friction")  # what two cases must share for CalculiX to be compared with itself
-
-
-def body_of(scene: Scene) -> CondensedBody | None:
-    """The condensed body of deformable actuators."""
-    return condense_body(scene) if scene.device.actuators.body else None
-
-
-def prepared(scene: Scene, case: dict[str, Any]) -> tuple[Scene, DeckSettings]:
-    """The case's scene with the shipped mesh, and the settings of its deck: it indents as deep as fingerpad does."""
-    scene = sharpened(scene) if case["edges"] == "sharp" else scene
-    friction = scene.model.contact.friction
-    acting = 0.0 if case["friction"] == "never" else friction
-    indenting = friction if case["friction"] == "always" else 0.0
-    interface = Interface.SHEAR if indenting else Interface.FRICTIONLESS
-    problem = contact_problem(scene, condense_section(mesh_device(scene), scene), body_of(scene), interface)
-    depth = float(indented_state(scene, problem).actuator[0, 1])
-    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
-    return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
 
 
 def row(name: str, case: dict[str, Any], against: str, apart: dict[str, float]) -> dict[str, Any]:
@@ -50,11 +38,7 @@ def compared(
     scene = coarsened(fine, case["coarsening"])
     section = mesh_device(scene)
     stimulus = scene.device.condition(condition)
-    printed, seconds = run(input_deck(scene, section, stimulus, settings), folder, limit)
-    moves = 1 + stimulus.time.size
-    reference = calculix_outcome(
-        scene, section, read_printed(printed, len(scene.device.actuators.positions), moves, settings)
-    )
+    reference, seconds = calculix_outcome(scene, section, stimulus, settings, folder, limit)
     condensed, body = condense_section(section, scene), body_of(scene)
     cost = {"unknowns": 2 * section.mesh.doflocs.shape[1], "calculix_s": round(seconds, 1)}
     rows = []

@@ -1,0 +1,44 @@
+"""Run time against error of CalculiX, on a ladder of meshes of one condition."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..crosscheck import calculix_outcome, coarsened, differences, prepared
+from ..edges import mesh_device
+from ..scene import Condition, Readout, Scene
+
+
+def calculix_ladder(
+    scene: Scene, condition: Condition, factors: Sequence[float], case: Mapping[str, Any], folder: Path, limit: float
+) -> list[dict[str, Any]]:
+    """A row for each coarsening of the skin's mesh but the finest, from coarse to fine: seconds of CalculiX, and errors
+    of its scores against its own on the finest mesh. A further condition costs it as much as the first.
+
+    case: settings as in `crosscheck.prepared`. Raises CalculixError if a deck fails or takes longer than limit [s].
+    """
+    fine, settings = prepared(scene, case)
+    climbed = []
+    for factor in sorted(factors, reverse=True):
+        other = coarsened(fine, factor)
+        section = mesh_device(other)
+        outcome, seconds = calculix_outcome(other, section, condition, settings, folder / f"{factor:g}", limit)
+        climbed.append((factor, section, outcome, seconds))
+    _, _, finest, _ = climbed[-1]
+    rows = []
+    for factor, section, outcome, seconds in climbed[:-1]:
+        apart = differences(outcome, finest)
+        rows.append(
+            {
+                "solver": "CalculiX",
+                "coarsening": factor,
+                "unknowns": 2 * int(section.mesh.doflocs.shape[1]),
+                "cold_s": round(seconds, 1),
+                "warm_s": round(seconds, 1),
+                "stimulus_s": round(seconds, 1),
+                **{f"error_{readout}": f"{apart[f'score_{readout}']:.2e}" for readout in Readout},
+            }
+        )
+    return rows

@@ -1,0 +1,115 @@
+"""How cost grows with unknowns, contact nodes, actuators and increments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ..edges import edge_intervals
+from ..mesh import mesh_section
+from ..prediction import condense_scene
+from ..scene import ActuatorRow, Condition, Criterion, Interface, Numerics, Scene
+from ..solution import indent_device, stimulate
+from .timing import exponent, fewest
+
+Row = dict[str, Any]
+FINE = 0.25  # element sizes of the row of many actuators, of the scene's [1]; source: two elements on a face
+PITCH, WIDTH, EDGE_RADIUS = 0.06, 0.04, 0.01  # mm of the row of many; source: 64 of them still fit under the finger
+STROKE = 0.002  # mm, upwards; source: a tenth of the devices', as the row is
+
+
+def growth(scene: Scene, factors: Sequence[float], counts: Sequence[int], repeats: int) -> Iterator[Row]:
+    """Seconds of set-up and of a condition with shear, for meshes coarser by `factors` with the same increments, for
+    `factors` times larger increments on the same mesh, and for rows of as many actuators as `counts`.
+    """
+    for factor in factors:
+        other = scene.coarsened(factor)
+        kept = scene.model.numerics
+        numerics = replace(
+            other.model.numerics,
+            indentation_increments=kept.indentation_increments,
+            stimulus_increments=kept.stimulus_increments,
+        )
+        yield _measured("mesh", _with_numerics(scene, numerics), repeats)
+    for factor in factors:
+        kept = scene.model.numerics
+        numerics = replace(
+            kept,
+            indentation_increments=round(kept.indentation_increments / factor),
+            stimulus_increments=round(kept.stimulus_increments / factor),
+        )
+        yield _measured("increments", _with_numerics(scene, numerics), repeats)
+    for count in counts:
+        yield _measured("actuators", row_of(scene, count), repeats)
+
+
+def exponents(rows: Sequence[Row]) -> list[Row]:
+    """Fitted exponents p of seconds = c size^p: of set-up against unknowns, and of a condition against the rest."""
+    asked = (
+        ("mesh", "unknowns", "setup_s"),
+        ("mesh", "contact_nodes", "condition_s"),
+        ("increments", "increments", "condition_s"),
+        ("actuators", "actuators", "setup_s"),
+        ("actuators", "actuators", "condition_s"),
+    )
+    found = []
+    for varied, size, seconds in asked:
+        own = [row for row in rows if row["varied"] == varied]
+        sizes, times = [float(row[size]) for row in own], [float(row[seconds]) for row in own]
+        found.append(
+            {
+                "seconds": seconds.removesuffix("_s"),
+                "against": size,
+                "from": min(sizes),
+                "to": max(sizes),
+                "exponent": round(exponent(sizes, times), 2),
+            }
+        )
+    return found
+
+
+def row_of(scene: Scene, count: int) -> Scene:
+    """The scene with a row of `count` narrow actuators that must all touch; every other one moves up."""
+    centred = PITCH * (np.arange(count) - (count - 1) / 2.0)
+    row = ActuatorRow(tuple(float(x) for x in centred), WIDTH, EDGE_RADIUS)
+    stroke = np.where(np.arange(count)[None, :] % 2 == 0, 0.0, STROKE)
+    condition = Condition("up", "alternate", 0.0, np.array([1.0]), stroke, np.zeros_like(stroke))
+    model = replace(scene.model, contact=replace(scene.model.contact, criterion=Criterion.TOUCH))
+    device = replace(scene.device, name=f"row_of_{count}", actuators=row, conditions=(condition,))
+    numerics = scene.coarsened(FINE).model.numerics
+    kept = scene.model.numerics
+    numerics = replace(
+        numerics,
+        indentation_increments=kept.indentation_increments,
+        stimulus_increments=kept.stimulus_increments,
+    )
+    return Scene(replace(model, numerics=numerics), device)
+
+
+def _with_numerics(scene: Scene, numerics: Numerics) -> Scene:
+    return replace(scene, model=replace(scene.model, numerics=numerics))
+
+
+def _measured(varied: str, scene: Scene, repeats: int) -> Row:
+    """Seconds of one scene."""
+    edges, finding = fewest(repeats, partial(edge_intervals, scene))
+    condensed, condensing = fewest(repeats, partial(condense_scene, scene, edges))
+    indenting = partial(indent_device, scene, condensed.section, condensed.body, Interface.SHEAR)
+    indented, pressing = fewest(repeats, indenting)
+    condition = scene.device.conditions[-1]
+    _, moving = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
+    section = mesh_section(scene, edges)
+    numerics = scene.model.numerics
+    return {
+        "varied": varied,
+        "unknowns": 2 * int(section.mesh.doflocs.shape[1]),
+        "contact_nodes": condensed.section.position.shape[0],
+        "actuators": len(scene.device.actuators.positions),
+        "increments": numerics.indentation_increments + numerics.stimulus_increments,
+        "setup_s": round(finding + condensing, 4),
+        "condition_s": round(pressing + moving, 4),
+    }

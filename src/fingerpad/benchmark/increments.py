@@ -1,0 +1,54 @@
+"""What increments leave in the scores."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from ..accuracy import CASE
+from ..edges import edge_intervals
+from ..prediction import condense_scene, predicted_rows
+from ..scene import Scene
+
+
+def increment_rows(
+    scene: Scene, multiples: Sequence[int], stated: Sequence[Mapping[str, Any]]
+) -> Iterator[dict[str, Any]]:
+    """A row for each multiple of the scene's increments and each read-out: the largest relative change of a score, the
+    largest ratio of a change to the error that the score states, and how many scores change by more than that.
+
+    stated: rows of the score table.
+    """
+    condensed = condense_scene(scene, edge_intervals(scene))
+    errors = {_case(row): float(row["score_error"]) / float(row["score"]) for row in stated if row["score"] != ""}
+    numerics = scene.model.numerics
+    first: dict[tuple[str, ...], float] = {}
+    for multiple in (1, *multiples):
+        finer = replace(
+            numerics,
+            indentation_increments=multiple * numerics.indentation_increments,
+            stimulus_increments=multiple * numerics.stimulus_increments,
+        )
+        rows = predicted_rows(replace(scene, model=replace(scene.model, numerics=finer)), condensed)
+        scores = {_case(row): float(row["score"]) for row in rows}
+        if not first:
+            first = scores
+            continue
+        for readout in dict.fromkeys(case[-1] for case in scores):
+            own = [case for case in scores if case[-1] == readout]
+            changes = {case: abs(scores[case] / first[case] - 1.0) for case in own}
+            ratios = [changes[case] / errors[case] for case in own]
+            yield {
+                "device": scene.device.name,
+                "readout": readout,
+                "times_the_increments": multiple,
+                "scores": len(own),
+                "largest_change": f"{max(changes.values()):.1e}",
+                "largest_change_over_stated_error": round(max(ratios), 2),
+                "beyond_stated_error": sum(ratio > 1.0 for ratio in ratios),
+            }
+
+
+def _case(row: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(str(row[key]) for key in CASE)

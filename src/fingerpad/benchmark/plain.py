@@ -1,0 +1,56 @@
+"""A plain solver to measure against: the whole section, factorised anew for every increment, by the same laws.
+
+It shares mesh, elements and contact laws with the library, and nothing that makes the library fast: no halves, no
+condensation kept, no patch, no shared pre-indentation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..compliance import CondensedSection
+from ..condensation import condense_section
+from ..contact import ContactState, rest, touching_height
+from ..gabor import filtered_readouts
+from ..mesh import SectionMesh
+from ..path import advance
+from ..resampling import resampling_to_grid
+from ..roughness import score_rows
+from ..scene import Condition, FloatArray, Interface, Readout, Scene
+from ..solution import contact_problem
+from ..strain import receptor_readouts
+
+
+def plain_scores(
+    scene: Scene, section: SectionMesh, condition: Condition, indentation: float, increments: tuple[int, int]
+) -> tuple[CondensedSection, list[dict[str, Any]]]:
+    """Score rows of one condition with shear, rigid actuators, and the last condensed section.
+
+    indentation: height [mm] of the faces after pre-indentation. increments: of pre-indentation, and of each time of
+    the stimulus [1]. Raises ContactError.
+    """
+    skips = replace(scene.model.skips, halved_condensation=False, inactive_nodes=False)
+    scene = replace(scene, model=replace(scene.model, skips=skips))
+    condensed = condense_section(section, scene)
+    problem = contact_problem(scene, condensed, None, Interface.SHEAR)
+    state = rest(problem, touching_height(problem))
+    pressed = np.tile([0.0, indentation], (len(problem.row.positions), 1))
+    moves = zip(condition.tangential, condition.normal, strict=True)
+    targets = [pressed, *(pressed + np.stack(move, axis=1) for move in moves)]
+    states: list[ContactState] = []
+    for target, count in zip(targets, [increments[0], *[increments[1]] * condition.time.size], strict=True):
+        start = state.actuator
+        for step in range(1, count + 1):
+            condensed = condense_section(section, scene)
+            problem = replace(problem, compliance=condensed.compliance)
+            state, _ = advance(problem, state, start + step / count * (target - start), 1, None)
+        states.append(state)
+    forces: FloatArray = np.array([each.force for each in states])
+    readouts = receptor_readouts(condensed.strain, forces[0], forces[1:])
+    resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
+    strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
+    read = filtered_readouts(resampling, *strains, scene.model.gabor)
+    return condensed, score_rows(scene, condition, Interface.SHEAR, read)

@@ -1,0 +1,85 @@
+"""What each skip saves, and how far scores move when it is off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from functools import partial
+from typing import Any
+
+from ..accuracy import CASE
+from ..edges import edge_intervals
+from ..mesh import SectionMesh, mesh_section
+from ..prediction import condense_scene, predicted_rows
+from ..recovery import recover_fields
+from ..scene import Interface, Scene, Skips
+from ..solution import indent_device, stimulate
+from ..strain import receptor_readouts
+from .timing import fewest
+
+Row = dict[str, Any]
+
+
+def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -> Iterator[Row]:
+    """A row for each switch of `skips`: seconds of set-up and of all conditions with it off, over those with all on;
+    the largest relative difference of any score; and the smallest error that a score of the device states.
+
+    stated: rows of the score table.
+    """
+    edges = edge_intervals(scene)
+    smallest = min(
+        float(row["score_error"]) / float(row["score"])
+        for row in stated
+        if row["device"] == scene.device.name and row["score"] not in {None, ""}
+    )
+    _, setup, conditions, scores = _measured(scene, edges, repeats)
+    for switch in fields(Skips):
+        skips = replace(scene.model.skips, **{switch.name: False})
+        other = replace(scene, model=replace(scene.model, skips=skips))
+        _, setup_without, conditions_without, moved = _measured(other, edges, repeats)
+        yield {
+            "device": scene.device.name,
+            "skip": switch.name,
+            "setup_ratio": round(setup_without / setup, 2),
+            "conditions_ratio": round(conditions_without / conditions, 2),
+            "total_ratio": round((setup_without + conditions_without) / (setup + conditions), 2),
+            "largest_difference": f"{max(abs(moved[case] / scores[case] - 1.0) for case in scores):.1e}",
+            "smallest_stated_error": f"{smallest:.1e}",
+        }
+
+
+def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
+    """What is left out whatever the switches say, or is not left out, as a ratio `of` something."""
+    edges = edge_intervals(scene)
+    condensed, section = condense_scene(scene, edges), mesh_section(scene, edges)
+    indented = indent_device(scene, condensed.section, condensed.body, Interface.SHEAR)
+    condition = scene.device.conditions[-1]
+    solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
+    _, recovering = fewest(repeats, partial(recover_fields, section, scene, solution.force[-1:]))
+    reading = partial(receptor_readouts, condensed.section.strain, solution.indented_force, solution.force)
+    _, reading_both = fewest(repeats, reading)
+    for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
+        yield {
+            "device": scene.device.name,
+            "what": what,
+            "ratio": round(extra / seconds, 3),
+            "of": "seconds of a stimulus",
+        }
+    yield {
+        "device": scene.device.name,
+        "what": "dorsal tissue",
+        "ratio": _dorsal_share(section, scene),
+        "of": "all nodes",
+    }
+
+
+def _dorsal_share(section: SectionMesh, scene: Scene) -> float:
+    """Share [1] of the nodes that lie in the dorsal half of the finger."""
+    return round(float((section.mesh.doflocs[1] > scene.model.finger.height / 2.0).mean()), 3)
+
+
+def _measured(scene: Scene, edges: Any, repeats: int) -> tuple[Any, float, float, dict[tuple[str, ...], float]]:
+    """Condensed maps, seconds of set-up and of all conditions, and scores by case."""
+    condensed, setup = fewest(repeats, partial(condense_scene, scene, edges))
+    rows, conditions = fewest(repeats, partial(predicted_rows, scene, condensed))
+    return condensed, setup, conditions, {tuple(str(row[key]) for key in CASE): row["score"] for row in rows}

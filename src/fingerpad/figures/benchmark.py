@@ -1,0 +1,69 @@
+"""Run time against error on ladders of meshes, and how cost grows with the size of a scene."""
+
+from __future__ import annotations
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILLION, WIDE, legend_below, letter, new_figure, styled
+
+HEIGHT = 78.0  # mm
+LETTER_OFFSET = (-26.0, 4.0)  # pt
+AIM = 0.01  # error [1] at which solvers are compared
+LADDERS = (  # solver, column, label, colour, marker
+    ("CalculiX", "cold_s", "CalculiX", BLACK, "D"),
+    ("factorised anew", "cold_s", "factorised anew for every increment", GREY, "^"),
+    ("fingerpad", "cold_s", "fingerpad, from scene to score", BLUE, "o"),
+    ("fingerpad", "warm_s", "fingerpad, a further condition", ORANGE, "s"),
+    ("fingerpad", "stimulus_s", "fingerpad, a further stimulus", GREEN, "v"),
+)
+GROWTHS = (  # what is varied, size, seconds, label, colour, marker
+    ("mesh", "unknowns", "setup_s", "set-up, unknowns", BLUE, "o"),
+    ("mesh", "contact_nodes", "condition_s", "condition, contact nodes", ORANGE, "s"),
+    ("increments", "increments", "condition_s", "condition, increments", GREEN, "v"),
+    ("actuators", "actuators", "setup_s", "set-up, actuators", BLACK, "D"),
+    ("actuators", "actuators", "condition_s", "condition, actuators", VERMILLION, "P"),
+)
+
+
+@styled
+def benchmark_figure(ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFrame) -> Figure:
+    """A: wall time against the larger error of both scores of one condition. B: wall time against size, each over its
+    smallest, with fitted exponents. ladder, sizes, fits: tables of `benchmark`.
+    """
+    figure = new_figure(WIDE, HEIGHT)
+    left, right = figure.subplots(1, 2)
+    handles = _draw_ladders(left, ladder)
+    _draw_growth(right, sizes, fits)
+    for axes, name in ((left, "A"), (right, "B")):
+        letter(axes, name, LETTER_OFFSET)
+    legend_below(figure, handles)
+    return figure
+
+
+def _draw_ladders(axes: Axes, ladder: pd.DataFrame) -> list[object]:
+    handles: list[object] = []
+    for solver, column, label, colour, marker in LADDERS:
+        own = ladder[ladder["solver"] == solver]
+        if own.empty:
+            continue
+        error = own[["error_strain", "error_change_of_strain"]].max(axis=1)
+        handles += axes.plot(error, own[column], color=colour, marker=marker, label=label)
+    axes.axvline(AIM, color=GREY, linestyle="--", zorder=0)
+    axes.set(xscale="log", yscale="log", xlabel="Error of the score (relative)", ylabel="Wall time (s)")
+    axes.set_title("Time against error", loc="left")
+    return handles
+
+
+def _draw_growth(axes: Axes, sizes: pd.DataFrame, fits: pd.DataFrame) -> None:
+    for varied, size, seconds, label, colour, marker in GROWTHS:
+        own = sizes[sizes["varied"] == varied].sort_values(size)
+        fit = fits[(fits["against"] == size) & (fits["seconds"] == seconds.removesuffix("_s"))]
+        power = f"{label}: {fit['exponent'].iloc[0]:.2f}"
+        axes.plot(
+            own[size] / own[size].iloc[0], own[seconds] / own[seconds].iloc[0], color=colour, marker=marker, label=power
+        )
+    axes.set(xscale="log", yscale="log", xlabel="Size, of the smallest", ylabel="Wall time, of the smallest")
+    axes.set_title("Growth, and its exponent", loc="left")
+    axes.legend(loc="upper left", borderaxespad=0.0)

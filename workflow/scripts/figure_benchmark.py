@@ -1,0 +1,18 @@
+"""Draw run time against error, and how cost grows."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.figures.benchmark import benchmark_figure
+from fingerpad.figures.style import save
+
+
+def main(ladder: Path, sizes: Path, fits: Path, stem: Path) -> None:
+    """Read the tables, draw, write PNG and PDF."""
+    save(benchmark_figure(pd.read_csv(ladder), pd.read_csv(sizes), pd.read_csv(fits)), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(Path(job.input.ladder), Path(job.input.sizes), Path(job.input.fits), Path(job.output.png).with_suffix(""))
