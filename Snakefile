@@ -31,6 +31,7 @@ include: "workflow/rules/accuracy.smk"
 include: "workflow/rules/calculix.smk"
 include: "workflow/rules/benchmark.smk"
 include: "workflow/rules/stress.smk"
+include: "workflow/rules/pages.smk"
 
 
 rule all:

@@ -8,6 +8,7 @@
 rule accuracy:
     input:
         "results/accuracy/closed_forms.csv",
+        "results/accuracy/increments.csv",
         "results/figures/accuracy_closed_forms.png",
         "results/figures/accuracy_closed_forms.pdf",
 

@@ -18,6 +18,7 @@ from .plain import plain_scores
 from .timing import fewest, peak_memory
 
 Row = dict[str, Any]
+OWN_LADDER, PLAIN_LADDER = "fingerpad", "factorised anew"
 PATH = 1.8  # ways from first touch to the outermost face [1] that pre-indentation takes; source: devices (measured)
 
 
@@ -35,7 +36,7 @@ def own_ladder(
         found, stimulating = fewest(repeats, partial(_scores, other, condensed, indented, condition))
         seconds = cold + pressing + stimulating, pressing + stimulating, stimulating
         section = mesh_section(other, edge_intervals(other))
-        yield _row("fingerpad", factor, section, condensed.section, seconds, _errors(found, reference))
+        yield _row(OWN_LADDER, factor, section, condensed.section, seconds, _errors(found, reference))
 
 
 def plain_ladder(
@@ -55,7 +56,7 @@ def plain_ladder(
         counts = round(PATH * pressing), stimulating
         section = mesh_section(other, edges)
         (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, depth, counts))
-        yield _row("factorised anew", factor, section, last, (cold, cold, cold), _errors(found, reference))
+        yield _row(PLAIN_LADDER, factor, section, last, (cold, cold, cold), _errors(found, reference))
 
 
 def _condensed(scene: Scene) -> Condensed:

@@ -1,0 +1,169 @@
+"""Pages of docs/ that say what was measured: prose from a template, every figure from a table of results."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from string import Template
+
+import pandas as pd
+
+from .benchmark.ladder import OWN_LADDER
+from .closedforms.comparison import ORDER_OF
+
+AIM = 0.005  # error [1] that every score should keep; source: the project's aim
+COMPARED_AT = 0.01  # error [1] at which run times are compared
+BOUND = 2.0  # times the stated error [1] within which the true one should lie
+PERCENT = 100.0
+GROUP = ["device", "interface", "readout"]
+CALCULIX_COLUMNS = ["strain_indented", "pressing_indented", "strain_actuated", "force_actuated", "change_of_strain"]
+
+
+def filled(template: str, values: Mapping[str, object]) -> str:
+    """A template whose every ${name} is replaced. Raises KeyError if a value is missing."""
+    return Template(template).substitute(values)
+
+
+def table(rows: pd.DataFrame) -> str:
+    """A Markdown table of a frame, its columns with spaces for underscores.
+
+    >>> print(table(pd.DataFrame({"a_b": [1], "c": ["x"]})))
+    | a b | c |
+    |---|---|
+    | 1 | x |
+    """
+    head = [str(column).replace("_", " ") for column in rows.columns]
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * rows.shape[1]]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows.itertuples(index=False)])
+
+
+def accuracy_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
+    """What `workflow/pages/accuracy.md` asks for, from the tables that its rule names."""
+    return (
+        _of_scores(tables["scores"])
+        | _of_increments(tables["increments"])
+        | _of_closed_forms(tables["closed_forms"])
+        | {"calculix": _of_calculix(tables["calculix"]), "stress": table(tables["stress"].fillna(""))}
+        | _of_graph(tables["graph"])
+        | _of_run_time(tables["timings"], tables["ladder"], tables["exponents"])
+    )
+
+
+def skipping_values(switches: pd.DataFrame, always: pd.DataFrame) -> dict[str, object]:
+    """What `workflow/pages/skipping.md` asks for."""
+    names = {"setup_ratio": "set-up", "conditions_ratio": "all conditions", "total_ratio": "both"}
+    shown = switches.rename(columns=names)
+    for column in ("largest_difference", "smallest_stated_error"):
+        shown[column] = _digits(shown[column])
+    return {"switches": table(shown), "always": table(always)}
+
+
+def _percent(values: pd.Series) -> pd.Series:
+    return (PERCENT * values).map("{:.2f} %".format)
+
+
+def _digits(values: pd.Series) -> pd.Series:
+    return values.map("{:.1e}".format)
+
+
+def _of_scores(scores: pd.DataFrame) -> dict[str, object]:
+    size = scores["error"].abs()
+    groups = scores.assign(size=size).groupby(GROUP, sort=False)
+    largest = groups.agg(n=("size", "size"), stated=("stated", "max"), true=("size", "max")).reset_index()
+    ratio = groups["error_over_stated"].max().map("{:.2f}".format).to_numpy()
+    beyond = scores[size > AIM]
+    return {
+        "scores": len(scores),
+        "within": int((scores["error_over_stated"] <= BOUND).sum()),
+        "bound": f"{BOUND:g}",
+        "worst": f"{scores['error_over_stated'].max():.2f}",
+        "median": f"{PERCENT * size.median():.2f} %",
+        "groups": table(
+            largest.assign(stated=_percent(largest["stated"]), true=_percent(largest["true"]), true_over_stated=ratio)
+        ),
+        "aim": f"{PERCENT * AIM:g} %",
+        "beyond": len(beyond),
+        "missed": table(
+            beyond[["device", "condition", "interface", "readout"]].assign(
+                stated=_percent(beyond["stated"]), true=_percent(beyond["error"])
+            )
+        ),
+    }
+
+
+def _of_increments(increments: pd.DataFrame) -> dict[str, object]:
+    return {
+        "moved": increments["beyond_stated_error"].sum(),
+        "increments_scores": increments["scores"].sum(),
+        "increments": table(increments.assign(largest_change=_digits(increments["largest_change"]))),
+    }
+
+
+def _of_closed_forms(closed_forms: pd.DataFrame) -> dict[str, object]:
+    is_order = closed_forms["quantity"].str.startswith(ORDER_OF)
+    held, orders = closed_forms[closed_forms["tolerance"].notna() & ~is_order], closed_forms[is_order]
+    return {
+        "closed_forms": table(
+            held[["case", "quantity", "unknowns"]].assign(
+                error=_digits(held["error"]), tolerance=_digits(held["tolerance"])
+            )
+        ),
+        "orders": table(orders[["case", "quantity"]].assign(order=orders["computed"].map("{:.2f}".format))),
+    }
+
+
+def _of_calculix(calculix: pd.DataFrame) -> str:
+    if "case" not in calculix:
+        return str(calculix["note"].iloc[0])
+    compared = calculix.dropna(subset=CALCULIX_COLUMNS)
+    shown = compared[["case", "against", *CALCULIX_COLUMNS]].copy()
+    for column in CALCULIX_COLUMNS:
+        shown[column] = _percent(shown[column].astype(float))
+    return table(shown)
+
+
+def _of_graph(graph: pd.DataFrame) -> dict[str, object]:
+    return {
+        "graph_ratio": f"{graph['ratio'].median():.1f}",
+        "graph_real": f"{graph['real_s'].median():.0f}",
+        "graph_empty": f"{graph['empty_s'].median():.0f}",
+        "graph_again": f"{graph['again_s'].median():.1f}",
+        "graph_cores": graph["cores"].iloc[0],
+        "graph_n": len(graph),
+    }
+
+
+def _of_run_time(timings: pd.DataFrame, ladder: pd.DataFrame, exponents: pd.DataFrame) -> dict[str, object]:
+    error = ladder[["error_strain", "error_change_of_strain"]].max(axis=1)
+    rungs = ladder[["solver", "coarsening", "unknowns"]].assign(
+        error=_percent(error),
+        **{name: ladder[name].map("{:.3g}".format) for name in ("cold_s", "warm_s", "stimulus_s")},
+    )
+    names = {"cold_s": "scene to score", "warm_s": "further condition", "stimulus_s": "further stimulus"}
+    return {
+        "timings": table(timings[["device", "step", "n", "median_s", "lowest_s", "highest_s"]]),
+        "ladder": table(rungs.rename(columns=names)),
+        "compared": _compared(ladder, error),
+        "exponents": table(exponents),
+    }
+
+
+def _compared(ladder: pd.DataFrame, error: pd.Series) -> str:
+    """How much longer the others take, each on its cheapest mesh with an error of at most COMPARED_AT."""
+    good = ladder[error <= COMPARED_AT]
+    cheapest = good.loc[good.groupby("solver")["cold_s"].idxmin()].set_index("solver")
+    own = cheapest.loc[OWN_LADDER]
+    rows = [
+        {
+            "solver": solver,
+            "scene_to_score": f"{other['cold_s'] / own['cold_s']:.0f}",
+            "further_condition": f"{other['warm_s'] / own['warm_s']:.0f}",
+            "further_stimulus": f"{other['stimulus_s'] / own['stimulus_s']:.0f}",
+        }
+        for solver, other in cheapest.drop(OWN_LADDER).iterrows()
+    ]
+    if not rows:
+        return f"No other solver reached an error of {PERCENT * COMPARED_AT:g} %."
+    return (
+        "Times as long as fingerpad, each on its cheapest mesh with an error of at most"
+        f" {PERCENT * COMPARED_AT:g} %:\n\n{table(pd.DataFrame(rows))}"
+    )

@@ -1,0 +1,159 @@
+"""The benchmarks on coarse meshes, and the pages made of them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pytest
+
+from fingerpad.accuracy import with_errors
+from fingerpad.benchmark.growth import exponents, growth, row_of
+from fingerpad.benchmark.increments import increment_rows
+from fingerpad.benchmark.ladder import own_ladder, plain_ladder
+from fingerpad.benchmark.skipping import always_rows, skip_rows
+from fingerpad.benchmark.timing import exponent
+from fingerpad.errors import SceneError
+from fingerpad.pages import accuracy_values, filled, skipping_values, table
+from fingerpad.prediction import rows_at
+from fingerpad.scene import Scene, Skips
+from scenes import scene
+
+COARSE = 4.0  # times the shipped sizes [1]: seconds instead of minutes
+PAGES = Path("workflow/pages")
+
+
+@pytest.fixture(scope="module")
+def coarse() -> Scene:
+    return scene("device2").coarsened(COARSE)
+
+
+@pytest.fixture(scope="module")
+def stated(coarse: Scene) -> list[dict[str, Any]]:
+    """Score rows of the coarse scene with their errors, as text like those of a file."""
+    rows = with_errors(rows_at(coarse, 1.0), rows_at(coarse, 1.5))
+    return [{key: str(value) for key, value in row.items()} for row in rows]
+
+
+def test_ladders_agree_where_their_meshes_do(stated: list[dict[str, Any]]) -> None:
+    """Both solvers solve the same equations: on one mesh their scores differ by what increments leave. The plain one
+    takes longer."""
+    base = scene("device2")
+    condition = base.device.conditions[-1]
+    (own,) = own_ladder(base, condition, [COARSE], stated, 1)
+    (plain,) = plain_ladder(base, condition, [COARSE], stated)
+    assert float(own["error_strain"]) < 1e-12  # the reference is this very mesh
+    assert float(plain["error_strain"]) < 0.01
+    assert plain["cold_s"] > 2.0 * own["cold_s"]
+    assert own["cold_s"] > own["warm_s"] > own["stimulus_s"]
+
+
+def test_the_plain_solver_refuses_deformable_actuators() -> None:
+    base = scene("device3")
+    with pytest.raises(SceneError, match="rigid"):
+        next(plain_ladder(base, base.device.conditions[0], [COARSE], []))
+
+
+def test_growth_is_fitted_over_sizes() -> None:
+    rows = list(growth(scene("device2"), [COARSE, 2.0], [2, 4], 1))
+    found = {(row["seconds"], row["against"]): row["exponent"] for row in exponents(rows)}
+    assert len(found) == 5
+    sizes = [row["unknowns"] for row in rows if row["varied"] == "mesh"]
+    assert len(set(sizes)) == 2
+    assert [row["actuators"] for row in rows if row["varied"] == "actuators"] == [2, 4]
+
+
+def test_a_power_is_found_again() -> None:
+    assert exponent([2.0, 4.0, 9.0], [3.0 * size**1.5 for size in (2.0, 4.0, 9.0)]) == pytest.approx(1.5)
+
+
+def test_a_row_of_many_fits_under_the_finger() -> None:
+    """Sixty-four actuators are a valid scene, beside each other without overlap."""
+    row = row_of(scene("device2"), 64).device.actuators
+    assert len(row.positions) == 64
+    assert row.positions[1] - row.positions[0] > row.width
+
+
+def test_skips_move_no_score_beyond_its_error(coarse: Scene, stated: list[dict[str, Any]]) -> None:
+    """Each switch is turned off once. What is exact moves scores by rounding and the solver's tolerance alone: 1e-9 in
+    forces, which a change of strain multiplies by some hundred; increments leave less than the stated error."""
+    found = {row["skip"]: row for row in skip_rows(coarse, stated, 1)}
+    assert set(found) == {field.name for field in fields(Skips)}
+    for name, row in found.items():
+        limit = float(row["smallest_stated_error"]) if name == "frictionless_path" else 1e-7
+        assert float(row["largest_difference"]) <= limit, name
+    for name in ("equal_stimuli", "shared_indentation"):
+        assert float(found[name]["largest_difference"]) == 0.0
+
+
+def test_increments_leave_no_trace(stated: list[dict[str, Any]], coarse: Scene) -> None:
+    for row in increment_rows(coarse, [4], stated):
+        assert row["beyond_stated_error"] == 0
+
+
+def test_pages_say_what_the_tables_say(coarse: Scene, stated: list[dict[str, Any]]) -> None:
+    """Templates and code ask for the same values, and figures of the tables stand on the page."""
+    switches, always = pd.DataFrame(skip_rows(coarse, stated, 1)), pd.DataFrame(always_rows(coarse, 1))
+    switches = switches.astype({"largest_difference": float, "smallest_stated_error": float})
+    page = filled((PAGES / "skipping.md").read_text(), skipping_values(switches, always))
+    assert "| device2 | inactive_nodes |" in page
+    assert "${" not in page
+
+
+def test_the_accuracy_page_counts_and_compares() -> None:
+    case = {"device": "d", "interface": "shear", "readout": "strain"}
+    scores = [
+        case | {"condition": "a", "stated": 0.004, "error": -0.006, "error_over_stated": 1.5},
+        case | {"condition": "b", "stated": 0.001, "error": 0.003, "error_over_stated": 3.0},
+    ]
+    rung = {"coarsening": 1.0, "unknowns": 10, "warm_s": 1.0, "stimulus_s": 0.5, "error_strain": 0.001}
+    ladder = [
+        rung | {"solver": "fingerpad", "cold_s": 2.0, "error_change_of_strain": 0.009},
+        rung | {"solver": "CalculiX", "cold_s": 5.0, "error_change_of_strain": 0.03},
+        rung | {"solver": "CalculiX", "cold_s": 300.0, "warm_s": 300.0, "error_change_of_strain": 0.008},
+    ]
+    increments = {"device": "d", "readout": "strain", "times_the_increments": 2, "scores": 3, "largest_change": 1e-4}
+    increments |= {"largest_change_over_stated_error": 0.1, "beyond_stated_error": 0}
+    form = {"case": "c", "unknowns": 9, "computed": 1.0, "error": 1e-3}
+    forms = [form | {"quantity": "strain", "tolerance": 0.005}]
+    forms += [form | {"quantity": "order, strain", "computed": 2.04, "tolerance": None}]
+    graph = {"cores": 2, "empty_s": 10.0, "real_s": 38.0, "again_s": 3.0, "ratio": 3.8}
+    timing = {"device": "d", "step": "set-up", "n": 5, "median_s": 1.6, "lowest_s": 1.5, "highest_s": 1.9}
+    tables = {
+        "scores": scores,
+        "increments": [increments],
+        "closed_forms": forms,
+        "calculix": [{"note": "skipped: ccx not installed"}],
+        "stress": [{"what": "solved", "scenes": 9, "number": None}],
+        "timings": [timing],
+        "ladder": ladder,
+        "exponents": [{"seconds": "setup", "against": "unknowns", "exponent": 1.4}],
+        "graph": [graph],
+    }
+    values = accuracy_values({name: pd.DataFrame(rows) for name, rows in tables.items()})
+    page = filled((PAGES / "accuracy.md").read_text(), values)
+    assert re.search(r"1 of 2 scores lie within 2 times their stated error; the worst lies at 3.00", page)
+    assert "1 of 2 scores miss 0.5 %" in page
+    assert "| CalculiX | 150 | 300 | 1 |" in page
+    assert "| c | strain | 2.04 |" in page.replace("order, ", "")
+    assert "skipped: ccx not installed" in page
+
+
+def test_a_missing_value_is_an_error() -> None:
+    with pytest.raises(KeyError):
+        filled("${nothing}", {})
+
+
+def test_tables_are_markdown() -> None:
+    assert table(pd.DataFrame({"a_b": [1]})) == "| a b |\n|---|\n| 1 |"
+
+
+def test_scenes_keep_their_skips(coarse: Scene) -> None:
+    """Every switch of the shipped config is on: what is skipped by default is what the ledger lists."""
+    assert all(getattr(coarse.model.skips, field.name) for field in fields(Skips))
+    off = replace(coarse.model.skips, equal_stimuli=False)
+    last = coarse.device.conditions[-1].name
+    assert replace(coarse, model=replace(coarse.model, skips=off)).solved_as(last).name == last

@@ -1,0 +1,52 @@
+# Pages of docs/ that say what was measured. They need every long target; not part of `all`: `snakemake pages`.
+# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress and benchmark.
+# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/figures/*.png
+
+MEASURED_FIGURES = ["accuracy_closed_forms.png", "benchmark.png"]
+
+
+rule pages:
+    input:
+        "docs/accuracy.md",
+        "docs/skipping.md",
+
+
+rule accuracy_page:
+    input:
+        template=BASE / "workflow" / "pages" / "accuracy.md",
+        scores="results/accuracy/scores.csv",
+        increments="results/accuracy/increments.csv",
+        closed_forms="results/accuracy/closed_forms.csv",
+        calculix="results/accuracy/calculix.csv",
+        stress="results/stress/summary.csv",
+        timings="results/benchmark/timings.csv",
+        ladder="results/benchmark/ladder.csv",
+        exponents="results/benchmark/exponents.csv",
+        graph="results/benchmark/graph.csv",
+        figures=expand("results/figures/{name}", name=MEASURED_FIGURES),
+        code=code("accuracy_page.py"),
+    output:
+        page="docs/accuracy.md",
+        figures=expand("docs/figures/{name}", name=MEASURED_FIGURES),
+    log:
+        "results/logs/accuracy_page.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/accuracy_page.py"
+
+
+rule skipping_page:
+    input:
+        template=BASE / "workflow" / "pages" / "skipping.md",
+        switches="results/benchmark/skipping.csv",
+        always="results/benchmark/always.csv",
+        code=code("skipping_page.py"),
+    output:
+        page="docs/skipping.md",
+    log:
+        "results/logs/skipping_page.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/skipping_page.py"

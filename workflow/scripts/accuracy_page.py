@@ -1,0 +1,27 @@
+"""Write the page on accuracy, stability and run time from what was measured."""
+
+import shutil
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.pages import accuracy_values, filled
+
+
+def main(template: Path, tables: dict[str, Path], figures: dict[Path, Path], page: Path) -> None:
+    """Read template and tables, write the page, and copy its figures to where it shows them."""
+    values = accuracy_values({name: pd.read_csv(path) for name, path in tables.items()})
+    page.write_text(filled(template.read_text(encoding="utf-8"), values), encoding="utf-8")
+    for source, copy in figures.items():
+        shutil.copyfile(source, copy)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    names = ("scores", "increments", "closed_forms", "calculix", "stress", "timings", "ladder", "exponents", "graph")
+    main(
+        Path(job.input.template),
+        {name: Path(job.input[name]) for name in names},
+        dict(zip(map(Path, job.input.figures), map(Path, job.output.figures), strict=True)),
+        Path(job.output.page),
+    )

@@ -1,0 +1,18 @@
+"""Write the ledger of what is skipped from what was measured."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.pages import filled, skipping_values
+
+
+def main(template: Path, switches: Path, always: Path, page: Path) -> None:
+    """Read template and tables, write the page."""
+    values = skipping_values(pd.read_csv(switches), pd.read_csv(always))
+    page.write_text(filled(template.read_text(encoding="utf-8"), values), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(Path(job.input.template), Path(job.input.switches), Path(job.input.always), Path(job.output.page))
