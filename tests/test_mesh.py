@@ -158,3 +158,12 @@ def test_touching_actuators_are_no_overlap() -> None:
     ActuatorRow(tuple((i - 31.5) * pitch for i in range(64)), pitch, 0.0)
     with pytest.raises(SceneError, match="overlap"):
         ActuatorRow((0.0, 0.0999), pitch, 0.0)
+
+
+def test_a_mesh_too_large_is_a_named_error() -> None:
+    """Sizes of a micrometre under every face: refused before memory runs out."""
+    base = scene("device2")
+    numerics = replace(base.model.numerics, edge_size=0.001, face_size=0.001)
+    fine = replace(base, model=replace(base.model, numerics=numerics))
+    with pytest.raises(MeshError, match="more than 500000 elements"):
+        mesh_section(fine, nominal_edges(fine.device.actuators))

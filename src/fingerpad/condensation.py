@@ -25,12 +25,13 @@ from .traction import Tractions, linear_tractions
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
+MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte
 CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
 
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one; and on
-    its mirror image.
+    its mirror image. Raises MeshError if they have more than MAX_CONTACT nodes.
     """
     row = scene.device.actuators
     stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
@@ -39,7 +40,13 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
     near = distance <= row.width / 2.0 + stroke + CONTACT_MARGIN
     near &= y < scene.model.finger.height / 2.0
-    return linear_tractions(section.skin, points, near | near[::-1])
+    tractions = linear_tractions(section.skin, points, near | near[::-1])
+    if tractions.weight.size > MAX_CONTACT:
+        raise MeshError(
+            f"{scene.device.name}: {tractions.weight.size} skin nodes may come into contact, more than {MAX_CONTACT}; try"
+            " larger numerics.edge_size and numerics.face_size"
+        )
+    return tractions
 
 
 def section_stiffness(
@@ -60,7 +67,8 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     not move sideways) and under loads that mirror with the opposite sign (it moves sideways only). A load on one side
     is half the sum of both: u_right = (C_sym + C_anti) f / 2, u_left = mirror of (C_sym - C_anti) f / 2.
 
-    Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE.
+    Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError if too many nodes
+    may come into contact.
     """
     if not scene.model.skips.halved_condensation:
         return _condense_whole(section, scene)

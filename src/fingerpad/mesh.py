@@ -20,6 +20,7 @@ from skfem import MeshTri, MeshTri2
 from .errors import MeshError
 from .scene import ActuatorRow, Finger, FloatArray, Numerics, Scene
 
+MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
 ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
 SIZE_SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
@@ -88,7 +89,7 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
     0). On the skin under the row it is at most face_size + growth * depth, and at most receptor_size +
     growth * distance at the receptor line. The mesh is refined for both signs of x, and so symmetric.
 
-    Raises MeshError if an element is inverted.
+    Raises MeshError if an element is inverted, or more than MAX_ELEMENTS are asked for.
     """
     model = scene.model
     outline = _Outline(model.finger)
@@ -101,6 +102,11 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
         if marked.size == 0:
             break
         logical = logical.refined(marked)
+        if 2 * logical.t.shape[1] > MAX_ELEMENTS:
+            raise MeshError(
+                f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try larger sizes in"
+                " numerics (edge_size, face_size, receptor_size, growth) or thicker layers"
+            )
     return _mirrored(scene, outline, logical)
 
 
