@@ -161,9 +161,9 @@ def test_touching_actuators_are_no_overlap() -> None:
 
 
 def test_a_mesh_too_large_is_a_named_error() -> None:
-    """Sizes of a micrometre under every face: refused before memory runs out."""
+    """Sizes below a micrometre under every face: refused before memory runs out."""
     base = scene("device2")
-    numerics = replace(base.model.numerics, edge_size=0.001, face_size=0.001)
+    numerics = replace(base.model.numerics, edge_size=0.0003, face_size=0.0003)
     fine = replace(base, model=replace(base.model, numerics=numerics))
     with pytest.raises(MeshError, match="more than 500000 elements"):
         mesh_section(fine, nominal_edges(fine.device.actuators))

@@ -43,8 +43,8 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     tractions = linear_tractions(section.skin, points, near | near[::-1])
     if tractions.weight.size > MAX_CONTACT:
         raise MeshError(
-            f"{scene.device.name}: {tractions.weight.size} skin nodes may come into contact, more than {MAX_CONTACT}; try"
-            " larger numerics.edge_size and numerics.face_size"
+            f"{scene.device.name}: {tractions.weight.size} skin nodes may come into contact, more than {MAX_CONTACT};"
+            " try larger numerics.edge_size and numerics.face_size"
         )
     return tractions
 
