@@ -11,6 +11,7 @@ from .condensation import condense_body, condense_section
 from .edges import mesh_device
 from .errors import FingerpadError
 from .export import DeckSettings, input_deck
+from .files import write_text
 from .scene import Interface
 from .solution import contact_problem, indented_state
 from .validation import check_device
@@ -113,7 +114,7 @@ def _export(options: argparse.Namespace) -> None:
         options.stimulus_increments,
         options.rest_increments,
     )
-    options.output.write_text(input_deck(scene, section, condition, settings), encoding="utf-8")
+    write_text(options.output, input_deck(scene, section, condition, settings))
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ from skfem import MeshTri, MeshTri2
 
 from .errors import MeshError
 from .scene import ActuatorRow, Finger, FloatArray, Numerics, Scene
+from .store import save_arrays
 
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
@@ -131,7 +132,7 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
 def save_section(path: Path, section: SectionMesh) -> None:
     """Write a section's mesh."""
     rest = {field.name: getattr(section, field.name) for field in fields(section) if field.name != "mesh"}
-    np.savez(path, nodes=section.mesh.doflocs, triangles=section.mesh.t, **rest)
+    save_arrays(path, {"nodes": section.mesh.doflocs, "triangles": section.mesh.t, **rest})
 
 
 def load_section(path: Path) -> SectionMesh:

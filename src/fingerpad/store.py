@@ -10,6 +10,7 @@ from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 
+from .files import replacing
 from .scene import FloatArray
 
 Record = TypeVar("Record")
@@ -18,7 +19,13 @@ SEPARATOR = "/"  # between the name of a nested dataclass and its field
 
 def save(path: Path, record: Any) -> None:
     """Write a dataclass of arrays, numbers and such dataclasses. npz has fixed time stamps: same record, same bytes."""
-    np.savez(path, **_flattened(record, ""))
+    save_arrays(path, _flattened(record, ""))
+
+
+def save_arrays(path: Path, arrays: Mapping[str, Any]) -> None:
+    """Write named arrays as an npz archive without pickles."""
+    with replacing(path) as part, part.open("wb") as file:
+        np.savez(file, allow_pickle=False, **arrays)
 
 
 def load(path: Path, kind: type[Record]) -> Record:
@@ -29,7 +36,7 @@ def load(path: Path, kind: type[Record]) -> Record:
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     """Write rows that share their keys as a CSV table."""
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with replacing(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

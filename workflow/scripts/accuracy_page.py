@@ -5,13 +5,14 @@ from pathlib import Path
 
 import pandas as pd
 
+from fingerpad.files import write_text
 from fingerpad.pages import accuracy_values, filled
 
 
 def main(template: Path, tables: dict[str, Path], figures: dict[Path, Path], page: Path) -> None:
     """Read template and tables, write the page, and copy its figures to where it shows them."""
     values = accuracy_values({name: pd.read_csv(path) for name, path in tables.items()})
-    page.write_text(filled(template.read_text(encoding="utf-8"), values), encoding="utf-8")
+    write_text(page, filled(template.read_text(encoding="utf-8"), values))
     for source, copy in figures.items():
         shutil.copyfile(source, copy)
 

@@ -7,13 +7,15 @@ import nbformat
 from nbclient import NotebookClient
 from nbconvert import HTMLExporter
 
+from fingerpad.files import write_text
+
 
 def main(notebook: Path, page: Path) -> None:
     """Read the notebook, run all of its cells here, write the page; a failing cell fails the job."""
     document = nbformat.read(notebook, as_version=4)
     NotebookClient(document, record_timing=False, resources={"metadata": {"path": str(Path.cwd())}}).execute()
     text, _ = HTMLExporter(exclude_input_prompt=True, exclude_output_prompt=True).from_notebook_node(document)
-    page.write_text(text, encoding="utf-8")
+    write_text(page, text)
 
 
 if __name__ == "__main__":

@@ -4,13 +4,14 @@ from pathlib import Path
 
 import pandas as pd
 
+from fingerpad.files import write_text
 from fingerpad.pages import filled, skipping_values
 
 
 def main(template: Path, switches: Path, always: Path, page: Path) -> None:
     """Read template and tables, write the page."""
     values = skipping_values(pd.read_csv(switches), pd.read_csv(always))
-    page.write_text(filled(template.read_text(encoding="utf-8"), values), encoding="utf-8")
+    write_text(page, filled(template.read_text(encoding="utf-8"), values))
 
 
 if __name__ == "__main__":

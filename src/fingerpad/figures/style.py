@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from ..files import replacing
 from ..scene import Device, Interface, Readout
 
 MM = 1.0 / 25.4  # inch
@@ -141,10 +142,11 @@ def save(figure: Figure, stem: Path) -> None:
         if engine := figure.get_layout_engine():
             engine.execute(figure)
         figure.set_layout_engine(None)  # laid out once, the same in both files
-        figure.savefig(stem.with_name(f"{stem.name}.png"), metadata={"Software": None}, pil_kwargs=PNG)
-        figure.savefig(
-            stem.with_name(f"{stem.name}.pdf"), metadata={"Creator": None, "Producer": None, "CreationDate": None}
-        )
+        with replacing(stem.with_name(f"{stem.name}.png")) as part:
+            figure.savefig(part, format="png", metadata={"Software": None}, pil_kwargs=PNG)
+        with replacing(stem.with_name(f"{stem.name}.pdf")) as part:
+            nothing = {"Creator": None, "Producer": None, "CreationDate": None}
+            figure.savefig(part, format="pdf", metadata=nothing)
 
 
 def conditions_of(devices: Iterable[Device]) -> list[Shown]:

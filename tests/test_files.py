@@ -1,0 +1,33 @@
+"""Files are whole or not there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from fingerpad.files import replacing, write_text
+from fingerpad.store import write_rows
+
+
+def test_a_failed_write_leaves_what_was_there(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    write_text(path, "before")
+    with pytest.raises(ZeroDivisionError), replacing(path) as part:
+        part.write_text("half")
+        raise ZeroDivisionError
+    assert path.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_row_that_does_not_fit_leaves_no_table(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="b"):
+        write_rows(tmp_path / "table.csv", [{"a": 1}, {"b": 2}])
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_written_file_replaces_the_old_one(tmp_path: Path) -> None:
+    path = tmp_path / "page.md"
+    write_text(path, "one")
+    write_text(path, "two µm")
+    assert path.read_text(encoding="utf-8") == "two µm"
