@@ -34,7 +34,7 @@ lint: environment  ## Check formats, lint and types.
 
 lock:  ## Pin all dependencies with their hashes (needs uv).
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
-		--no-annotate pyproject.toml --extra test --output-file requirements.lock
+		--no-annotate pyproject.toml --extra test --extra slurm --output-file requirements.lock
 
 clean:  ## Remove results and the environment.
 	rm -rf results .snakemake $(VENV)

@@ -16,6 +16,13 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 CORES = 2
+TABLE_AND_FIGURE = (
+    "results/correlations.csv",
+    "results/figures/figure_4_receptors.png",
+    "results/figures/figure_4_receptors.pdf",
+)
+COARSER = {"edge_size": 4.0, "face_size": 4.0, "receptor_size": 4.0}  # times the shipped sizes: a run of seconds
+NOT_RESULTS = ("results/logs/", "results/benchmarks/")  # they say when and how long
 LONGEST_RUN = 240.0  # a complete run on two cores [s]
 NOT_SOURCE = ("results", ".snakemake", ".venv", ".git", "__pycache__", "*.egg-info", ".ipynb_checkpoints", ".*_cache")
 
@@ -142,3 +149,38 @@ def changeable(finished: Project) -> Iterator[Project]:
     yield finished
     shutil.rmtree(finished.folder)
     kept.rename(finished.folder)
+
+
+@pytest.fixture(scope="session")
+def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Scenes with Device 2 alone, on a coarse mesh."""
+    folder = tmp_path_factory.mktemp("scenes")
+    (folder / "devices").mkdir()
+    shutil.copy2(project.folder / "config/devices/device2.yaml", folder / "devices")
+    text = (project.folder / "config/config.yaml").read_text(encoding="utf-8")
+    for key, factor in COARSER.items():
+        text = re.sub(
+            rf"({key}: {{value: )([\d.]+)", lambda found, factor=factor: f"{found[1]}{factor * float(found[2])}", text
+        )
+    (folder / "config.yaml").write_text(text, encoding="utf-8")
+    return folder
+
+
+def coarse_run(scenes: Path, there: Path) -> tuple[str | Path, ...]:
+    """Arguments of Snakemake for a table and a figure of these scenes, with results in another folder."""
+    return (*TABLE_AND_FIGURE, "--directory", there, "--config", f"scenes={scenes}")
+
+
+def results(folder: Path) -> dict[str, str]:
+    """Checksums of all results in a folder but for logs and times."""
+    found = Project(folder).files("results")
+    return {name: checksum for name, (_, checksum) in found.items() if not name.startswith(NOT_RESULTS)}
+
+
+@pytest.fixture(scope="session")
+def undisturbed(project: Project, coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Results of `coarse_run` that nothing disturbs."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    run = project.snakemake(*coarse_run(coarse_scenes, folder))
+    assert run.status == 0, run.text
+    return results(folder)

@@ -43,6 +43,7 @@ rule reference:
         ENVIRONMENT
     resources:
         mem_mb=6000,
+        runtime=30,
     params:
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
     script:

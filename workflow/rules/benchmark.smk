@@ -26,6 +26,9 @@ rule benchmark_steps:
     conda:
         ENVIRONMENT
     threads: workflow.cores
+    resources:
+        mem_mb=6000,
+        runtime=60,
     params:
         repeats=5,
     script:
@@ -44,6 +47,9 @@ rule benchmark_graph:
     conda:
         ENVIRONMENT
     threads: workflow.cores
+    resources:
+        mem_mb=6000,
+        runtime=60,
     params:
         repeats=3,
     script:
@@ -64,6 +70,9 @@ rule benchmark_ladder:
     conda:
         ENVIRONMENT
     threads: workflow.cores
+    resources:
+        mem_mb=6000,
+        runtime=60,
     params:
         condition="alternate_180",
         factors={
@@ -91,6 +100,9 @@ rule benchmark_growth:
     conda:
         ENVIRONMENT
     threads: workflow.cores
+    resources:
+        mem_mb=6000,
+        runtime=60,
     params:
         factors=[2.0, 1.4, 1.0, 0.7, 0.5],
         counts=[4, 8, 16, 32, 64],
@@ -113,6 +125,9 @@ rule skipping:
     conda:
         ENVIRONMENT
     threads: workflow.cores
+    resources:
+        mem_mb=6000,
+        runtime=60,
     params:
         repeats=3,
     script:

@@ -27,6 +27,9 @@ rule calculix:
     conda:
         ENVIRONMENT
     threads: workflow.cores
+    resources:
+        mem_mb=4000,
+        runtime=120,
     params:
         condition="alternate_180",
         limit=1800,

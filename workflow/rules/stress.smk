@@ -23,6 +23,9 @@ rule stress_scenes:
         "results/benchmarks/stress_scenes_{chunk}.tsv"
     conda:
         ENVIRONMENT
+    resources:
+        mem_mb=6000,
+        runtime=60,
     params:
         first=lambda w: int(w.chunk) * STRESS_CHUNK,
         stop=lambda w: min((int(w.chunk) + 1) * STRESS_CHUNK, STRESS_SCENES),
