@@ -185,7 +185,8 @@ def _scores(
     ]
     found = (f"{row['condition']} {measured(float(row['score']), float(row['score_error']), scale)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
-    return f"{', '.join(found)} {power}{UNITS.get(unit, unit)}"
+    scaled = f"{power}{UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
+    return f"{', '.join(found)} {scaled}"
 
 
 def _rows(results: Results, device: str, interface: Interface) -> list[Row]:

@@ -62,7 +62,7 @@ def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
 def accuracy_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
     """Every score's error over the score [%]. Arguments as for `score_grid`."""
     names = [f"{READOUT_NAME[readout]} (%)" for readout in Readout]
-    return _grid(scores, titles, names, lambda row: f"{PERCENT * relative_error(row):.2g}")
+    return _grid(scores, titles, names, lambda row: f"{PERCENT * relative_error(row):.2f}")
 
 
 def relative_error(row: Row) -> float:
@@ -77,8 +77,8 @@ def accuracy_summary(scores: Sequence[Row]) -> str:
     device, condition, interface, readout = max(errors, key=lambda case: errors[case])
     largest = errors[device, condition, interface, readout]
     return (
-        f"Of n = {len(errors)} scores the median error is {PERCENT * median(errors.values()):.2g} %, the largest"
-        f" {PERCENT * largest:.2g} % ({device}, {condition}, {INTERFACE_NAME[Interface(interface)]},"
+        f"Of n = {len(errors)} scores the median error is {PERCENT * median(errors.values()):.2f} %, the largest"
+        f" {PERCENT * largest:.2f} % ({device}, {condition}, {INTERFACE_NAME[Interface(interface)]},"
         f" {READOUT_NAME[Readout(readout)].lower()})."
     )
 
