@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import cache
 from itertools import pairwise
 from statistics import mean
 
@@ -33,6 +34,7 @@ def reduced(edges: Iterable[Edge]) -> list[Edge]:
     for start, stop in edges:
         after.setdefault(start, set()).add(stop)
 
+    @cache
     def reached(node: str) -> set[str]:
         return after.get(node, set()).union(*(reached(other) for other in after.get(node, ())))
 
@@ -55,6 +57,7 @@ def layers(edges: Iterable[Edge]) -> dict[str, int]:
         after.setdefault(start, []).append(stop)
         after.setdefault(stop, [])
 
+    @cache
     def height(node: str) -> int:
         return max((1 + height(other) for other in after[node]), default=0)
 
