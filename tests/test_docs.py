@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import importlib
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 
 from fingerpad.codemap import imported, levels, page, summary
 from fingerpad.errors import FingerpadError
@@ -102,6 +104,13 @@ def test_imports_have_no_circle_and_levels_rise() -> None:
     edges = [(other, name) for name, text in single.items() for other in imported(text) if other in single]
     level = levels(single, edges)
     assert all(level[start] < level[stop] for start, stop in edges)
+
+
+def test_citation_has_the_version_of_the_project() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == project["version"]
+    assert citation["license"] == project["license"]
 
 
 @pytest.mark.parametrize("path", sorted(MODULES))
