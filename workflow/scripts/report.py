@@ -34,9 +34,9 @@ def main(
     said = Words(
         "The run's rules",
         "Boxes of rules, joined by lines from each rule to those that wait for it.",
-        f"What “snakemake all” consists of: n = {len(names)} rules, each of which waits for those above it that a line"
-        " joins to it. A rule may run once for each device, condition and interface; waits that others imply are left"
-        " out.",
+        f"What made this page (“snakemake report”): n = {len(names)} rules, each of which waits for those above it"
+        " that a line joins to it. A rule may run once for each device, condition and interface; waits that others"
+        " imply are left out.",
     )
     page.write_text(
         report(

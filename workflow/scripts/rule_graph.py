@@ -1,4 +1,4 @@
-"""Write which rule of `snakemake all` feeds which, as Snakemake plans a run from nothing."""
+"""Write which rule of `snakemake report` feeds which, as Snakemake plans a run from nothing."""
 
 import subprocess
 import sys
@@ -11,7 +11,7 @@ from fingerpad.store import write_rows
 
 def main(snakefile: Path, scenes: Path, table: Path) -> None:
     """Ask for the graph of rules in an empty folder, where no other run can be in the way; write its edges."""
-    command = [sys.executable, "-m", "snakemake", "all", "--rulegraph", "dot", "--snakefile", str(snakefile)]
+    command = [sys.executable, "-m", "snakemake", "report", "--rulegraph", "dot", "--snakefile", str(snakefile)]
     with tempfile.TemporaryDirectory() as folder:
         given = ["--directory", folder, "--cores", "1", "--config", f"scenes={scenes.resolve()}"]
         dot = subprocess.run([*command, *given], check=True, stdout=subprocess.PIPE, text=True).stdout

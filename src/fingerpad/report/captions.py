@@ -195,10 +195,10 @@ def _rows(results: Results, device: str, interface: Interface) -> list[Row]:
 
 def _correlated(results: Results, device: str, interface: Interface, titled: bool = True) -> str:
     found = "; ".join(
-        f"{READOUT_NAME[Readout(row['readout'])].lower()} {correlation_words(row)}"
+        f"{READOUT_NAME[Readout(row['readout'])].lower()}: {correlation_words(row)}"
         for row in _rows(results, device, interface)
     )
-    return f"{results.device(device).title}: {found}" if titled else found
+    return f"{results.device(device).title}, {found}" if titled else found
 
 
 def _r2(row: Row) -> str:
