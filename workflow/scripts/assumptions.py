@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fingerpad.files import write_text
 from fingerpad.scenefile import read_yaml
 from fingerpad.sources import page
 
@@ -9,7 +10,7 @@ from fingerpad.sources import page
 def main(files: list[Path], listed: Path) -> None:
     """Read the scene files, write the page."""
     named = {f"{path.parent.name}/{path.name}": read_yaml(path) for path in files}
-    listed.write_text(page(named), encoding="utf-8")
+    write_text(listed, page(named))
 
 
 if __name__ == "__main__":

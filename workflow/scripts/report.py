@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fingerpad.files import write_text
 from fingerpad.report.captions import Results, Words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -38,7 +39,8 @@ def main(
         " that a line joins to it. A rule may run once for each device, condition and interface; waits that others"
         " imply are left out.",
     )
-    page.write_text(
+    write_text(
+        page,
         report(
             template.read_text(encoding="utf-8"),
             results,
@@ -48,7 +50,6 @@ def main(
             Picture("rules", said, data_uri(rules)),
             provenance(pyproject, commit, [config, *devices, *data, scores, correlations, claims]),
         ),
-        encoding="utf-8",
     )
 
 
