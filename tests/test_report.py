@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import dataclasses
 import re
 from collections.abc import Mapping
 from html.parser import HTMLParser
@@ -195,6 +196,11 @@ def test_every_caption_carries_its_count(results: Results) -> None:
 def test_figures_come_in_reading_order(results: Results) -> None:
     assert list(words(FIGURES, results))[:2] == ["section", "figure_3_workflow"]
     assert list(words(FIGURES, results))[-1] == "map_device3_alternate"
+
+
+def test_devices_without_a_lateral_one_have_captions(results: Results) -> None:
+    stems = [stem for stem in FIGURES if stem not in {"figure_3_workflow", "figure_6_shear"}]
+    assert set(words(stems, dataclasses.replace(results, lateral=None))) == set(stems)
 
 
 def test_figure_without_a_caption_is_an_error(results: Results) -> None:
