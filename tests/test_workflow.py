@@ -265,6 +265,20 @@ def test_fourth_device_runs_only_its_own_jobs_and_the_tables(changeable: Project
     assert sum(row.startswith("device4,") for row in rows) == sum(row.startswith("device2,") for row in rows) > 0
 
 
+def test_report_is_one_page_and_the_same_every_time(changeable: Project) -> None:
+    page = changeable.folder / "results/report.html"
+    made = []
+    for _ in range(2):
+        run = changeable.snakemake("report")
+        assert run.status == 0, run.text
+        made.append(page.read_bytes())
+        page.unlink()
+    assert made[0] == made[1]
+    figures = list((changeable.folder / "results/figures").glob("*.png"))
+    assert made[0].count(b"data:image/png;base64,") == len(figures)
+    assert str(changeable.folder).encode() not in made[0]
+
+
 # Other folders, and runs that end early
 
 

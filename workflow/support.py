@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import dataclasses
 import json
+import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +70,14 @@ def stroke(scene: Scene) -> float:
 def path_of(condition: Condition) -> tuple[Any, ...]:
     """What a condition prescribes, without its names."""
     return condition.time, condition.normal, condition.tangential
+
+
+def commit(base: Path) -> str:
+    """The git commit of a checkout, marked if files differ from it; nothing without a checkout or without git."""
+    if not ((base / ".git").exists() and shutil.which("git")):
+        return ""
+    command = ["git", "-C", str(base), "describe", "--always", "--abbrev=40", "--dirty=, with changes", "--exclude=*"]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
 
 
 def _plain(part: Any) -> Any:

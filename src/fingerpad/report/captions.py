@@ -1,0 +1,210 @@
+"""Captions of the report's figures: what a figure shows, with the numbers behind it, taken from scenes and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from ..figures.style import INTERFACE_NAME, MINUS, READOUT_NAME, SCORE_SCALE, UNITS, counted, plain
+from ..scene import Device, Interface, Readout, Scene
+from .tables import SLOPES, Row, measured, p_value
+
+SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
+ERROR_BARS = "Bars: estimated discretisation error of a score."
+
+
+@dataclass(frozen=True)
+class Results:
+    """What captions are written from: the scenes, rows of scores.csv and of correlations.csv, and the device that the
+    figures of one lateral device show, if there is one.
+    """
+
+    scenes: tuple[Scene, ...]
+    scores: tuple[Row, ...]
+    correlations: tuple[Row, ...]
+    lateral: str | None
+
+    def device(self, name: str | None) -> Device:
+        """The device of that name. Raises KeyError if there is none."""
+        return {scene.device.name: scene.device for scene in self.scenes}[name or ""]
+
+
+@dataclass(frozen=True)
+class Words:
+    """What is said of a figure: heading, text for those who do not see it, and caption."""
+
+    heading: str
+    alternative: str
+    caption: str
+
+
+def words(stems: Collection[str], results: Results) -> dict[str, Words]:
+    """What is said of the figures with these file stems, in the order in which they are read.
+
+    Raises KeyError if nothing is written of one of them.
+    """
+    writers = dict(_WRITERS)
+    for scene in results.scenes:
+        for condition in scene.device.conditions:
+            stem = f"map_{scene.device.name}_{condition.dispersion}"
+            writers[stem] = partial(_map, device=scene.device, dispersion=condition.dispersion)
+    if unknown := set(stems) - set(writers):
+        raise KeyError(f"no caption for {', '.join(sorted(unknown))}")
+    return {stem: write(results) for stem, write in writers.items() if stem in stems}
+
+
+def correlation_words(row: Row) -> str:
+    """One row of the table of correlations as a phrase: R² with its range, slope, tau, p and n."""
+    if not row["r2"]:
+        return f"{row['note']}, n = {row['n']}"
+    spread = f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
+    tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
+    p = p_value(row["p"])
+    return (
+        f"R² = {float(row['r2']):.3f}{spread}, {SLOPES[row['slope_sign']]}, τ = {tau},"
+        f" p {p if p.startswith('<') else f'= {p}'}, n = {row['n']}"
+    )
+
+
+def _section(results: Results) -> Words:
+    model = results.scenes[0].model
+    layers = ", ".join(f"{plain(layer.name)} {layer.thickness:g} mm" for layer in model.finger.pad)
+    rows = "; ".join(
+        f"{device.title}: {len(row.positions)} actuators {row.width:g} mm wide"
+        for device, row in ((scene.device, scene.device.actuators) for scene in results.scenes)
+    )
+    return Words(
+        "The finger's section and the devices",
+        "Cross-section of the fingertip with its layers, bone and nail, and the actuators of each device below it.",
+        f"Section {model.finger.width:g} mm wide and {model.finger.height:g} mm high."
+        f" Pad on the mid-line, from the skin inwards: {layers}."
+        f" Receptors lie {model.receptor_depth:g} mm below the skin. n = {len(results.scenes)} devices. {rows}.",
+    )
+
+
+def _workflow(results: Results) -> Words:
+    device, gabor = results.device(results.lateral), results.scenes[0].model.gabor
+    scores = ". ".join(
+        f"{READOUT_NAME[readout]} (λ = {gabor.wavelength(readout):g} mm, {SIGMA} = {gabor.sigma:g} mm):"
+        f" {_scores(results, device.name, Interface.SHEAR, readout)}"
+        for readout in Readout
+    )
+    return Words(
+        f"From strain to score: {device.title}",
+        "Strain and change of strain along the receptor line, the same Gabor-filtered, and bars of their areas.",
+        f"With shear, {counted(device.conditions)}. Scores: {scores}.",
+    )
+
+
+def _receptors(results: Results) -> Words:
+    counts = "; ".join(
+        f"{scene.device.title}: {counted(scene.device.conditions)},"
+        f" {len({scene.device.first_with_stimulus_of(c.name).name for c in scene.device.conditions})} distinct"
+        for scene in results.scenes
+    )
+    return Words(
+        "Strain and change of strain at the receptors",
+        "Curves of strain (left) and change of strain (right) along the receptor line, one row a device.",
+        f"Maximum principal strain and its change from pre-indentation, with shear. {counts}. Grey: actuator faces.",
+    )
+
+
+def _correlation(results: Results) -> Words:
+    parts = "; ".join(_correlated(results, scene.device.name, Interface.SHEAR) for scene in results.scenes)
+    return Words(
+        "Scores against perceived roughness",
+        "Perceived roughness over the strain score (left) and the change-of-strain score (right), one row a device.",
+        f"With shear. {parts}. In brackets the range of R² over all ratings with the stated order."
+        f" Ratings: {_kinds(results)}. {ERROR_BARS}",
+    )
+
+
+def _shear(results: Results) -> Words:
+    device = results.device(results.lateral)
+    parts = "; ".join(
+        f"{INTERFACE_NAME[interface]}, {_correlated(results, device.name, interface, titled=False)}"
+        for interface in reversed(Interface)
+    )
+    return Words(
+        f"With and without shear: {device.title}",
+        "Perceived roughness over strain score (top) and change-of-strain score (bottom), without and with shear.",
+        f"The same {len(device.conditions)} conditions: {parts}. In brackets the range of R² over all ratings with the"
+        f" stated order. Ratings: {_kinds(results)}. {ERROR_BARS}",
+    )
+
+
+def _ablation(results: Results) -> Words:
+    parts = []
+    for scene in results.scenes:
+        found = [
+            f"{INTERFACE_NAME[interface]} {_r2(row)}"
+            for interface in Interface
+            for row in _rows(results, scene.device.name, interface)
+            if row["readout"] == Readout.CHANGE_OF_STRAIN
+        ]
+        parts.append(f"{scene.device.title} ({counted(scene.device.conditions)}): {', '.join(found)}")
+    return Words(
+        "Every score with and without shear",
+        "Bars of strain scores (left) and change-of-strain scores (right) of every condition, with and without shear.",
+        f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}. {ERROR_BARS}",
+    )
+
+
+def _map(results: Results, device: Device, dispersion: str) -> Words:
+    chosen = [condition for condition in device.conditions if condition.dispersion == dispersion]
+    shown = _scores(results, device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN, [one.name for one in chosen])
+    return Words(
+        f"Strain in the section: {device.title}, {plain(dispersion)} dispersion",
+        "Colour maps of the maximum principal strain in the deformed section, and contact tractions on the skin.",
+        f"With shear, {counted(chosen)}. Change-of-strain scores: {shown}.",
+    )
+
+
+_WRITERS: dict[str, Callable[[Results], Words]] = {
+    "section": _section,
+    "figure_3_workflow": _workflow,
+    "figure_4_receptors": _receptors,
+    "figure_5_correlation": _correlation,
+    "figure_6_shear": _shear,
+    "ablation_shear": _ablation,
+}
+
+
+def _scores(
+    results: Results, device: str, interface: Interface, readout: Readout, names: Sequence[str] | None = None
+) -> str:
+    """Scores with errors of one device, interface and read-out, of all conditions or some."""
+    scale, power = SCORE_SCALE[readout]
+    rows = [
+        row
+        for row in results.scores
+        if (row["device"], row["interface"], row["readout"]) == (device, interface, readout)
+        and (names is None or row["condition"] in names)
+        and row["score"]
+    ]
+    found = (f"{row['condition']} {measured(float(row['score']), float(row['score_error']), scale)}" for row in rows)
+    unit = rows[0]["unit"] if rows else ""
+    scaled = f"{power}{UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
+    return f"{', '.join(found)} {scaled}"
+
+
+def _rows(results: Results, device: str, interface: Interface) -> list[Row]:
+    return [row for row in results.correlations if (row["device"], row["interface"]) == (device, interface)]
+
+
+def _correlated(results: Results, device: str, interface: Interface, titled: bool = True) -> str:
+    found = "; ".join(
+        f"{READOUT_NAME[Readout(row['readout'])].lower()}: {correlation_words(row)}"
+        for row in _rows(results, device, interface)
+    )
+    return f"{results.device(device).title}, {found}" if titled else found
+
+
+def _r2(row: Row) -> str:
+    return f"{float(row['r2']):.3f}, {SLOPES[row['slope_sign']]}" if row["r2"] else f"({row['note']})"
+
+
+def _kinds(results: Results) -> str:
+    kinds = dict.fromkeys(row["rating_kind"] for row in results.correlations if row["rating_kind"])
+    return ", ".join(kinds) or "none"

@@ -1,0 +1,140 @@
+"""The report's tables, as text: scores with errors, their accuracy, correlations. Rows are those of the CSV files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from statistics import median
+
+from ..figures.style import INTERFACE_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
+from ..scene import Interface, Readout
+
+Row = Mapping[str, str]
+COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition
+ERROR_DIGITS = 2  # significant digits of an error [1]; the value ends where its error does
+DIGITS = 4  # significant digits of a value without an error [1]
+NOTHING = "\N{EN DASH}"
+SLOPES = {"-1": "falling", "0": "level", "1": "rising"}
+SMALLEST_P = 0.001  # below it p is given as a bound
+
+
+@dataclass(frozen=True)
+class Body:
+    """Rows of one device: its title, and for each condition its name and cells."""
+
+    title: str
+    rows: tuple[tuple[str, tuple[str, ...]], ...]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table with two rows of headings: groups with the columns of each, then a body for each device."""
+
+    groups: tuple[tuple[str, tuple[str, ...]], ...]
+    bodies: tuple[Body, ...]
+
+
+def measured(value: float, error: float, scale: float = 1.0) -> str:
+    """A value with its error, both times `scale`: the error with two digits, the value as far as these reach.
+
+    >>> measured(0.324622, 0.000654)
+    '0.32462 ± 0.00065'
+    """
+    value, error = scale * value, scale * error
+    if not (math.isfinite(error) and error > 0.0):
+        return f"{value:.{DIGITS}g}"
+    decimals = max(ERROR_DIGITS - 1 - math.floor(math.log10(error)), 0)
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+
+
+def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
+    """Every score with its error. scores: rows of scores.csv. titles: of devices by name."""
+
+    def cell(row: Row) -> str:
+        scale, _ = SCORE_SCALE[Readout(row["readout"])]
+        return measured(float(row["score"]), float(row["score_error"]), scale)
+
+    unit = scores[0]["unit"]
+    return _grid(scores, titles, [score_label(readout, unit) for readout in Readout], cell)
+
+
+def accuracy_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
+    """Every score's error over the score [%]. Arguments as for `score_grid`."""
+    names = [f"{READOUT_NAME[readout]} (%)" for readout in Readout]
+    return _grid(scores, titles, names, lambda row: f"{PERCENT * relative_error(row):.2f}")
+
+
+def relative_error(row: Row) -> float:
+    """A score's stated error over the score [1]."""
+    return float(row["score_error"]) / float(row["score"])
+
+
+def accuracy_summary(scores: Sequence[Row]) -> str:
+    """Median and largest relative error of all scores, in words."""
+    errors = {(row["device"], row["condition"], row["interface"], row["readout"]): relative_error(row)
+              for row in scores if row["score"]}  # fmt: skip
+    device, condition, interface, readout = max(errors, key=lambda case: errors[case])
+    largest = errors[device, condition, interface, readout]
+    return (
+        f"Of n = {len(errors)} scores the median error is {PERCENT * median(errors.values()):.2f} %, the largest"
+        f" {PERCENT * largest:.2f} % ({device}, {condition}, {INTERFACE_NAME[Interface(interface)]},"
+        f" {READOUT_NAME[Readout(readout)].lower()})."
+    )
+
+
+def correlation_rows(correlations: Sequence[Row], titles: Mapping[str, str]) -> list[tuple[str, ...]]:
+    """Cells of the table of correlations, headed by CORRELATION_COLUMNS."""
+    rows: list[tuple[str, ...]] = []
+    for row in correlations:
+        spread = f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}" if row["r2_lowest"] else NOTHING
+        published = f"{float(row['published_r2']):g}" if row["published_r2"] else row["published_words"] or NOTHING
+        rows.append(
+            (
+                titles[row["device"]],
+                INTERFACE_NAME[Interface(row["interface"])],
+                READOUT_NAME[Readout(row["readout"])],
+                row["n"],
+                f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
+                spread,
+                SLOPES.get(row["slope_sign"], NOTHING),
+                f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
+                p_value(row["p"]) if row["p"] else NOTHING,
+                row["rating_kind"] or NOTHING,
+                published,
+                row["note"] or NOTHING,
+            )
+        )
+    return rows
+
+
+CORRELATION_COLUMNS = (
+    "Device", "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings",
+    "Published R²", "Note",
+)  # fmt: skip
+
+
+def p_value(text: str) -> str:
+    r"""A p as it is shown: two digits, or a bound.
+
+    >>> p_value("1.9e-06"), p_value("0.0493")
+    ('<\xa00.001', '0.049')
+    """
+    p = float(text)
+    return f"{p:.2g}" if p >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
+
+
+def _grid(scores: Sequence[Row], titles: Mapping[str, str], columns: Sequence[str], cell: Callable[[Row], str]) -> Grid:
+    """Grid of what `cell` says of each score; where there is none, its note."""
+    found: dict[str, dict[str, dict[tuple[str, str], str]]] = {}
+    for row in scores:
+        text = cell(row) if row["score"] else row["note"]
+        found.setdefault(row["device"], {}).setdefault(row["condition"], {})[row["interface"], row["readout"]] = text
+    bodies = tuple(
+        Body(
+            titles[device],
+            tuple((name, tuple(cells.get(key, NOTHING) for key in COLUMNS)) for name, cells in conditions.items()),
+        )
+        for device, conditions in found.items()
+    )
+    return Grid(tuple((INTERFACE_NAME[interface].capitalize(), tuple(columns)) for interface in Interface), bodies)

@@ -1,0 +1,118 @@
+"""The pages of docs/: links lead somewhere, names exist, and what is made from the project is what the project says."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+from fingerpad.codemap import imported, levels, page, summary
+from fingerpad.errors import FingerpadError
+
+ROOT = Path(__file__).parents[1]
+PACKAGE = ROOT / "src" / "fingerpad"
+RULES = sorted((ROOT / "workflow" / "rules").glob("*.smk"))
+SCRIPTS = sorted((ROOT / "workflow" / "scripts").glob("*.py"))
+PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md")), ROOT / "data" / "README.md"]
+MODEL = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")
+EQUATIONS, _, INDEX = MODEL.partition("## From a figure to its equation")
+MODULES = {path.relative_to(PACKAGE).as_posix(): path.read_text(encoding="utf-8") for path in PACKAGE.rglob("*.py")}
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_links_within_the_project_lead_to_files(path: Path) -> None:
+    for target in re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8")):
+        if "://" not in target:
+            assert (path.parent / target.partition("#")[0]).exists(), target
+
+
+def names_in(text: str) -> list[str]:
+    """Names such as `module.function` in a page, whose first part is a module or a package of the library."""
+    known = {path.split("/")[0].removesuffix(".py") for path in MODULES}
+    found = re.findall(r"`([a-z_]+(?:\.(?!csv|npz)[A-Za-z_]+)+)`", text)
+    return sorted({name for name in found if name.split(".")[0] in known and not is_key(name)})
+
+
+def is_key(name: str) -> bool:
+    """Whether a dotted name is a key of config.yaml: `contact.criterion`, say, beside the module `contact`."""
+    section, _, key = name.partition(".")
+    text = (ROOT / "config" / "config.yaml").read_text(encoding="utf-8")
+    block = re.search(rf"^{section}:.*\n((?:[ #].*\n|\n)*)", text, re.MULTILINE)
+    return bool(block and re.search(rf"^  {key}:", block[1], re.MULTILINE))
+
+
+@pytest.mark.parametrize("name", names_in(MODEL))
+def test_every_function_that_the_model_names_exists(name: str) -> None:
+    parts = name.split(".")
+    for depth in range(len(parts), 0, -1):
+        path = PACKAGE.joinpath(*parts[:depth])
+        if path.with_suffix(".py").is_file() or path.is_dir():
+            found: object = importlib.import_module(".".join(["fingerpad", *parts[:depth]]))
+            for attribute in parts[depth:]:
+                assert hasattr(found, attribute), name
+                found = getattr(found, attribute)
+            return
+
+
+def test_the_model_names_enough_to_be_checked() -> None:
+    assert len(names_in(MODEL)) > 30
+
+
+def test_every_constant_and_error_that_the_model_names_exists() -> None:
+    text = "\n".join(MODULES.values())
+    for name in re.findall(r"`([A-Z][A-Z_]{4,})`", MODEL):
+        assert re.search(rf"^{name}\b", text, re.MULTILINE), name
+    errors = {cls.__name__ for cls in FingerpadError.__subclasses__()}
+    assert set(re.findall(r"`(\w+Error)`", MODEL)) <= errors | {
+        cls.__name__ for parent in FingerpadError.__subclasses__() for cls in parent.__subclasses__()
+    }
+
+
+def test_every_figure_of_all_leads_to_an_equation() -> None:
+    rules = "".join(path.read_text(encoding="utf-8") for path in RULES)
+    stems = set(re.findall(r"results/figures/(\w+)\.png", rules)) - {"benchmark", "rules"}
+    assert len(stems) > 5
+    for stem in stems:
+        assert f"`{stem}`" in INDEX
+    for name in re.findall(r"`(figure_[a-z]+)`", INDEX):
+        assert re.search(rf"rule {name}:", rules), name
+
+
+def test_equations_are_numbered_in_order() -> None:
+    found = re.findall(r"\\tag\{(\d+)\}|\| \((\d+)\) \|$", EQUATIONS, re.MULTILINE)
+    numbers = [int(displayed or tabled) for displayed, tabled in found]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert {int(number) for number in re.findall(r"\((\d+)\)", INDEX)} <= set(numbers)
+
+
+def test_committed_map_is_what_the_code_says() -> None:
+    made = page(
+        MODULES,
+        {path.stem: path.read_text(encoding="utf-8") for path in RULES},
+        {path.stem: path.read_text(encoding="utf-8") for path in SCRIPTS},
+    )
+    committed = (ROOT / "docs" / "map.md").read_text(encoding="utf-8")
+    assert committed == made, "the code has changed: run `snakemake docs` and commit docs/map.md"
+
+
+def test_imports_have_no_circle_and_levels_rise() -> None:
+    single = {path.removesuffix(".py"): text for path, text in MODULES.items() if "/" not in path}
+    edges = [(other, name) for name, text in single.items() for other in imported(text) if other in single]
+    level = levels(single, edges)
+    assert all(level[start] < level[stop] for start, stop in edges)
+
+
+def test_citation_has_the_version_of_the_project() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == project["version"]
+    assert citation["license"] == project["license"]
+
+
+@pytest.mark.parametrize("path", sorted(MODULES))
+def test_every_module_says_in_a_line_what_it_is(path: str) -> None:
+    assert summary(MODULES[path]).endswith((".", ":"))

@@ -1,0 +1,294 @@
+"""The report: one page that holds all it shows, says what the tables say, and comes out the same every time."""
+
+from __future__ import annotations
+
+import base64
+import dataclasses
+import re
+from collections.abc import Mapping
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from fingerpad.digraph import layers, placed, read_dot, reduced
+from fingerpad.report.captions import Results, Words, words
+from fingerpad.report.page import Picture, data_uri, pictures_of, report
+from fingerpad.report.provenance import provenance
+from fingerpad.report.tables import accuracy_summary, measured, p_value, score_grid
+from fingerpad.scene import Interface, Readout
+from fingerpad.scenefile import load_scene, read_yaml
+from fingerpad.sources import Origin, page, quantities
+
+ROOT = Path(__file__).parents[1]
+CONFIG = ROOT / "config" / "config.yaml"
+DEVICES = [ROOT / "config" / "devices" / f"device{number}.yaml" for number in (2, 3)]
+TEMPLATE = ROOT / "workflow" / "report" / "report.html"
+PIXEL = base64.b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
+FIGURES = ["map_device3_alternate", "figure_6_shear", "section", "figure_3_workflow", "figure_4_receptors"]
+FIGURES += ["figure_5_correlation", "ablation_shear"]
+TRICK = "<script>alert('no')</script>"  # what a table may say is text, never markup
+
+
+def score(device: str, phase: int, interface: Interface, readout: Readout, value: str) -> dict[str, str]:
+    """A row of scores.csv, or one without a prediction."""
+    said = {"score": value, "score_error": "0.0012" if value else "", "unit": "mm2"}
+    name = f"alternate_{phase:03}"
+    note = "" if value else "no prediction"
+    where = {"device": device, "condition": name, "dispersion": "alternate", "phase_deg": str(float(phase))}
+    return where | {"interface": str(interface), "readout": str(readout)} | said | {"note": note}
+
+
+def correlation(device: str, interface: Interface, readout: Readout, r2: str) -> dict[str, str]:
+    """A row of correlations.csv, or one without numbers."""
+    found = {
+        "slope_sign": "-1",
+        "r2": r2,
+        "r2_lowest": "0.25",
+        "r2_highest": "0.75",
+        "kendall_tau": "-0.5",
+        "p": "0.03",
+    }
+    numbers = found if r2 else dict.fromkeys(found, "")
+    where = {"device": device, "interface": str(interface), "readout": str(readout), "n": "3" if r2 else "0"}
+    last = {"rating_kind": "ordinal surrogate", "note": "" if r2 else "no prediction"}
+    return where | numbers | {"published_r2": "", "published_words": TRICK} | last
+
+
+@pytest.fixture
+def results() -> Results:
+    """Two devices; the second makes no prediction without shear."""
+    cases = [
+        (device, interface, readout)
+        for interface in Interface
+        for device in ("device2", "device3")
+        for readout in Readout
+    ]
+    silent = ("device3", Interface.FRICTIONLESS)
+    return Results(
+        tuple(load_scene(CONFIG, path) for path in DEVICES),
+        tuple(score(*case[:1], phase, *case[1:], "" if case[:2] == silent else "0.4321")
+              for case in cases for phase in (0, 90, 180)),
+        tuple(correlation(*case, "" if case[:2] == silent else "0.625") for case in cases),
+        "device2",
+    )  # fmt: skip
+
+
+@pytest.fixture
+def html(results: Results, tmp_path: Path) -> str:
+    return built(results, tmp_path)
+
+
+def built(results: Results, folder: Path) -> str:
+    """The page of these results, with one pixel for each figure."""
+    for stem in FIGURES:
+        (folder / f"{stem}.png").write_bytes(PIXEL)
+    claims = [
+        {"claim": "It rises.", "source": "paper: Results", "holds": "True", "evidence": TRICK},
+        {"claim": "It falls.", "source": "paper: Results", "holds": "False", "evidence": "no"},
+    ]
+    return report(
+        TEMPLATE.read_text(encoding="utf-8"),
+        results,
+        claims,
+        {path.stem: quantities(read_yaml(path)) for path in (CONFIG, *DEVICES)},
+        pictures_of([folder / f"{stem}.png" for stem in FIGURES], results),
+        Picture("rules", Words("Rules", "Boxes.", "n = 2 rules."), data_uri(folder / "section.png")),
+        provenance(ROOT / "pyproject.toml", "0123abc", [CONFIG, *DEVICES]),
+    )
+
+
+class Parsed(HTMLParser):
+    """Tags with their attributes, in the order of the page; void and optional ends are written out or known."""
+
+    VOID = frozenset({"meta", "img", "br", "link"})
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, Mapping[str, str | None]]] = []
+        self.open: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def every(self, attribute: str, tag: str | None = None) -> list[str]:
+        """Values of an attribute, of all tags or one kind."""
+        return [str(found[attribute]) for name, found in self.tags if attribute in found and tag in {None, name}]
+
+
+def test_page_is_well_formed(html: str) -> None:
+    assert html.lstrip().startswith("<!DOCTYPE html>")
+    parsed = Parsed(html)
+    assert parsed.open == []
+    anchors = parsed.every("id")
+    assert len(set(anchors)) == len(anchors)
+    assert [tag for tag, _ in parsed.tags].count("h1") == 1
+
+
+def test_every_picture_is_in_the_page_and_has_an_alternative(html: str) -> None:
+    pictures = [found for tag, found in Parsed(html).tags if tag == "img"]
+    assert len(pictures) == len(FIGURES) + 1
+    for picture in pictures:
+        kind, _, data = str(picture["src"]).partition(",")
+        assert kind == "data:image/png;base64"
+        assert base64.b64decode(data) == PIXEL
+        assert picture["alt"]
+
+
+def test_every_link_leads_to_a_place_in_the_page(html: str) -> None:
+    parsed = Parsed(html)
+    links = parsed.every("href")
+    assert links
+    assert all(link.startswith("#") for link in links)
+    assert {link[1:] for link in links} <= set(parsed.every("id"))
+    assert set(parsed.every("aria-labelledby")) <= set(parsed.every("id"))
+    headings = {str(found["id"]) for tag, found in parsed.tags if tag == "h2"}
+    assert headings <= {link[1:] for link in links}
+
+
+def test_nothing_is_loaded_from_anywhere(html: str) -> None:
+    assert not re.search(r"https?:|//[a-z]|url\(|@import|<script|<link|<iframe", html)
+
+
+def test_text_from_tables_is_no_markup(html: str) -> None:
+    assert TRICK not in html
+    assert "&lt;script&gt;" in html
+
+
+def test_same_inputs_same_bytes(results: Results, html: str, tmp_path: Path) -> None:
+    assert built(results, tmp_path) == html
+
+
+def test_page_holds_no_path_of_this_machine(html: str, tmp_path: Path) -> None:
+    assert str(ROOT) not in html
+    assert str(tmp_path) not in html
+
+
+def test_page_says_what_the_tables_say(html: str) -> None:
+    text = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
+    assert "0.4321 ± 0.0012" in text
+    assert "1 of n = 2 statements" in text
+    assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, p = 0.03, n = 3" in text  # noqa: RUF001  # as typeset
+    assert text.count("no prediction") > 12
+    assert "Ratings are ordinal surrogates." in text
+    assert "0123abc" in text
+    for path in (CONFIG, *DEVICES):
+        for quantity in quantities(read_yaml(path)):
+            if quantity.origin is Origin.ASSUMPTION:
+                assert quantity.key in text
+
+
+def test_every_caption_carries_its_count(results: Results) -> None:
+    for said in words(FIGURES, results).values():
+        assert re.search(r"n = \d|\d conditions", said.caption), said
+
+
+def test_figures_come_in_reading_order(results: Results) -> None:
+    assert list(words(FIGURES, results))[:2] == ["section", "figure_3_workflow"]
+    assert list(words(FIGURES, results))[-1] == "map_device3_alternate"
+
+
+def test_devices_without_a_lateral_one_have_captions(results: Results) -> None:
+    stems = [stem for stem in FIGURES if stem not in {"figure_3_workflow", "figure_6_shear"}]
+    assert set(words(stems, dataclasses.replace(results, lateral=None))) == set(stems)
+
+
+def test_figure_without_a_caption_is_an_error(results: Results) -> None:
+    with pytest.raises(KeyError, match="map_device3_high"):
+        words(["section", "map_device3_high"], results)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "scale", "text"),
+    [
+        (0.324622, 0.000654, 1.0, "0.32462 ± 0.00065"),
+        (0.001977, 0.000033, 1e3, "1.977 ± 0.033"),
+        (123.4, 56.0, 1.0, "123 ± 56"),
+        (0.5, 0.0, 1.0, "0.5"),
+    ],
+)
+def test_value_ends_where_its_error_does(value: float, error: float, scale: float, text: str) -> None:
+    assert measured(value, error, scale) == text
+
+
+def test_small_p_is_a_bound() -> None:
+    assert p_value("0.0005").startswith("<")
+    assert p_value("0.0493") == "0.049"
+
+
+def test_devices_that_come_in_parts_are_one_body(results: Results) -> None:
+    titles = {scene.device.name: scene.device.title for scene in results.scenes}
+    grid = score_grid(results.scores, titles)
+    assert [body.title for body in grid.bodies] == list(titles.values())
+    assert all(len(cells) == 4 for body in grid.bodies for _, cells in body.rows)
+
+
+def test_accuracy_counts_only_what_has_a_score(results: Results) -> None:
+    assert "n = 18 scores" in accuracy_summary(results.scores)
+    assert "0.28 %" in accuracy_summary(results.scores)
+
+
+# Sources
+
+
+def test_committed_page_of_assumptions_is_what_the_scene_files_say() -> None:
+    files = [CONFIG, *sorted((ROOT / "config" / "devices").glob("*.yaml"))]
+    made = page({f"{path.parent.name}/{path.name}": read_yaml(path) for path in files})
+    committed = (ROOT / "docs" / "assumptions.md").read_text(encoding="utf-8")
+    assert committed == made, "the scene files have changed: run `snakemake docs` and commit docs/assumptions.md"
+
+
+def test_every_source_of_a_scene_file_is_listed_once() -> None:
+    for path in (CONFIG, *DEVICES):
+        found = quantities(read_yaml(path))
+        assert len(found) == len(re.findall(r"\bsource: \"", path.read_text(encoding="utf-8")))
+        assert len({each.key for each in found}) == len(found)
+
+
+@pytest.mark.parametrize(
+    ("source", "origin", "said"),
+    [
+        ("assumption: a guess", Origin.ASSUMPTION, "a guess"),
+        ("paper: Table 2", Origin.PAPER, "Table 2"),
+        ("Seo et al. 2009: aluminium", Origin.REFERENCE, "Seo et al. 2009: aluminium"),
+        ("paper", Origin.REFERENCE, "paper"),
+    ],
+)
+def test_origin_is_the_first_word_of_a_source(source: str, origin: Origin, said: str) -> None:
+    (found,) = quantities({"a": {"value": True, "unit": "1", "source": source}})
+    assert (found.origin, found.source, found.value) == (origin, said, "true")
+
+
+# The graph of rules
+
+
+def test_graph_is_read_without_wildcards_and_styles() -> None:
+    dot = 'digraph x {\n\t0[label = "all", color = "red"];\n\t1[label = "map\\ndevice: a"];\n\t1 -> 0\n}'
+    assert read_dot(dot) == [("map", "all")]
+
+
+def test_edges_that_others_imply_are_left_out() -> None:
+    edges = [("a", "b"), ("b", "c"), ("a", "c"), ("a", "d"), ("c", "d")]
+    assert reduced(edges) == [("a", "b"), ("b", "c"), ("c", "d")]
+
+
+def test_every_edge_leads_down_and_no_boxes_overlap() -> None:
+    edges = [("a", "b"), ("b", "c"), ("c", "z"), ("a", "x"), ("x", "z"), ("a", "y"), ("y", "z"), ("b", "z")]
+    places, lines = placed(edges)
+    level = layers(edges)
+    assert all(level[start] < level[stop] for start, stop in edges)
+    for one, (x, row) in places.items():
+        for other, (x_other, row_other) in places.items():
+            assert one == other or row != row_other or abs(x - x_other) >= 1.0 - 1e-9
+    assert [(line[0], line[-1]) for line in lines] == [(places[start], places[stop]) for start, stop in edges]
+    assert all(stop[1] == start[1] + 1 for line in lines for start, stop in pairwise(line))

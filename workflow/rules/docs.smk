@@ -1,0 +1,54 @@
+# Pages and pictures of docs/ that follow from scene files and from `all`: `snakemake docs`. Those that say what was measured
+# are in pages.smk.
+# REQUIRED INPUTS: scene files, the code, results/figures/figure_5_correlation.png.
+# OUTPUTS: docs/assumptions.md, docs/map.md, docs/figures/figure_5_correlation.png
+
+
+rule docs:
+    input:
+        "docs/assumptions.md",
+        "docs/map.md",
+        "docs/figures/figure_5_correlation.png",
+
+
+rule assumptions:
+    input:
+        files=[CONFIG, *DEVICE_FILES],
+        code=code("assumptions.py"),
+    output:
+        listed="docs/assumptions.md",
+    log:
+        "results/logs/assumptions.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/assumptions.py"
+
+
+rule code_map:
+    input:
+        package=[SOURCE / "fingerpad" / "__init__.py", *sorted(SOURCE.glob("fingerpad/**/*.py"))],
+        rules=sorted((BASE / "workflow" / "rules").glob("*.smk")),
+        scripts=sorted((BASE / "workflow" / "scripts").glob("*.py")),
+        code=code("code_map.py"),
+    output:
+        page="docs/map.md",
+    log:
+        "results/logs/code_map.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/code_map.py"
+
+
+rule shown_figure:
+    input:
+        figure="results/figures/figure_5_correlation.png",
+    output:
+        figure="docs/figures/figure_5_correlation.png",
+    log:
+        "results/logs/shown_figure.log",
+    conda:
+        ENVIRONMENT
+    shell:
+        "cp {input.figure:q} {output.figure:q} 2> {log:q}"

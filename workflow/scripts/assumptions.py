@@ -1,0 +1,18 @@
+"""List every value of the scene files by where it comes from."""
+
+from pathlib import Path
+
+from fingerpad.files import write_text
+from fingerpad.scenefile import read_yaml
+from fingerpad.sources import page
+
+
+def main(files: list[Path], listed: Path) -> None:
+    """Read the scene files, write the page."""
+    named = {f"{path.parent.name}/{path.name}": read_yaml(path) for path in files}
+    write_text(listed, page(named))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main([Path(path) for path in job.input.files], Path(job.output.listed))

@@ -1,0 +1,73 @@
+"""Put tables, figures, assumptions and provenance of a run on one page."""
+
+from pathlib import Path
+
+from fingerpad.files import write_text
+from fingerpad.report.captions import Results, Words
+from fingerpad.report.page import Picture, data_uri, pictures_of, report
+from fingerpad.report.provenance import provenance
+from fingerpad.scenefile import load_scene, read_yaml
+from fingerpad.sources import quantities
+from fingerpad.store import read_rows
+
+
+def main(
+    config: Path,
+    devices: list[Path],
+    scores: Path,
+    correlations: Path,
+    claims: Path,
+    data: list[Path],
+    figures: list[Path],
+    graph: Path,
+    rules: Path,
+    template: Path,
+    pyproject: Path,
+    commit: str,
+    lateral: str | None,
+    page: Path,
+) -> None:
+    """Read everything, fill the template, write the page."""
+    scenes = tuple(load_scene(config, path) for path in devices)
+    results = Results(scenes, tuple(read_rows(scores)), tuple(read_rows(correlations)), lateral)
+    edges = read_rows(graph)
+    names = {row[end] for row in edges for end in ("rule", "feeds")}
+    said = Words(
+        "The run's rules",
+        "Boxes of rules, joined by lines from each rule to those that wait for it.",
+        f"What made this page (“snakemake report”): n = {len(names)} rules, each of which waits for those above it"
+        " that a line joins to it. A rule may run once for each device, condition and interface; waits that others"
+        " imply are left out.",
+    )
+    write_text(
+        page,
+        report(
+            template.read_text(encoding="utf-8"),
+            results,
+            read_rows(claims),
+            {path.stem: quantities(read_yaml(path)) for path in (config, *devices)},
+            pictures_of(figures, results),
+            Picture("rules", said, data_uri(rules)),
+            provenance(pyproject, commit, [config, *devices, *data, scores, correlations, claims]),
+        ),
+    )
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        Path(job.input.scores),
+        Path(job.input.correlations),
+        Path(job.input.claims),
+        [Path(path) for path in job.input.data],
+        [Path(path) for path in job.input.figures],
+        Path(job.input.graph),
+        Path(job.input.rules),
+        Path(job.input.template),
+        Path(job.input.pyproject),
+        job.params.commit,
+        job.params.lateral,
+        Path(job.output.page),
+    )
