@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
-from skfem import Basis
+from skfem import MeshTri2
 
+from .compliance import VOIGT
 from .condensation import contact_tractions, section_stiffness
 from .elasticity import displacement_basis, node_dofs
 from .fields import Fields
@@ -17,8 +18,11 @@ from .strain import maximum_principal
 CORNERS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # of the reference triangle
 
 
-def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fields:
-    """Fields under contact forces (n_loadings, n_contact, 2) [N/mm]: K u = f, one factorisation for all."""
+def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
+    """Displacement (n_loadings, 2, n_nodes) [mm] of all nodes under contact forces (n_loadings, n_contact, 2) [N/mm].
+
+    K u = f, one factorisation for all loadings.
+    """
     matrix, dofs = section_stiffness(section, scene)
     free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, section.fixed].ravel())
     tractions = contact_tractions(section, scene)
@@ -32,20 +36,38 @@ def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fi
     )
     displacement = np.zeros_like(right)
     displacement[free] = factors.solve(right[free])
+    return np.asarray(displacement.T[:, dofs])
 
-    basis = displacement_basis(section.mesh)
-    corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
-    at_corners = Basis(section.mesh, basis.elem, quadrature=(CORNERS, np.ones(3)))
-    nodes = node_dofs(basis)[:, section.mesh.t.T.ravel()]
-    strains = []
-    for column in displacement.T:
-        gradient = np.asarray(at_corners.interpolate(column).grad)
+
+def strain_at(mesh: MeshTri2, displacement: FloatArray, points: FloatArray) -> FloatArray:
+    """Strain (n_loadings, n_elements k, 3) [1], exx, eyy, gxy, at reference points (2, k) of every element, element by
+    element. displacement: (n_loadings, 2, n_nodes) [mm].
+    """
+    basis = displacement_basis(mesh, points=(points, np.ones(points.shape[1])))
+    unknowns = np.empty((displacement.shape[0], basis.N))
+    unknowns[:, node_dofs(basis)] = displacement
+    found = []
+    for field in unknowns:
+        gradient = np.asarray(basis.interpolate(field).grad)
         components = np.stack([gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]], axis=-1)
-        strains.append(maximum_principal(components.ravel()))
+        found.append(components.reshape(-1, VOIGT))
+    return np.array(found)
+
+
+def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fields:
+    """Fields under contact forces (n_loadings, n_contact, 2) [N/mm]."""
+    displacement = recover_displacement(section, scene, forces)
+    corners = section.mesh.t.T.ravel()
+    strain = strain_at(section.mesh, displacement, CORNERS)
     one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
-    one_of[section.mesh.t.T.ravel()] = np.arange(corner.shape[1])
+    one_of[corners] = np.arange(corners.size)
     interface, boundary = (
         one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
     )
-    moved = np.array([column[nodes] for column in displacement.T])
-    return Fields(corner, interface, boundary, moved, np.array(strains))
+    return Fields(
+        section.mesh.doflocs[:, corners],
+        interface,
+        boundary,
+        displacement[:, :, corners],
+        np.array([maximum_principal(components.ravel()) for components in strain]),
+    )

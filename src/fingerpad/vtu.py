@@ -1,0 +1,113 @@
+"""Full fields of solved states as VTU files, which ParaView opens, and as a collection of states in time.
+
+Every second-order triangle has six points of its own, as strain and stress jump between elements. Arrays carry their
+unit in their name, if they have one. Tensors have the components xx, yy, zz, xy, yz, xz, as VTK orders symmetric ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+
+from .condensation import contact_tractions
+from .measures import stress
+from .mesh import SectionMesh
+from .recovery import recover_displacement, strain_at
+from .scene import FloatArray, Scene
+from .strain import maximum_principal
+
+NODES = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])  # corners, midpoints 01, 12, 20
+TURNED = [0, 2, 1, 5, 4, 3]  # the same nodes in the opposite sense
+SYMMETRIC = 6  # components of a symmetric tensor [1]
+
+
+def field_meshes(section: SectionMesh, scene: Scene, forces: FloatArray) -> list[meshio.Mesh]:
+    """The undeformed section with the fields of each state, from contact forces (n_states, n_contact, 2) [N/mm].
+
+    At points: displacement_mm, strain (tensor, exy = gxy / 2), maximum_principal_strain, stress_MPa (of the element's
+    own layer), contact_pressure_MPa and contact_shear_MPa of the actuators on the skin, zero elsewhere. In cells:
+    layer, counted from the pad's skin inwards and on with the dorsal layers.
+    """
+    mesh = section.mesh
+    nodes = np.vstack([mesh.t, mesh.nvertices + mesh.t2f[[0, 1, 2]]])
+    order = np.where(_clockwise(mesh.doflocs[:, mesh.t])[:, None], TURNED, np.arange(SYMMETRIC))
+    own = np.take_along_axis(nodes.T, order, axis=1).ravel()
+    point = (len(NODES[0]) * np.arange(len(order))[:, None] + order).ravel()
+    cells = [("triangle6", np.arange(own.size).reshape(order.shape))]
+    materials = [layer.material for layer in (*scene.model.finger.pad, *scene.model.finger.dorsal)]
+    layer_of_point = np.repeat(section.layer, len(NODES[0]))
+
+    displacement = recover_displacement(section, scene, forces)
+    tractions = skin_tractions(section, scene, forces)
+    found = []
+    for moved, strain, traction in zip(displacement, strain_at(mesh, displacement, NODES), tractions, strict=True):
+        components = strain[point]
+        stresses = np.empty((own.size, 4))
+        for number, material in enumerate(materials):
+            inside = layer_of_point == number
+            stresses[inside] = stress(components[inside].ravel(), material)
+        exx, eyy, gxy = components.T
+        nothing = np.zeros_like(exx)
+        point_data = {
+            "displacement_mm": _in_space(moved[:, own]),
+            "strain": _symmetric(exx, eyy, nothing, gxy / 2.0),
+            "maximum_principal_strain": maximum_principal(components.ravel()),
+            "stress_MPa": _symmetric(*stresses.T),
+            "contact_pressure_MPa": traction[1, own],
+            "contact_shear_MPa": traction[0, own],
+        }
+        found.append(meshio.Mesh(_in_space(mesh.doflocs[:, own]), cells, point_data, {"layer": [section.layer]}))
+    return found
+
+
+def skin_tractions(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
+    """Tractions of the actuators on all nodes (n_states, 2, n_nodes) [MPa], along x and y: linear between the skin's
+    vertices, zero off the skin that an actuator can reach.
+    """
+    tractions = contact_tractions(section, scene)
+    vertices = np.isin(section.skin[::2], tractions.nodes)
+    on_skin = np.zeros((len(forces), 2, section.skin.size))
+    on_skin[:, :, np.flatnonzero(vertices) * 2] = (forces / tractions.weight[:, None]).transpose(0, 2, 1)
+    on_skin[:, :, 1::2] = (on_skin[:, :, :-2:2] + on_skin[:, :, 2::2]) / 2.0
+    everywhere = np.zeros((len(forces), 2, section.mesh.doflocs.shape[1]))
+    everywhere[:, :, section.skin] = on_skin
+    return everywhere
+
+
+def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
+    """Write one state as a compressed VTU file."""
+    meshio.write(path, mesh, file_format="vtu")
+
+
+def write_collection(path: Path, times: Sequence[float], files: Sequence[Path]) -> None:
+    """Write a PVD file that names the VTU file of each time [s]; files lie in or below its folder."""
+    root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
+    collection = ElementTree.SubElement(root, "Collection")
+    for time, file in zip(times, files, strict=True):
+        name = file.relative_to(path.parent).as_posix()
+        ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), part="0", file=name)
+    ElementTree.indent(root)
+    ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+
+
+def _clockwise(corners: FloatArray) -> np.ndarray:
+    """Which triangles (n,) have corners (2, 3, n) that turn clockwise."""
+    (ax, ay), (bx, by) = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return np.asarray(ax * by < ay * bx)
+
+
+def _in_space(plane: FloatArray) -> FloatArray:
+    """Vectors (n, 3) from their components in the plane (2, n)."""
+    return np.stack([*plane, np.zeros(plane.shape[1])], axis=1)
+
+
+def _symmetric(xx: FloatArray, yy: FloatArray, zz: FloatArray, xy: FloatArray) -> FloatArray:
+    """Symmetric tensors (n, 6) without shear out of the plane."""
+    found = np.zeros((xx.size, SYMMETRIC))
+    for column, values in enumerate((xx, yy, zz, xy)):
+        found[:, column] = values
+    return found

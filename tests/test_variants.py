@@ -1,0 +1,89 @@
+"""Scores under other read-outs: the configured one among them, and how agreement is counted."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fingerpad.gabor import filtered_readouts
+from fingerpad.measures import Measure
+from fingerpad.resampling import resampling_to_grid
+from fingerpad.roughness import score_rows
+from fingerpad.scene import Interface, Side
+from fingerpad.variants import VARIANT, WAVELENGTH_FACTORS, agreement, material_at, variant_rows
+from scenes import condensed, scene, solved
+
+DEVICE = "device2"
+
+
+@cache
+def rows() -> list[dict[str, Any]]:
+    """All variants of Device 2 with shear, read on the dermis side."""
+    solutions = {
+        (c.name, Interface.SHEAR): solved(DEVICE, c.name, Interface.SHEAR) for c in scene(DEVICE).device.conditions
+    }
+    return list(variant_rows(scene(DEVICE), {Side.DERMIS: condensed(DEVICE)[0]}, solutions))
+
+
+def test_every_variant_is_scored_once() -> None:
+    conditions = len(scene(DEVICE).device.conditions)
+    assert len(rows()) == conditions * 2 * len(Measure) * len(WAVELENGTH_FACTORS)
+    assert len({tuple(row[key] for key in ("condition", "readout", *VARIANT)) for row in rows()}) == len(rows())
+
+
+def test_configured_variant_has_the_configured_score() -> None:
+    """Maximum principal strain at the configured wavelength is the workflow's read-out, with its unit."""
+    usual = [row for row in rows() if row["measure"] == Measure.MAXIMUM_PRINCIPAL and row["wavelength_factor"] == 1.0]
+    model = scene(DEVICE).model
+    expected = []
+    for condition in scene(DEVICE).device.conditions:
+        solution = solved(DEVICE, condition.name, Interface.SHEAR)
+        resampling = resampling_to_grid(solution.arc, model.gabor.spacing)
+        read = filtered_readouts(resampling, solution.strain, solution.change_of_strain, model.gabor)
+        expected += score_rows(scene(DEVICE), condition, Interface.SHEAR, read)
+    assert [row["score"] for row in usual] == pytest.approx([row["score"] for row in expected], rel=1e-12)
+    assert [row["unit"] for row in usual] == [row["unit"] for row in expected]
+
+
+def test_energy_and_stress_have_their_unit() -> None:
+    units = {row["measure"]: row["unit"] for row in rows()}
+    assert units[Measure.VON_MISES] == units[Measure.STRAIN_ENERGY] == "MPa mm2"
+    assert units[Measure.MAXIMUM_SHEAR] == "mm2"
+
+
+def test_material_is_that_of_the_side() -> None:
+    finger = scene(DEVICE).model.finger
+    assert material_at(scene(DEVICE), Side.DERMIS) == finger.layer("dermis").material
+    assert material_at(scene(DEVICE), Side.EPIDERMIS) == finger.layer("viable_epidermis").material
+
+
+def variant(condition: str, measure: Measure, score: float) -> dict[str, Any]:
+    """A row of the table."""
+    key = {"device": "d", "condition": condition, "interface": "shear", "readout": "strain"}
+    return key | {"measure": str(measure), "side": "dermis", "wavelength_factor": 1.0, "score": score}
+
+
+def test_agreement_counts_orders_and_correlation() -> None:
+    """Of three conditions: proportional scores agree, one exchanged pair of three gives tau 1/3, constants nothing."""
+    usual = [1.0, 2.0, 4.0]
+    others = {
+        Measure.MAXIMUM_PRINCIPAL: usual,
+        Measure.VON_MISES: [0.1, 0.2, 0.4],
+        Measure.STRAIN_ENERGY: [1.0, 4.0, 2.0],
+        Measure.MAXIMUM_SHEAR: [3.0, 3.0, 3.0],
+    }
+    table = [
+        variant(name, key, score) for key, scores in others.items() for name, score in zip("abc", scores, strict=True)
+    ]
+    found = {row["measure"]: row for row in agreement(table, Side.DERMIS)}
+    assert all(row["n"] == 3 for row in found.values())
+    for same in (Measure.MAXIMUM_PRINCIPAL, Measure.VON_MISES):
+        assert (found[same]["kendall_tau"], found[same]["r"]) == pytest.approx((1.0, 1.0))
+    exchanged = found[Measure.STRAIN_ENERGY]
+    assert exchanged["kendall_tau"] == pytest.approx(1.0 / 3.0)
+    assert exchanged["r"] == pytest.approx(np.corrcoef(usual, others[Measure.STRAIN_ENERGY])[0, 1])
+    assert found[Measure.MAXIMUM_SHEAR]["kendall_tau"] is None
+    assert found[Measure.MAXIMUM_SHEAR]["r"] is None

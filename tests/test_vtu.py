@@ -1,0 +1,200 @@
+"""VTU files: node order, fields of known displacements, and agreement with the condensed solution they come from."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+import pytest
+from scipy.spatial import KDTree
+
+from fingerpad.condensation import contact_tractions
+from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS, lame
+from fingerpad.measures import stress
+from fingerpad.recovery import strain_at
+from fingerpad.scene import FloatArray, Interface
+from fingerpad.strain import maximum_principal
+from fingerpad.vtu import NODES, field_meshes, skin_tractions, write_collection, write_vtu
+from scenes import condensed, scene, section, solved
+
+DEVICE, CONDITION = "device2", "alternate_180"
+# of VTK's quadratic triangle (corners, midpoints 01, 12, 20) at (x, y), from VTK's book of cell types
+SHAPES = [
+    lambda x, y: (1 - x - y) * (1 - 2 * x - 2 * y),
+    lambda x, y: x * (2 * x - 1),
+    lambda x, y: y * (2 * y - 1),
+    lambda x, y: 4 * x * (1 - x - y),
+    lambda x, y: 4 * x * y,
+    lambda x, y: 4 * y * (1 - x - y),
+]
+STEP = 0.5  # of reference coordinates, for gradients by central differences: exact for second order, however large
+ROUNDING = 1e-10  # of strains and mm; source: 1e-16 of sums of 1e4 terms, over elements of 0.01 mm
+ENGINEERING = np.array([1.0, 1.0, 2.0])  # gxy = 2 exy
+# a cubic on the reference triangle: weights and points of Hammer's rule of the third degree, whose sum is 1/2
+RULE = [(-27 / 96, 1 / 3, 1 / 3), *((25 / 96, *at) for at in ((0.2, 0.2), (0.6, 0.2), (0.2, 0.6)))]
+
+
+def interpolated(nodal: FloatArray, x: float, y: float) -> FloatArray:
+    """Values (n_elements, ...) at a reference point, from those at VTK's nodes (n_elements, 6, ...)."""
+    return np.asarray(sum(shape(x, y) * nodal[:, i] for i, shape in enumerate(SHAPES)))
+
+
+def gradient(nodal: FloatArray, x: float, y: float) -> FloatArray:
+    """Derivatives (2, n_elements, ...) along both reference coordinates."""
+    steps = ((STEP, 0.0), (0.0, STEP))
+    return np.array(
+        [(interpolated(nodal, x + a, y + b) - interpolated(nodal, x - a, y - b)) / (2 * STEP) for a, b in steps]
+    )
+
+
+@cache
+def meshes() -> list[meshio.Mesh]:
+    """Pre-indented and actuated state of one condition."""
+    solution = solved(DEVICE, CONDITION, Interface.SHEAR)
+    return field_meshes(section(DEVICE), scene(DEVICE), np.stack([solution.indented_force, *solution.force]))
+
+
+@pytest.fixture(scope="module")
+def read(tmp_path_factory: pytest.TempPathFactory) -> meshio.Mesh:
+    """The actuated state, written and read back."""
+    path = tmp_path_factory.mktemp("vtu") / "fields.vtu"
+    write_vtu(path, meshes()[-1])
+    return meshio.read(path)
+
+
+def by_element(read: meshio.Mesh, values: FloatArray) -> FloatArray:
+    """Point values (n_points, ...) by element and node (n_elements, 6, ...)."""
+    return np.asarray(values[read.cells_dict["triangle6"]])
+
+
+def test_what_is_read_is_what_was_written(read: meshio.Mesh) -> None:
+    written = meshes()[-1]
+    assert np.array_equal(read.points, written.points)
+    assert np.array_equal(read.cells_dict["triangle6"], written.cells_dict["triangle6"])
+    assert read.point_data.keys() == written.point_data.keys()
+    for name, values in written.point_data.items():
+        assert np.array_equal(read.point_data[name], values), name
+    assert np.array_equal(read.cell_data["layer"][0], section(DEVICE).layer)
+
+
+def test_midpoints_lie_between_their_corners(read: meshio.Mesh) -> None:
+    """VTK's order 01, 12, 20: curved or not, a midpoint is off the middle of its side by less than an eighth of it."""
+    points = by_element(read, read.points)
+    for middle, (start, stop) in zip((3, 4, 5), ((0, 1), (1, 2), (2, 0)), strict=True):
+        off = np.linalg.norm(points[:, middle] - (points[:, start] + points[:, stop]) / 2.0, axis=1)
+        assert np.all(off < np.linalg.norm(points[:, stop] - points[:, start], axis=1) / 8.0)
+
+
+def test_elements_turn_one_way_and_cover_the_section(read: meshio.Mesh) -> None:
+    """Jacobians of VTK's shapes are positive and integrate to outline less bone, pi (a b - c d), in mm2.
+
+    Sides that are parabolas miss an ellipse by the fourth order of their length: a rounding of 1e-6 here.
+    """
+    points = by_element(read, read.points[:, :2])
+    area = 0.0
+    for weight, x, y in RULE:
+        (ax, ay), (bx, by) = (each.T for each in gradient(points, x, y))
+        assert np.all(ax * by - ay * bx > 0.0)
+        area += weight * float(np.sum(ax * by - ay * bx))
+    finger = scene(DEVICE).model.finger
+    outline, bone = finger.width * finger.height, finger.bone_width * finger.bone_height
+    assert area == pytest.approx(np.pi / 4.0 * (outline - bone), rel=1e-6)
+
+
+def strain_of(read: meshio.Mesh, x: float, y: float) -> FloatArray:
+    """exx, eyy, gxy (n_elements, 3) at a reference point: gradients of the displacement read, by VTK's shapes."""
+    points = by_element(read, read.points[:, :2])
+    moved = by_element(read, read.point_data["displacement_mm"][:, :2])
+    jacobian, rise = (gradient(values, x, y).transpose(1, 2, 0) for values in (points, moved))
+    slope = rise @ np.linalg.inv(jacobian)
+    return np.stack([slope[:, 0, 0], slope[:, 1, 1], slope[:, 0, 1] + slope[:, 1, 0]], axis=1)
+
+
+@pytest.mark.parametrize("node", range(6))
+def test_strain_is_the_gradient_of_the_displacement(read: meshio.Mesh, node: int) -> None:
+    """At every node of every element, by VTK's shapes."""
+    strain = by_element(read, read.point_data["strain"])[:, node]
+    expected = strain_of(read, *NODES[:, node])
+    assert np.abs(strain[:, [0, 1, 3]] * ENGINEERING - expected).max() < ROUNDING
+    assert not strain[:, [2, 4, 5]].any()
+    principal = by_element(read, read.point_data["maximum_principal_strain"])[:, node]
+    assert np.abs(principal - maximum_principal(expected.ravel())).max() < ROUNDING
+
+
+def test_linear_displacement_has_constant_strain() -> None:
+    mesh = section(DEVICE).mesh
+    x, y = mesh.doflocs
+    linear = np.array([[0.01 * x + 0.02 * y, 0.03 * x - 0.04 * y]])
+    assert np.abs(strain_at(mesh, linear, NODES) - [0.01, -0.04, 0.05]).max() < 1e-12
+
+
+def test_stress_is_that_of_the_elements_layer(read: meshio.Mesh) -> None:
+    """szz = lambda (exx + eyy), with the layer's own material, and the rest of Hooke's law."""
+    finger = scene(DEVICE).model.finger
+    for number, layer in enumerate((*finger.pad, *finger.dorsal)):
+        own = section(DEVICE).layer == number
+        strain = by_element(read, read.point_data["strain"])[own].reshape(-1, 6)
+        stresses = by_element(read, read.point_data["stress_MPa"])[own].reshape(-1, 6)
+        exx, eyy, _, exy, _, _ = strain.T
+        expected = stress(np.stack([exx, eyy, 2.0 * exy], axis=1).ravel(), layer.material)
+        tolerance = 1e-12 * np.abs(stresses).max()
+        assert np.abs(stresses[:, :4] - expected).max() < tolerance
+        assert np.abs(stresses[:, 2] - lame(layer.material)[0] * (exx + eyy)).max() < tolerance
+
+
+@pytest.mark.parametrize("state", [0, 1])
+def test_tractions_integrate_to_the_contact_forces(state: int) -> None:
+    """Integrals of pressure and shear along the skin, linear between vertices, are the forces of the solution."""
+    solution = solved(DEVICE, CONDITION, Interface.SHEAR)
+    forces = np.stack([solution.indented_force, *solution.force])
+    mesh, skin = section(DEVICE).mesh, section(DEVICE).skin
+    on_skin = skin_tractions(section(DEVICE), scene(DEVICE), forces)[state][:, skin]
+    assert on_skin.max() > 0.0
+    vertices = mesh.doflocs[:, skin[::2]]
+    length = np.hypot(*np.diff(vertices, axis=1))
+    ends = on_skin[:, ::2]
+    found = np.sum((ends[:, 1:] + ends[:, :-1]) / 2.0 * length, axis=1)
+    assert found == pytest.approx(forces[state].sum(axis=0), rel=1e-9, abs=1e-9 * forces[state].sum())
+    assert on_skin[:, 1::2] == pytest.approx((ends[:, 1:] + ends[:, :-1]) / 2.0)
+
+
+def test_skin_moves_as_the_condensed_skin_does() -> None:
+    """Means of the written displacement under the hats of traction are the compliance's, C f."""
+    solution, (tissue, _) = solved(DEVICE, CONDITION, Interface.SHEAR), condensed(DEVICE)
+    mesh = meshes()[-1]
+    distance, point = KDTree(mesh.points[:, :2]).query(section(DEVICE).mesh.doflocs.T)
+    assert distance.max() == 0.0
+    tractions = contact_tractions(section(DEVICE), scene(DEVICE))
+    found = tractions.loads.T @ mesh.point_data["displacement_mm"][point[tractions.nodes], :2]
+    expected = tissue.compliance @ solution.force[-1].ravel()
+    assert np.abs(found.ravel() - expected).max() < ROUNDING
+
+
+def test_receptor_strain_is_the_strain_map(read: meshio.Mesh) -> None:
+    """Strain at the Gauss points of the receptor line, from the dermis, is what the condensed strain map gives."""
+    base, (tissue, _) = scene(DEVICE), condensed(DEVICE)
+    own = section(DEVICE).layer == [layer.name for layer in base.model.finger.pad].index("dermis")
+    points = by_element(read, read.points[:, :2])
+    places, strains = [], []
+    for start, stop in FACET_ENDS:
+        for share in GAUSS_POINTS:
+            at = (1.0 - share) * start + share * stop
+            places.append(interpolated(points, *at)[own])
+            strains.append(strain_of(read, *at)[own])
+    distance, index = KDTree(np.concatenate(places)).query(tissue.receptor)
+    assert distance.max() < ROUNDING
+    expected = tissue.strain @ solved(DEVICE, CONDITION, Interface.SHEAR).force[-1].ravel()
+    assert np.abs(np.concatenate(strains)[index].ravel() - expected).max() < ROUNDING
+
+
+def test_collection_names_files_and_times(tmp_path: Path) -> None:
+    files = [tmp_path / "states" / "0000.vtu", tmp_path / "fields.vtu"]
+    write_collection(tmp_path / "fields.pvd", [0.0, 0.25], files)
+    sets = ElementTree.parse(tmp_path / "fields.pvd").getroot().findall("Collection/DataSet")
+    assert [(each.get("timestep"), each.get("file")) for each in sets] == [
+        ("0.0", "states/0000.vtu"),
+        ("0.25", "fields.vtu"),
+    ]

@@ -1,0 +1,32 @@
+# Scores under other read-outs: measure, side of the interface, wavelength; and how they agree with those as configured.
+# Not part of `all`: ask for them with `snakemake readouts`.
+# REQUIRED INPUTS: results/{device}/mesh.npz, condensed.npz, results/{device}/{condition}/{interface}/solution.npz.
+# OUTPUTS: results/ablation_readout.csv, results/ablation_agreement.csv
+
+
+rule readouts:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        meshes=expand("results/{device}/mesh.npz", device=DEVICES),
+        condensed=expand("results/{device}/condensed.npz", device=DEVICES),
+        solutions=[
+            f"results/{name}/{SCENE[name].solved_as(condition.name).name}/{interface}/solution.npz"
+            for name in DEVICES
+            for condition in SCENE[name].device.conditions
+            for interface in SCENE[name].device.interfaces()
+        ],
+        code=code("readouts.py"),
+    output:
+        table="results/ablation_readout.csv",
+        agreement="results/ablation_agreement.csv",
+    log:
+        "results/logs/readouts.log",
+    benchmark:
+        "results/benchmarks/readouts.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        scenes=support.fingerprint([(SCENE[name].model, SCENE[name].device) for name in DEVICES]),
+    script:
+        "../scripts/readouts.py"

@@ -1,0 +1,66 @@
+"""Score all solved conditions under other read-outs, and compare with the scores as configured."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from fingerpad.compliance import CondensedSection
+from fingerpad.condensation import condense_section
+from fingerpad.mesh import load_section
+from fingerpad.scene import Interface, Scene, Side
+from fingerpad.scenefile import load_scene
+from fingerpad.solution import Solution
+from fingerpad.store import load, write_rows
+from fingerpad.variants import agreement, variant_rows
+
+
+def read_from(scene: Scene, side: Side) -> Scene:
+    """The scene with receptors read on that side."""
+    return replace(scene, model=replace(scene.model, readout=replace(scene.model.readout, side=side)))
+
+
+def main(
+    config: Path,
+    devices: Sequence[Path],
+    meshes: Sequence[Path],
+    condensed: Sequence[Path],
+    solutions: Sequence[Path],
+    table: Path,
+    compared: Path,
+) -> None:
+    """Read devices, their meshes and maps, and solutions (conditions by device, interfaces by condition); condense for
+    the other side; write a row a score and a row a comparison.
+    """
+    waiting = iter(solutions)
+    rows, compared_rows = [], []
+    for path, mesh, stored in zip(devices, meshes, condensed, strict=True):
+        scene = load_scene(config, path)
+        own = scene.model.readout.side
+        (other,) = set(Side) - {own}
+        sections = {
+            own: load(stored, CondensedSection),
+            other: condense_section(load_section(mesh), read_from(scene, other)),
+        }
+        solved: dict[tuple[str, Interface], Solution] = {
+            (condition.name, interface): load(next(waiting), Solution)
+            for condition in scene.device.conditions
+            for interface in scene.device.interfaces()
+        }
+        found = list(variant_rows(scene, sections, solved))
+        rows += found
+        compared_rows += agreement(found, own)
+    write_rows(table, rows)
+    write_rows(compared, compared_rows)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        [Path(path) for path in job.input.meshes],
+        [Path(path) for path in job.input.condensed],
+        [Path(path) for path in job.input.solutions],
+        Path(job.output.table),
+        Path(job.output.agreement),
+    )
