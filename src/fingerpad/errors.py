@@ -47,3 +47,7 @@ class CertificateError(ContactError):
 
 class ReachError(ContactError):
     """Contact reaches beyond the skin nodes that were considered."""
+
+
+class MissingResultError(FingerpadError):
+    """A result that is to be looked at has not been computed; the message names the target that makes it."""

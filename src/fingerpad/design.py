@@ -1,0 +1,152 @@
+"""Designs of a row of rigid pins, each answered in a fraction of a second: the finger is condensed once, to all skin
+within reach, and a design takes the skin under its pins.
+
+The skin is equally fine everywhere, as no edge has a place of its own. A second condensation, whose elements are twice
+as large, gives every score its error as in the workflow (`accuracy`): the difference of both, which is the error of the
+first order and more than that of any higher.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .accuracy import with_errors
+from .compliance import CondensedSection
+from .condensation import condense_section
+from .mesh import mesh_section
+from .prediction import Condensed, read_out
+from .resampling import resampling_to_grid
+from .roughness import score_rows
+from .scene import ActuatorRow, Condition, Control, Device, Interface, Numerics, Scene
+from .solution import Indented, Solution, indent_device, stimulate
+from .strain import FilteredReadouts
+
+# times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
+SIZE = 2.0
+COARSER = 2.0  # times the sizes and strides of the first condensation [1]; source: sizes on the skin go by halves
+ROOM = (
+    0.6  # mm beside a pin in which its skin may lie; source: skin moves by 0.5 mm under far, slippery pins (measured)
+)
+NAME = "design"
+
+
+@dataclass(frozen=True)
+class Pad:
+    """A finger condensed to all skin within reach.
+
+    scene: gives the model, the number of pins and their edges. fine, coarse: the skin on both meshes.
+    """
+
+    scene: Scene
+    fine: Condensed
+    coarse: Condensed
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """A row pressed onto a finger. scene: the row at rest. skin: what of the finger lies under it."""
+
+    scene: Scene
+    skin: Condensed
+    indented: Indented
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a design feels like.
+
+    scene: of the design, with one condition. section: the skin under its pins. solution, readouts: on the finer mesh.
+    rows: of the score table, with errors.
+    """
+
+    scene: Scene
+    section: CondensedSection
+    solution: Solution
+    readouts: FilteredReadouts
+    rows: list[dict[str, Any]]
+
+
+def condense_pad(scene: Scene, reach: float) -> Pad:
+    """Condense a finger to the skin up to |x| = reach [mm], where the outermost pin of any design may end, and ROOM.
+
+    Raises SceneError if the finger is narrower, MeshError, CondensationError.
+    """
+    numerics = scene.model.numerics
+    skin = replace(numerics, edge_size=SIZE * numerics.edge_size)
+    scenes = (_with_numerics(scene, each) for each in (skin, skin.coarsened(COARSER)))
+    return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
+
+
+def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pressed, Pressed]:
+    """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes.
+
+    Raises SceneError if pins overlap or numbers are out of range, ContactError if the path cannot be followed.
+    """
+    model, row = pad.scene.model, pad.scene.device.actuators
+    count = len(row.positions)
+    positions = tuple((number - (count - 1) / 2.0) * pitch for number in range(count))
+    pins = ActuatorRow(positions, width, row.edge_radius)
+    model = replace(model, contact=replace(model.contact, friction=friction))
+    scene = Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, pins, (_condition(count, 0.0, 0.0, True),)))
+    coarse = _with_numerics(scene, model.numerics.coarsened(COARSER))
+    return _pressed(scene, pad.fine), _pressed(coarse, pad.coarse)
+
+
+def answer(pressed: tuple[Pressed, Pressed], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
+    """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
+    pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
+
+    Raises ContactError if the path cannot be followed.
+    """
+    found = []
+    for row in pressed:
+        condition = _condition(len(row.scene.device.actuators.positions), amplitude, phase_deg, lateral)
+        scene = replace(row.scene, device=replace(row.scene.device, conditions=(condition,)))
+        solution = stimulate(scene, row.skin.section, row.indented, condition)
+        readouts = read_out(scene, row.skin, solution)
+        rows = score_rows(scene, condition, Interface.SHEAR, readouts)
+        found.append(Answer(scene, row.skin.section, solution, readouts, rows))
+    fine, coarse = found
+    return replace(fine, rows=with_errors(fine.rows, coarse.rows))
+
+
+def under_row(section: CondensedSection, row: ActuatorRow) -> CondensedSection:
+    """The section with those contact nodes alone that lie under a pin or within ROOM of one: others bear nothing."""
+    distance = np.min(np.abs(section.position[:, [0]] - np.asarray(row.positions)), axis=1)
+    kept = np.flatnonzero(distance <= row.width / 2.0 + ROOM)
+    unknowns = (2 * kept[:, None] + np.arange(2)).ravel()
+    return replace(
+        section,
+        position=section.position[kept],
+        weight=section.weight[kept],
+        compliance=section.compliance[np.ix_(unknowns, unknowns)],
+        strain=section.strain[:, unknowns],
+    )
+
+
+def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) -> Condition:
+    """The state at the first pin's peak."""
+    path = np.where(np.arange(count) % 2 == 0, amplitude, amplitude * np.cos(np.deg2rad(phase_deg)))[None, :]
+    still = np.zeros_like(path)
+    normal, tangential = (still, path) if lateral else (path, still)
+    return Condition(NAME, "alternate", phase_deg, np.array([1.0]), normal, tangential)
+
+
+def _with_numerics(scene: Scene, numerics: Numerics) -> Scene:
+    return replace(scene, model=replace(scene.model, numerics=numerics))
+
+
+def _condensed(scene: Scene, reach: float) -> Condensed:
+    """All skin within reach [mm], as if it lay under one wide pin."""
+    one = ActuatorRow((0.0,), 2.0 * reach, 0.0)
+    covered = Scene(scene.model, Device(NAME, NAME, Control.DISPLACEMENT, one, (_condition(1, 0.0, 0.0, True),)))
+    section = condense_section(mesh_section(covered, np.array([[0.0, reach]])), covered)
+    return Condensed(section, None, resampling_to_grid(section.arc, scene.model.gabor.spacing))
+
+
+def _pressed(scene: Scene, skin: Condensed) -> Pressed:
+    own = replace(skin, section=under_row(skin.section, scene.device.actuators))
+    return Pressed(scene, own, indent_device(scene, own.section, None, Interface.SHEAR))

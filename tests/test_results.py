@@ -1,0 +1,35 @@
+"""Where results are found, and what is said of those that are not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from fingerpad.errors import MissingResultError
+from fingerpad.results import needed, results_root
+
+
+def test_root_is_the_nearest_folder_with_results(tmp_path: Path) -> None:
+    (tmp_path / "results").mkdir()
+    deep = tmp_path / "notebooks" / "mine"
+    deep.mkdir(parents=True)
+    assert results_root(deep) == results_root(tmp_path) == tmp_path.resolve()
+
+
+def test_no_results_at_all_is_said(tmp_path: Path) -> None:
+    with pytest.raises(MissingResultError, match="no folder 'results' .*`snakemake all`"):
+        results_root(tmp_path)
+
+
+def test_missing_result_names_its_target(tmp_path: Path) -> None:
+    with pytest.raises(MissingResultError, match=r"`snakemake results/scores\.csv`"):
+        needed(tmp_path, "results/scores.csv")
+    with pytest.raises(MissingResultError, match="`snakemake accuracy`"):
+        needed(tmp_path, "results/accuracy/closed_forms.csv", "accuracy")
+
+
+def test_result_that_is_there_is_found(tmp_path: Path) -> None:
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "scores.csv").touch()
+    assert needed(tmp_path, "results/scores.csv").is_file()
