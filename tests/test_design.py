@@ -70,8 +70,8 @@ def test_scores_are_the_devices_within_the_errors_of_both(condition: str, interf
 
 
 def test_other_skin_bears_nothing() -> None:
-    """Taking the skin under the row alone changes nothing: on all of the pad's skin receptors are strained the same, but
-    for where pre-indentation ends, 1e-4 mm in 1.6."""
+    """Taking the skin under the row alone changes nothing: on all of the pad's skin, receptors are strained the same,
+    but for where pre-indentation ends, 1e-4 mm in 1.6."""
     fine, _ = pressed(0.6)
     own, all_skin = fine.skin.section, pad().fine.section
     assert own.position.shape[0] < all_skin.position.shape[0]

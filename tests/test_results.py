@@ -18,7 +18,7 @@ def test_root_is_the_nearest_folder_with_results(tmp_path: Path) -> None:
 
 
 def test_no_results_at_all_is_said(tmp_path: Path) -> None:
-    with pytest.raises(MissingResultError, match="no folder 'results' .*`snakemake all`"):
+    with pytest.raises(MissingResultError, match=r"no folder 'results' .*`snakemake all`"):
         results_root(tmp_path)
 
 

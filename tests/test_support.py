@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import re
 from pathlib import Path
 
@@ -29,6 +30,7 @@ FILES = {
     "src/fingerpad/drawing/style.py": "",
     "src/fingerpad/drawing/unused.py": "",
 }
+REACHED_BY_MIDDLE = ["__init__", "middle", "leaf", "late", "top"]
 DRAWING = ["drawing/__init__", "drawing/map", "drawing/style", "leaf", "late"]
 
 
@@ -65,6 +67,17 @@ def test_reaches_the_package_itself(code: Path) -> None:
 def test_reaches_nothing_without_the_package(code: Path) -> None:
     (code / "script.py").write_text("import numpy\nfrom fingerpadding import top\n", encoding="utf-8")
     assert reached_modules(code / "script.py", code / "src") == [str(code / "script.py")]
+
+
+def test_reaches_what_the_code_of_a_notebook_reaches(code: Path) -> None:
+    """Its code cells alone: text that reads like an import is none."""
+    cells = [("markdown", ["from fingerpad.late import never"]), ("code", ["x = 1\n", "import fingerpad.middle"])]
+    notebook = {"cells": [{"cell_type": kind, "source": source} for kind, source in cells]}
+    path = code / "look.ipynb"
+    path.write_text(json.dumps(notebook), encoding="utf-8")
+    package = code / "src" / "fingerpad"
+    found = reached_modules(path, code / "src")
+    assert found == sorted(str(each) for each in (path, *(package / f"{name}.py" for name in REACHED_BY_MIDDLE)))
 
 
 def test_is_sorted_and_without_repeats(code: Path) -> None:

@@ -19,7 +19,9 @@ THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"
 
 
 def reached_modules(script: Path, source: Path) -> list[str]:
-    """The script and every module of the package that it reaches by imports, sorted: edits to these rerun its rule."""
+    """The script, or notebook, and every module of the package that it reaches by imports, sorted: edits to these rerun
+    its rule.
+    """
     reached: set[Path] = set()
     waiting = [script]
     while waiting:
@@ -34,7 +36,7 @@ def reached_modules(script: Path, source: Path) -> list[str]:
 def _imported(path: Path, source: Path) -> list[Path]:
     """Files of the package that one file imports."""
     found: list[Path] = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(ast.parse(_program(path))):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -55,6 +57,15 @@ def _imported(path: Path, source: Path) -> list[Path]:
             module = source.joinpath(*parts).with_suffix(".py")
             found.extend(file for file in (*packages, module) if file.is_file())
     return found
+
+
+def _program(path: Path) -> str:
+    """The text of a module, or of a notebook's code cells."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix != ".ipynb":
+        return text
+    cells = json.loads(text)["cells"]
+    return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
 
 
 def fingerprint(*parts: Any) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
 from typing import Any, NamedTuple
@@ -147,6 +148,14 @@ def save(figure: Figure, stem: Path) -> None:
         with replacing(stem.with_name(f"{stem.name}.pdf")) as part:
             nothing = {"Creator": None, "Producer": None, "CreationDate": None}
             figure.savefig(part, format="pdf", metadata=nothing)
+
+
+def as_png(figure: Figure, resolution: float) -> bytes:
+    """A figure as a picture for a screen, at a resolution [dots per inch]."""
+    file = BytesIO()
+    with mpl.rc_context(RC):
+        figure.savefig(file, format="png", dpi=resolution, pil_kwargs=PNG)
+    return file.getvalue()
 
 
 def conditions_of(devices: Iterable[Device]) -> list[Shown]:

@@ -1,0 +1,87 @@
+"""Sliders for a design in a notebook: every change draws pressure, receptor strain and scores anew."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from html import escape
+from time import perf_counter
+from typing import Any
+
+import ipywidgets
+
+from .design import Answer, Pad, Pressed, answer, press
+from .errors import FingerpadError
+from .figures.design import design_figure
+from .figures.style import as_png
+from .scene import Scene
+
+# smallest, largest value and step of each slider, in the unit that its label names
+LIMITS = {
+    "pitch": (1.4, 3.0, 0.1),
+    "width": (0.4, 1.2, 0.1),
+    "friction": (0.0, 1.0, 0.05),
+    "phase": (0.0, 180.0, 15.0),
+    "amplitude": (0.005, 0.05, 0.005),
+}
+LABELS = {
+    "pitch": "pitch [mm]",
+    "width": "pin width [mm]",
+    "friction": "friction [1]",
+    "phase": "phase [°]",
+    "amplitude": "amplitude [mm]",
+}
+START = {"pitch": 2.5, "width": 1.0, "friction": 0.6, "phase": 180.0, "amplitude": 0.02}  # Device 2
+RESOLUTION = 110.0  # of the picture [dots per inch]
+KEPT = 32  # pressed rows that are remembered [1]: moving a slider back takes no time
+
+
+def reach(scene: Scene) -> float:
+    """Where the outermost pin of any design that the sliders allow ends [mm]."""
+    count = len(scene.device.actuators.positions)
+    return (count - 1) / 2.0 * LIMITS["pitch"][1] + LIMITS["width"][1] / 2.0
+
+
+class Explorer:
+    """Sliders, picture and message; `view` shows them. The answer that is shown stands, in grey, beside the next.
+
+    seconds: of the last redrawing.
+    """
+
+    def __init__(self, pad: Pad) -> None:
+        self._pressed = lru_cache(maxsize=KEPT)(lambda *row: press(pad, *row))
+        self._shown: Answer | None = None
+        self.seconds = 0.0
+        self.sliders: dict[str, Any] = {
+            name: ipywidgets.FloatSlider(
+                value=START[name], min=low, max=high, step=step, description=LABELS[name], continuous_update=False,
+                readout_format=".3f" if high < 1.0 else ".2f", style={"description_width": "7em"},
+            )
+            for name, (low, high, step) in LIMITS.items()
+        }  # fmt: skip
+        self.direction: Any = ipywidgets.ToggleButtons(options=["lateral", "normal"], description="motion")
+        self.picture: Any = ipywidgets.Image(format="png")
+        self.message: Any = ipywidgets.HTML()
+        self.view: Any = ipywidgets.VBox(
+            [ipywidgets.VBox([*self.sliders.values(), self.direction]), self.picture, self.message]
+        )
+        for control in (*self.sliders.values(), self.direction):
+            control.observe(lambda _: self.redraw(), names="value")
+        self.redraw()
+
+    def redraw(self) -> None:
+        """Answer the design that the sliders show and draw it; a design without an answer is a message."""
+        start = perf_counter()
+        values = {name: slider.value for name, slider in self.sliders.items()}
+        try:
+            found = self._answer(**values)
+        except FingerpadError as error:
+            self.message.value = f"No answer: {escape(str(error))}. The picture is that of the design before."
+        else:
+            self.picture.value = as_png(design_figure(found, self._shown), RESOLUTION)
+            self._shown = found
+            self.message.value = ""
+        self.seconds = perf_counter() - start
+
+    def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:
+        pressed: tuple[Pressed, Pressed] = self._pressed(pitch, width, friction)
+        return answer(pressed, amplitude, phase, self.direction.value == "lateral")
