@@ -31,6 +31,8 @@ EDGES = {"left": 0.09, "right": 0.985, "bottom": 0.1, "top": 0.94, "wspace": 0.3
 WIDTHS = (3.2, 1.0)  # of the columns, relative
 KILO = 1e3  # kPa in a MPa
 HEADROOM = 1.25  # of the scores' axis beyond the larger [1]
+NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]
+TICKS = 3  # intervals of a vertical axis at most [1]
 BEFORE, NOW = 0.0, 1.0  # places of both scores [1]
 
 
@@ -42,9 +44,10 @@ def design_figure(answer: Answer, before: Answer | None = None) -> Figure:
     """
     # laid out by hand: a layout engine would take longer than the solution
     figure = Figure(figsize=(WIDE * MM, HEIGHT * MM))
-    grid = figure.subplots(3, 2, width_ratios=WIDTHS, gridspec_kw=EDGES)
+    places = figure.add_gridspec(1 + len(Readout), 2, width_ratios=WIDTHS, **EDGES)
+    left = [figure.add_subplot(places[line, 0]) for line in range(1 + len(Readout))]
+    right = [figure.add_subplot(places[1 + line, 1]) for line in range(len(Readout))]
     span = score_span(answer.scene.device.actuators, answer.scene.model.readout.span_margin)
-    left = grid[:, 0]
     for axes in left:
         axes.set_xlim(*span)
     if before:
@@ -59,9 +62,7 @@ def design_figure(answer: Answer, before: Answer | None = None) -> Figure:
         ],
         loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=3, borderaxespad=0.0,
     )  # fmt: skip
-    _note(grid[0, 1], answer)
-    for row, readout in zip(grid[1:], Readout, strict=True):
-        axes, bars = row
+    for axes, bars, readout in zip(left[1:], right, Readout, strict=True):
         draw_faces(axes, face_arcs(answer.scene.device, answer.section))
         if before:
             axes.plot(before.readouts.arc, PERCENT * _read(before, readout), color=GREY)
@@ -69,8 +70,12 @@ def design_figure(answer: Answer, before: Answer | None = None) -> Figure:
         axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         _draw_scores(bars, readout, answer, before)
     left[1].set_ylim(bottom=0.0)
-    for axes in grid[:-1].ravel():  # text takes most of the time
-        axes.tick_params(labelbottom=False)
+    for axes in (*left[:-1], *right[:-1]):  # ticks take most of the time, and those at the bottom hold for all
+        axes.set_xticks([])
+    for axes in (*left, *right):
+        axes.locator_params(axis="y", nbins=TICKS)
+    indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status)
+    figure.text(*NOTE, f"indentation {indentation:.2f} mm\n{nodes} nodes in contact", color=GREY, va="top")
     left[-1].set_xlabel("x on the skin, arc length along the receptor line (mm)")
     return figure
 
@@ -109,13 +114,3 @@ def _draw_scores(axes: Axes, readout: Readout, answer: Answer, before: Answer | 
     axes.set(xlim=(-0.6, 1.6), ylim=(0.0, HEADROOM * highest))
     axes.set_xticks([BEFORE, NOW], ["before", "now"])
     axes.set_ylabel(score_label(readout, answer.rows[0]["unit"]).replace(" score", "\nscore"))
-
-
-def _note(axes: Axes, answer: Answer) -> None:
-    """What the bars cannot say."""
-    nodes = np.count_nonzero(answer.solution.status)
-    axes.set_axis_off()
-    axes.text(
-        0.0, 1.0, f"indentation {answer.solution.indentation:.2f} mm\n{nodes} nodes in contact",
-        transform=axes.transAxes, va="top", color=GREY,
-    )  # fmt: skip
