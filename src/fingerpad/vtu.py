@@ -14,6 +14,7 @@ import meshio
 import numpy as np
 
 from .condensation import contact_tractions
+from .files import replacing, write_text
 from .measures import stress
 from .mesh import SectionMesh
 from .recovery import recover_displacement, strain_at
@@ -80,7 +81,8 @@ def skin_tractions(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fl
 
 def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
     """Write one state as a compressed VTU file."""
-    meshio.write(path, mesh, file_format="vtu")
+    with replacing(path) as part:
+        meshio.write(part, mesh, file_format="vtu")
 
 
 def write_collection(path: Path, times: Sequence[float], files: Sequence[Path]) -> None:
@@ -91,7 +93,7 @@ def write_collection(path: Path, times: Sequence[float], files: Sequence[Path]) 
         name = file.relative_to(path.parent).as_posix()
         ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), part="0", file=name)
     ElementTree.indent(root)
-    ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+    write_text(path, ElementTree.tostring(root, encoding="unicode") + "\n")
 
 
 def _clockwise(corners: FloatArray) -> np.ndarray:

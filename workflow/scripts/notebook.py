@@ -13,7 +13,9 @@ from fingerpad.files import write_text
 def main(notebook: Path, page: Path) -> None:
     """Read the notebook, run all of its cells here, write the page; a failing cell fails the job."""
     document = nbformat.read(notebook, as_version=4)
-    NotebookClient(document, record_timing=False, resources={"metadata": {"path": str(Path.cwd())}}).execute()
+    folder = {"metadata": {"path": str(Path.cwd())}}
+    # a page has no kernel, so widgets on it could not move: their state is left out, and what would be loaded for it
+    NotebookClient(document, record_timing=False, store_widget_state=False, resources=folder).execute()
     text, _ = HTMLExporter(exclude_input_prompt=True, exclude_output_prompt=True).from_notebook_node(document)
     write_text(page, text)
 
