@@ -7,6 +7,8 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from conftest import Project
+
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 
 
@@ -20,6 +22,14 @@ def test_notebook_is_valid_and_stored_without_outputs(path: Path) -> None:
     assert all(not cell.outputs and cell.execution_count is None and not cell.metadata for cell in cells)
 
 
-def test_there_is_a_walkthrough() -> None:
-    """The notebook that `all` renders exists."""
-    assert "walkthrough" in [path.stem for path in NOTEBOOKS]
+@pytest.mark.workflow
+def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
+    """A failing cell fails its job. Tables that nobody has made are named with their target, and nothing is loaded for
+    widgets that a page could not move."""
+    run = changeable.snakemake("notebooks")
+    assert run.status == 0, run.text
+    pages = {path.stem: path.read_text(encoding="utf-8") for path in changeable.folder.glob("results/notebooks/*.html")}
+    assert set(pages) == {path.stem for path in NOTEBOOKS}
+    for target in ("honesty", "accuracy", "benchmark"):
+        assert f"snakemake {target}" in pages["accuracy_and_run_time"]
+    assert "unpkg" not in pages["design_your_own"]
