@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from html import escape
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import ipywidgets
@@ -44,13 +44,13 @@ def reach(scene: Scene) -> float:
 class Explorer:
     """Sliders, picture and message; `view` shows them. The answer that is shown stands, in grey, beside the next.
 
-    seconds: of the last redrawing.
+    seconds, processor_seconds: of the last redrawing, by the clock and of this process.
     """
 
     def __init__(self, pad: Pad) -> None:
         self._pressed = lru_cache(maxsize=KEPT)(lambda *row: press(pad, *row))
         self._shown: Answer | None = None
-        self.seconds = 0.0
+        self.seconds = self.processor_seconds = 0.0
         self.sliders: dict[str, Any] = {
             name: ipywidgets.FloatSlider(
                 value=START[name], min=low, max=high, step=step, description=LABELS[name], continuous_update=False,
@@ -70,7 +70,7 @@ class Explorer:
 
     def redraw(self) -> None:
         """Answer the design that the sliders show and draw it; a design without an answer is a message."""
-        start = perf_counter()
+        start, processor_start = perf_counter(), process_time()
         values = {name: slider.value for name, slider in self.sliders.items()}
         try:
             found = self._answer(**values)
@@ -80,7 +80,7 @@ class Explorer:
             self.picture.value = as_png(design_figure(found, self._shown), RESOLUTION)
             self._shown = found
             self.message.value = ""
-        self.seconds = perf_counter() - start
+        self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start
 
     def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:
         pressed: tuple[Pressed, Pressed] = self._pressed(pitch, width, friction)
