@@ -1,9 +1,9 @@
-"""Designs of a row of rigid pins, each answered in a fraction of a second: the finger is condensed once, to all skin
-within reach, and a design takes the skin under its pins.
+"""Designs of a row of rigid pins, each answered in a fraction of a second on a finger that is condensed once.
 
-The skin is equally fine everywhere, as no edge has a place of its own. A second condensation, whose elements are twice
-as large, gives every score its error as in the workflow (`accuracy`): the difference of both, which is the error of the
-first order and more than that of any higher.
+The finger is condensed to all skin within reach; a design takes the skin under its pins. The skin is equally fine
+everywhere, as no edge has a place of its own. A second condensation, whose elements are twice as large, gives every
+score its error as in the workflow (`accuracy`): the difference of both, which is the error of the first order and more
+than that of any higher.
 """
 
 from __future__ import annotations
