@@ -17,6 +17,7 @@ $(VENV)/ready: requirements.lock
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "fingerpad needs Python 3.11 or newer")'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	touch $@
 
 reproduce: environment  ## Compute everything: snakemake all.
@@ -34,7 +35,7 @@ lint: environment  ## Check formats, lint and types.
 
 lock:  ## Pin all dependencies with their hashes (needs uv).
 	uv pip compile --universal --python-version 3.11 --generate-hashes --no-header \
-		--no-annotate pyproject.toml --extra test --extra slurm --output-file requirements.lock
+		--no-annotate pyproject.toml --all-extras --output-file requirements.lock
 
 clean:  ## Remove results and the environment.
 	rm -rf results .snakemake $(VENV)

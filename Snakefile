@@ -38,6 +38,11 @@ include: "workflow/rules/stress.smk"
 include: "workflow/rules/pages.smk"
 
 
+for custom in sorted((BASE / "workflow" / "rules" / "custom").glob("*.smk")):
+
+    include: custom  # rules of a device that needs its own (docs/adding-a-device.md)
+
+
 rule all:
     default_target: True
     input:
@@ -46,3 +51,4 @@ rule all:
         "results/claims.csv",
         FIGURES,
         "results/notebooks/walkthrough.html",
+        TARGETS,

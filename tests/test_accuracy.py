@@ -28,6 +28,13 @@ def test_error_is_the_difference_and_no_less_than_the_median() -> None:
     assert list(found[0]) == ["device", "condition", "interface", "readout", "score", "score_error", "unit"]
 
 
+def test_a_stimulus_that_is_none_has_no_error() -> None:
+    """Its change of strain is zero on any mesh, and says nothing about the errors of others."""
+    scores = [row("rest", "0.0"), row("a", "1.0")]
+    found = with_errors(scores, [row("rest", "0.0"), row("a", "1.1")])
+    assert [each["score_error"] for each in found] == pytest.approx([0.0, 0.1])
+
+
 def test_what_has_no_score_has_no_error() -> None:
     found = with_errors([row("a", "1.0"), row("a", None, "frictionless")], [row("a", "1.1")])
     assert found[1]["score_error"] is None

@@ -17,7 +17,7 @@ DEVICES = ("device1", "device2", "device3")
 
 def conditions() -> dict[str, list[str]]:
     files = {name: ROOT / "config/devices" / f"{name}.yaml" for name in DEVICES}
-    return {name: [c.name for c in build_device(name, read_yaml(file)).conditions] for name, file in files.items()}
+    return {name: [c.name for c in build_device(file, read_yaml(file)).conditions] for name, file in files.items()}
 
 
 @pytest.mark.parametrize("path", sorted(DATA.glob("*.csv")), ids=lambda path: path.name)
@@ -81,7 +81,8 @@ def test_surrogates_have_exactly_the_stated_order() -> None:
 def test_equal_ratings_are_stated_exactly_where_the_stimulus_is_the_same() -> None:
     order = read_stated_order(DATA / "stated_order.csv", conditions())
     for name in DEVICES:
-        device = build_device(name, read_yaml(ROOT / "config/devices" / f"{name}.yaml"))
+        file = ROOT / "config/devices" / f"{name}.yaml"
+        device = build_device(file, read_yaml(file))
         at_most = order_matrix(conditions()[name], order[order["device"] == name])
         same = [[a.same_stimulus(b) for b in device.conditions] for a in device.conditions]
         np.testing.assert_array_equal(at_most & at_most.T, same)

@@ -192,6 +192,21 @@ def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) 
     assert "(measured)" in text
 
 
+def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame) -> None:
+    figure = correlation_figure(SCORES, RATINGS, correlations, {"unrated": "Histories"})
+    require_legible(figure)
+    for axes in figure.axes:
+        assert axes.get_ylabel() == "In order of score"
+        assert [label.get_text() for label in axes.get_yticklabels()] == ["push", "shove"]
+        markers = [line for line in axes.lines if line.get_marker() != "None"]
+        assert len(axes.lines) == len(markers)  # no line is fitted
+        assert [line.get_xdata()[0] for line in markers] == sorted(line.get_xdata()[0] for line in markers)
+    assert "R² =" not in words(figure)
+    assert "no comparison" in words(figure)
+    rated = correlations[correlations["device"] == "phased"]
+    assert "no comparison" not in words(correlation_figure(SCORES, RATINGS, rated, {"phased": "Phased pins"}))
+
+
 def test_points_lie_where_the_tables_say(correlations: pd.DataFrame) -> None:
     figure = correlation_figure(SCORES, RATINGS, correlations, {"forced": "Forced pucks"})
     strain, change = figure.axes

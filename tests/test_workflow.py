@@ -94,6 +94,12 @@ def test_rule_log_and_benchmark_share_a_name(rule: Rule) -> None:
             assert re.search(rf"/{rule.name}(_[^/]*)?\.{ending}\"", rule.directives[directive])
 
 
+@pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
+def test_rule_that_reads_a_device_depends_on_its_recordings(rule: Rule) -> None:
+    named = re.findall(r"^ *(\w+)=", rule.directives["input"], re.MULTILINE)
+    assert bool({"device", "devices"} & set(named)) == ("recordings" in named)
+
+
 def test_lint_finds_nothing(project: Project) -> None:
     run = project.snakemake("--lint")
     assert run.status == 0, run.text

@@ -25,20 +25,31 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
     coarser: rows of the coarser solution. Raises KeyError if it lacks a score.
     """
     second = {_of(row, CASE): float(row["score"]) for row in coarser}
-    relative = {
-        _of(row, CASE): abs(second[_of(row, CASE)] / float(row["score"]) - 1.0) for row in scores if _is_scored(row)
+    difference = {
+        _of(row, CASE): abs(second[_of(row, CASE)] - float(row["score"])) for row in scores if _is_scored(row)
     }
-    groups: dict[tuple[str, ...], list[float]] = {}
+    relative: dict[tuple[str, ...], list[float]] = {}
     for row in scores:
-        if _is_scored(row):
-            groups.setdefault(_of(row, GROUP), []).append(relative[_of(row, CASE)])
+        if _is_scored(row) and float(row["score"]) > 0.0:  # a stimulus that is none changes nothing, on any mesh
+            relative.setdefault(_of(row, GROUP), []).append(difference[_of(row, CASE)] / float(row["score"]))
     table = []
     for row in scores:
         error = None
         if _is_scored(row):
-            error = max(relative[_of(row, CASE)], median(groups[_of(row, GROUP)])) * float(row["score"])
-        table.append(_inserted(row, error))
+            least = median(relative.get(_of(row, GROUP), [0.0])) * float(row["score"])
+            error = max(difference[_of(row, CASE)], least)
+        table.append(with_error(row, error))
     return table
+
+
+def with_error(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:
+    """A row of the score table with its error behind its score."""
+    found: dict[str, Any] = {}
+    for column, value in row.items():
+        found[column] = value
+        if column == "score":
+            found["score_error"] = error
+    return found
 
 
 def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -63,13 +74,3 @@ def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:
 
 def _is_scored(row: Mapping[str, Any]) -> bool:
     return row["score"] not in {None, ""}
-
-
-def _inserted(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:
-    """The row with its error behind its score."""
-    found: dict[str, Any] = {}
-    for column, value in row.items():
-        found[column] = value
-        if column == "score":
-            found["score_error"] = error
-    return found

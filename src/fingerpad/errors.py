@@ -5,6 +5,10 @@ class FingerpadError(Exception):
     """Base of every error that fingerpad raises on purpose."""
 
 
+class UsageError(FingerpadError):
+    """A command or a function was asked for something that it cannot do."""
+
+
 class SceneError(FingerpadError):
     """A scene file or a scene is not valid; the message names file, key, found and allowed."""
 

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 from scipy.stats import kendalltau, pearsonr
 
+from .csvrows import listed
 from .errors import RatingError
-from .ratings import RatingKind, listed, order_matrix
+from .ratings import NO_RATINGS, RatingKind, order_matrix
 from .roughness import CONSTANT, KEY, NO_PREDICTION
 from .scene import FloatArray
 
@@ -37,7 +38,6 @@ COLUMNS = [
 ]
 
 MAX_UP_SETS = 2**16  # up-sets of a stated order that are enumerated; 16 conditions without any order have as many
-NO_RATINGS = "no ratings"
 CONSTANT_SCORE = "constant score"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +13,7 @@ from .gabor import filtered_readouts
 from .mesh import mesh_section
 from .resampling import resampling_to_grid
 from .roughness import score_rows
-from .scene import FloatArray, Scene
+from .scene import Condition, FloatArray, Interface, Scene
 from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
 
@@ -24,6 +25,15 @@ class Condensed:
     section: CondensedSection
     body: CondensedBody | None
     resampling: Resampling
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The solution that holds for a condition at an interface."""
+
+    condition: Condition
+    interface: Interface
+    solution: Solution
 
 
 def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
@@ -41,18 +51,26 @@ def rows_at(scene: Scene, coarsening: float) -> list[dict[str, Any]]:
 
 def predicted_rows(scene: Scene, condensed: Condensed) -> list[dict[str, Any]]:
     """Rows of the score table for all conditions and interfaces. Raises ContactError."""
-    rows = []
+    return [row for solved in solve_scene(scene, condensed) for row in rows_of(scene, condensed, solved)]
+
+
+def solve_scene(scene: Scene, condensed: Condensed) -> Iterator[Solved]:
+    """Solutions of all conditions and interfaces, one after the other; equal stimuli share one. Raises ContactError."""
     for interface in scene.device.interfaces():
-        read: dict[str, FilteredReadouts] = {}
+        found: dict[str, Solution] = {}
         indented = None
         for condition in scene.device.conditions:
             solved_as = scene.solved_as(condition.name).name
-            if solved_as not in read:
+            if solved_as not in found:
                 if indented is None or not scene.model.skips.shared_indentation:
                     indented = indent_device(scene, condensed.section, condensed.body, interface)
-                read[solved_as] = read_out(scene, condensed, stimulate(scene, condensed.section, indented, condition))
-            rows.extend(score_rows(scene, condition, interface, read[solved_as]))
-    return rows
+                found[solved_as] = stimulate(scene, condensed.section, indented, condition)
+            yield Solved(condition, interface, found[solved_as])
+
+
+def rows_of(scene: Scene, condensed: Condensed, solved: Solved) -> list[dict[str, Any]]:
+    """Rows of the score table for one solution."""
+    return score_rows(scene, solved.condition, solved.interface, read_out(scene, condensed, solved.solution))
 
 
 def read_out(scene: Scene, condensed: Condensed, solution: Solution) -> FilteredReadouts:

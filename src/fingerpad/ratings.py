@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import math
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from difflib import get_close_matches
+from collections.abc import Collection, Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -14,11 +12,13 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from .csvrows import checked_rows, listed, number, told
 from .errors import RatingError
 from .scene import Interface, Readout
 
 RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
 ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
+NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "words", "source")
 
 
@@ -64,7 +64,7 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
         _check_name(path, line, "device", device, conditions_by_device)
         _check_name(path, line, "condition", condition, conditions_by_device[device])
         _check_name(path, line, "kind", kind, [*RatingKind])
-        rating = _number(row["rating"])
+        rating = number(row["rating"])
         if not (math.isfinite(rating) and rating >= 0.0):
             raise _error(path, line, "rating", row["rating"], "a finite number, 0 or more")
         if (device, condition) in lines:
@@ -117,7 +117,7 @@ def read_published(path: Path) -> pd.DataFrame:
     for line, row in _read_rows(path, PUBLISHED_COLUMNS):
         _check_name(path, line, "interface", row["interface"], [*Interface])
         _check_name(path, line, "readout", row["readout"], [*Readout])
-        r2 = _number(row["r2"])
+        r2 = number(row["r2"])
         if row["r2"] and not 0.0 <= r2 <= 1.0:
             raise _error(path, line, "r2", row["r2"], "a number from 0 to 1, or nothing")
         rows.append({**row, "r2": r2})
@@ -152,37 +152,12 @@ def order_matrix(conditions: Sequence[str], order: pd.DataFrame) -> NDArray[np.b
     return at_most
 
 
-def _read_rows(path: Path, columns: Sequence[str]) -> Iterable[tuple[int, dict[str, str]]]:
+def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, str]]]:
     """The rows of a CSV with exactly these columns, none without a source; each with its line number."""
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file, strict=True)
-            lines = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if any(map(str.strip, row))]
-    except OSError as error:
-        raise RatingError(f"{path}: cannot be read: {error.strerror}") from error
-    except (csv.Error, UnicodeDecodeError) as error:
-        raise RatingError(f"{path}: is not a CSV file in UTF-8: {error}") from error
-    if len(lines) < 2:
-        found = "a header without rows" if lines else "an empty file"
-        raise RatingError(f"{path}: found {found}; allowed: rows with the columns {listed(columns)}")
-    line, header = lines[0]
-    for name in header:
-        if name not in columns:
-            raise _error(path, line, "header", name, columns)
-        if header.count(name) > 1:
-            raise _error(path, line, "header", name, f"each column once: {listed(columns)}")
-    if missing := [name for name in columns if name not in header]:
-        raise RatingError(f"{path}, line {line}: column {listed(missing)} is missing; allowed: {listed(columns)}")
-    rows = []
-    for line, cells in lines[1:]:
-        if len(cells) != len(header):
-            raise RatingError(
-                f"{path}, line {line}: found {len(cells)} values; allowed: {len(header)}, for {listed(header)}"
-            )
-        row = dict(zip(header, cells, strict=True))
+    rows = checked_rows(path, columns, RatingError)
+    for line, row in rows:
         if not row["source"]:
             raise _error(path, line, "source", "", "where the row comes from")
-        rows.append((line, row))
     return rows
 
 
@@ -192,20 +167,4 @@ def _check_name(path: Path, line: int, column: str, found: str, allowed: Collect
 
 
 def _error(path: Path, line: int, column: str, found: str, allowed: Sequence[str]) -> RatingError:
-    """The one form of message; `allowed` is a phrase, or the names among which a guess is made."""
-    guess = [] if isinstance(allowed, str) else get_close_matches(found, allowed, n=1)
-    names = allowed if isinstance(allowed, str) else listed(allowed)
-    hint = f"; did you mean '{guess[0]}'?" if guess else ""
-    return RatingError(f"{path}, line {line}, column {column}: found '{found}'; allowed: {names}{hint}")
-
-
-def listed(names: Iterable[str]) -> str:
-    """Names in a message."""
-    return ", ".join(f"'{name}'" for name in names)
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
+    return RatingError(told(path, line, column, found, allowed))

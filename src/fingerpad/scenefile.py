@@ -6,18 +6,16 @@ Every leaf of a scene file is a quantity: a mapping with `value`, `unit` and `so
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import yaml
 
 from .errors import SceneError
 from .scene import (
     ActuatorRow,
     Body,
-    Condition,
     ContactLaw,
     Control,
     Criterion,
@@ -33,8 +31,7 @@ from .scene import (
     Side,
     Skips,
 )
-
-CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; source: 16 per period, linear between
+from .stimuli import KINDS
 
 
 def read_yaml(path: Path) -> dict[str, Any]:
@@ -82,7 +79,7 @@ def load_scene(config: Path, device: Path) -> Scene:
     """
     model = build_model(read_yaml(config))
     try:
-        return Scene(model, build_device(device.stem, read_yaml(device)))
+        return Scene(model, build_device(device, read_yaml(device)))
     except SceneError as error:
         raise SceneError(f"{device}: {error}") from error
 
@@ -107,8 +104,11 @@ def build_model(config: dict[str, Any]) -> Model:
     )
 
 
-def build_device(name: str, document: dict[str, Any]) -> Device:
-    """The device of a validated device mapping; its name is the file's. Raises SceneError."""
+def build_device(path: Path, document: dict[str, Any]) -> Device:
+    """The device of the validated mapping in a device file; its name is the file's, and recordings lie in its folder.
+
+    Raises SceneError.
+    """
     plain = _values(document)
     row, stimulus = plain["actuators"], plain["stimulus"]
     body = None
@@ -117,8 +117,25 @@ def build_device(name: str, document: dict[str, Any]) -> Device:
     count = row["count"]
     positions = tuple((i - (count - 1) / 2.0) * row["pitch"] for i in range(count))
     actuators = ActuatorRow(positions, row["width"], row["edge_radius"], body)
-    conditions = {"phased": _phased, "alternating": _alternating, "history": _history}[stimulus["kind"]]
-    return Device(name, plain["title"], Control(plain["control"]), actuators, tuple(conditions(stimulus, count)))
+    conditions = KINDS[stimulus["kind"]](stimulus, count, path.parent)
+    return Device(path.stem, plain["title"], Control(plain["control"]), actuators, tuple(conditions))
+
+
+def recordings(device: Path) -> list[Path]:
+    """The files that a device file (already validated) names, in its order. Raises SceneError.
+
+    >>> recordings(Path("config/devices/device2.yaml"))
+    []
+    """
+    return [device.parent / name for name in _named_files(_values(read_yaml(device)["stimulus"]))]
+
+
+def _named_files(node: Any) -> Iterator[str]:
+    """Texts at the keys `file` of a plain document."""
+    for key, child in node.items() if isinstance(node, dict) else ():
+        if key == "file" and isinstance(child, str):
+            yield child
+        yield from _named_files(child)
 
 
 def _values(node: Any) -> Any:
@@ -132,67 +149,3 @@ def _values(node: Any) -> Any:
 
 def _layer(entry: dict[str, Any]) -> Layer:
     return Layer(entry["name"], entry["thickness"], Material(entry["modulus"], entry["poisson"]))
-
-
-def _directed(direction: str, displacement: np.ndarray) -> dict[str, np.ndarray]:
-    """Displacements (n_times, n_actuators) [mm] as normal and tangential histories."""
-    still = np.zeros_like(displacement)
-    normal = direction == "normal"
-    return {"normal": displacement if normal else still, "tangential": still if normal else displacement}
-
-
-def _phased(stimulus: dict[str, Any], count: int) -> list[Condition]:
-    """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over one period (cycle)."""
-    conditions = []
-    for dispersion, groups in stimulus["dispersions"].items():
-        if len(groups) != count:
-            raise SceneError(f"stimulus.dispersions.{dispersion}: needs {count} group indices, found {len(groups)}")
-        for phase in stimulus["phases"]:
-            lag = np.asarray(groups, dtype=float) * math.radians(phase)
-            if stimulus["playback"] == "snapshot":
-                # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
-                displacement = stimulus["amplitude"] * np.round(np.cos(lag), 15)[None, :]
-                time = np.array([1.0])
-            else:
-                time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
-                displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + lag)
-            conditions.append(
-                Condition(
-                    f"{dispersion}_{phase:03g}",
-                    dispersion,
-                    float(phase),
-                    time,
-                    **_directed(stimulus["direction"], displacement),
-                )
-            )
-    return conditions
-
-
-def _alternating(stimulus: dict[str, Any], count: int) -> list[Condition]:
-    """Actuator i at absolute + (-1)^i relative / 2 (paper, Table 1)."""
-    sign = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
-    return [
-        Condition(
-            f"alternate_{row['phase']:03g}",
-            "alternate",
-            float(row["phase"]),
-            np.array([1.0]),
-            **_directed(stimulus["direction"], row["absolute"] + sign[None, :] * row["relative"] / 2.0),
-        )
-        for row in stimulus["rows"]
-    ]
-
-
-def _history(stimulus: dict[str, Any], count: int) -> list[Condition]:
-    """Any path: per-actuator normal and tangential displacements at given times."""
-    conditions = []
-    for name, history in stimulus["histories"].items():
-        arrays = {}
-        for key in ("normal", "tangential"):
-            rows = history[key]
-            if any(len(row) != count for row in rows):
-                raise SceneError(f"stimulus.histories.{name}.{key}: every row needs {count} numbers (one an actuator)")
-            arrays[key] = np.asarray(rows, dtype=float)
-        time = np.asarray(history["time"], dtype=float)
-        conditions.append(Condition(name, history["dispersion"], float(history["phase"]), time, **arrays))
-    return conditions

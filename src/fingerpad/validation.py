@@ -55,7 +55,7 @@ def check_config(path: Path, schema_dir: Path) -> Model:
     >>> check_config(Path("config/config.yaml"), Path("workflow/schemas")).finger.width
     16.0
     """
-    document, schema = _checked(path, schema_dir / "config.schema.yaml")
+    document, schema = checked_document(path, schema_dir / "config.schema.yaml")
     _report(path, _layer_problems(document))
     with _located(path, schema, "finger"):
         return build_model(document)
@@ -71,10 +71,10 @@ def check_device(path: Path, schema_dir: Path, config_path: Path) -> Scene:
     'device2'
     """
     model = check_config(config_path, schema_dir)
-    _require_name(path)
-    document, schema = _checked(path, schema_dir / "device.schema.yaml")
+    require_name(path)
+    document, schema = checked_document(path, schema_dir / "device.schema.yaml")
     with _located(path, schema, "stimulus"):
-        device = build_device(path.stem, document)
+        device = build_device(path, document)
     with _located(path, schema, "actuators"):
         return Scene(model, device)
 
@@ -91,7 +91,7 @@ def known_devices(folder: Path) -> list[str]:
         raise SceneError(f"{folder}: is not a folder; it should hold one YAML file for each device")
     files = [p for p in folder.iterdir() if p.suffix.lower() in {".yaml", ".yml"} and not p.name.startswith(".")]
     for path in sorted(files):
-        _require_name(path)
+        require_name(path)
     return sorted(path.stem for path in files)
 
 
@@ -105,6 +105,38 @@ def require_device(name: str, folder: Path) -> Path:
             folder, [_problem(0, "device", found, allowed, meant=meant, about="a device's file name without .yaml")]
         )
     return folder / f"{name}.yaml"
+
+
+def require_name(path: Path) -> None:
+    """Refuse a device file whose name cannot be part of other files' names."""
+    fits = re.fullmatch("[a-z][a-z0-9_]*", path.stem)
+    if not fits or path.suffix != ".yaml":
+        allowed = "small letters, digits and underscores that begin with a letter, then .yaml"
+        meant = path.stem if fits else _as_name(path.stem)
+        about = "the file name is the device's name"
+        _report(path, [_problem(0, "file name", path.name, allowed, meant=meant and f"{meant}.yaml", about=about)])
+
+
+def checked_document(path: Path, schema_path: Path) -> tuple[dict[str, Any], Schema]:
+    """The mapping in a file, after it has passed the schema, and the schema."""
+    document, source = read_yaml(path), read_yaml(schema_path)
+    schema = _plain(source, document, source["$defs"])
+    checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(
+        "integer", lambda _, value: _is_number(value) and isinstance(value, int)
+    )
+    errors = validators.extend(Draft202012Validator, type_checker=checker)(schema).iter_errors(document)
+    _report(path, (problem for error in errors for problem in _explain(error, schema, document)))
+    return document, schema
+
+
+def allowed_values(schema: Schema) -> str:
+    """What a schema, its references resolved, allows, in words."""
+    if "title" in schema or "const" in schema:
+        return str(schema.get("title") or _shown(schema["const"]))
+    if "enum" in schema:
+        return f"one of {', '.join(schema['enum'])}"
+    words = [WORDS[schema["type"]], *(WORDS[key].format(limit) for key, limit in schema.items() if key in WORDS)]
+    return ", ".join(words) + (f" with the keys {', '.join(schema['required'])}" if schema["required"] else "")
 
 
 def _problem(rank: int, key: str, found: str, allowed: str, *, about: str, meant: str = "") -> Problem:
@@ -134,16 +166,6 @@ def _located(path: Path, schema: Schema, key: str) -> Iterator[None]:
         raise SceneError(f"{path}: {message} ({schema['properties'][first]['description']})") from error
 
 
-def _require_name(path: Path) -> None:
-    """Refuse a device file whose name cannot be part of other files' names."""
-    fits = re.fullmatch("[a-z][a-z0-9_]*", path.stem)
-    if not fits or path.suffix != ".yaml":
-        allowed = "small letters, digits and underscores that begin with a letter, then .yaml"
-        meant = path.stem if fits else _as_name(path.stem)
-        about = "the file name is the device's name"
-        _report(path, [_problem(0, "file name", path.name, allowed, meant=meant and f"{meant}.yaml", about=about)])
-
-
 def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
     """Layers that share a name, and receptors under a layer that there is not."""
     finger, above = config["finger"], config["readout"]["layer_above"]["value"]
@@ -155,18 +177,6 @@ def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
     if above not in inner:
         allowed, about = f"one of {', '.join(inner)}", "the pad layer above the receptor line, so not the last one"
         yield _problem(2, "readout.layer_above.value", above, allowed, meant=_closest(above, inner), about=about)
-
-
-def _checked(path: Path, schema_path: Path) -> tuple[dict[str, Any], Schema]:
-    """The mapping in a file, after it has passed the schema, and the schema."""
-    document, source = read_yaml(path), read_yaml(schema_path)
-    schema = _plain(source, document, source["$defs"])
-    checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(
-        "integer", lambda _, value: _is_number(value) and isinstance(value, int)
-    )
-    errors = validators.extend(Draft202012Validator, type_checker=checker)(schema).iter_errors(document)
-    _report(path, (problem for error in errors for problem in _explain(error, schema, document)))
-    return document, schema
 
 
 def _is_number(value: Any) -> bool:
@@ -210,7 +220,7 @@ def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -
     text = f"{len(found)} entries" if error.validator in ("minItems", "maxItems") else _shown(found)
     text = f"the name {text}" if "propertyNames" in error.absolute_schema_path else text
     meant = _meant(error.schema, found, functools.reduce(operator.getitem, key[:-1], document))
-    yield _problem(rank, _dotted(key), text, _allowed(error.schema), meant=meant, about=about)
+    yield _problem(rank, _dotted(key), text, allowed_values(error.schema), meant=meant, about=about)
 
 
 def _key_problems(schema: Schema, key: Key, found: dict[str, Any], about: str) -> Iterator[Problem]:
@@ -225,17 +235,7 @@ def _key_problems(schema: Schema, key: Key, found: dict[str, Any], about: str) -
     for name in missing:
         if name not in unknown.values():
             what = named[name].get("description", about)
-            yield _problem(0, _dotted([*key, name]), "nothing", _allowed(named[name]), about=what)
-
-
-def _allowed(schema: Schema) -> str:
-    """What a schema allows, in words."""
-    if "title" in schema or "const" in schema:
-        return str(schema.get("title") or _shown(schema["const"]))
-    if "enum" in schema:
-        return f"one of {', '.join(schema['enum'])}"
-    words = [WORDS[schema["type"]], *(WORDS[key].format(limit) for key, limit in schema.items() if key in WORDS)]
-    return ", ".join(words) + (f" with the keys {', '.join(schema['required'])}" if schema["required"] else "")
+            yield _problem(0, _dotted([*key, name]), "nothing", allowed_values(named[name]), about=what)
 
 
 def _meant(schema: Schema, found: Any, quantity: Any) -> str:

@@ -32,6 +32,7 @@ rule reference:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         code=code("reference.py"),
     output:
         scores="results/{device}/reference.csv",
@@ -53,7 +54,8 @@ rule reference:
 rule increments:
     input:
         config=ancient(CONFIG),
-        devices=[SCENES / "devices" / f"{name}.yaml" for name in DEVICES],
+        devices=DEVICE_FILES,
+        recordings=ALL_RECORDINGS,
         scores="results/scores.csv",
         code=code("increments.py"),
     output:
@@ -72,6 +74,7 @@ rule closed_forms:
     input:
         config=ancient(CONFIG),
         device=ancient(SCENES / "devices" / f"{DEVICES[0]}.yaml"),
+        recordings=ancient(RECORDINGS[DEVICES[0]]),
         code=code("closed_forms.py"),
     output:
         table="results/accuracy/closed_forms.csv",

@@ -17,7 +17,8 @@ rule benchmark:
 rule benchmark_steps:
     input:
         config=CONFIG,
-        devices=[SCENES / "devices" / f"{name}.yaml" for name in DEVICES],
+        devices=DEVICE_FILES,
+        recordings=ALL_RECORDINGS,
         code=code("benchmark_steps.py"),
     output:
         timings="results/benchmark/timings.csv",
@@ -60,6 +61,7 @@ rule benchmark_ladder:
     input:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
+        recordings=lambda w: RECORDINGS["device2"],
         reference="results/device2/reference.csv",
         code=code("benchmark_ladder.py"),
     output:
@@ -91,6 +93,7 @@ rule benchmark_growth:
     input:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
+        recordings=lambda w: RECORDINGS["device2"],
         code=code("benchmark_growth.py"),
     output:
         sizes="results/benchmark/growth.csv",
@@ -114,7 +117,8 @@ rule benchmark_growth:
 rule skipping:
     input:
         config=CONFIG,
-        devices=[SCENES / "devices" / f"{name}.yaml" for name in DEVICES],
+        devices=DEVICE_FILES,
+        recordings=ALL_RECORDINGS,
         scores="results/scores.csv",
         code=code("skipping.py"),
     output:

@@ -18,6 +18,7 @@ rule calculix:
     input:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
+        recordings=lambda w: RECORDINGS["device2"],
         code=code("calculix.py"),
     output:
         table="results/accuracy/calculix.csv",

@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from fingerpad.errors import FingerpadError
 from fingerpad.ratings import read_ratings, read_stated_order
 from fingerpad.scene import Interface
-from fingerpad.scenefile import load_scene
+from fingerpad.scenefile import load_scene, recordings
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
 
@@ -18,9 +18,9 @@ ENVIRONMENT = BASE / "environment.yml"
 try:
     check_config(CONFIG, BASE / "workflow" / "schemas")
     DEVICES = known_devices(SCENES / "devices")
-    for name in DEVICES:
-        check_device(SCENES / "devices" / f"{name}.yaml", BASE / "workflow" / "schemas", CONFIG)
-    SCENE = {name: load_scene(CONFIG, SCENES / "devices" / f"{name}.yaml") for name in DEVICES}
+    DEVICE_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEVICES]
+    SCENE = {path.stem: check_device(path, BASE / "workflow" / "schemas", CONFIG) for path in DEVICE_FILES}
+    RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
     SHIPPED = {
         path.stem: load_scene(BASE / "config" / "config.yaml", path)
@@ -33,6 +33,10 @@ try:
     read_stated_order(DATA / "stated_order.csv", KNOWN)
 except FingerpadError as error:
     raise WorkflowError(str(error)) from None
+
+
+ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
+TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
 
 def scene_of(wildcards):
@@ -56,6 +60,11 @@ def condition_of(wildcards):
 def device_file(wildcards):
     """The scene file of the wildcard device."""
     return SCENES / "devices" / f"{scene_of(wildcards).device.name}.yaml"
+
+
+def recordings_of(wildcards):
+    """The files with measured displacements that the wildcard device's scene file names, if any."""
+    return RECORDINGS[scene_of(wildcards).device.name]
 
 
 def solution_of(wildcards):

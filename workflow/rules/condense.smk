@@ -7,6 +7,7 @@ rule condense:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         mesh="results/{device}/mesh.npz",
         code=code("condense.py"),
     output:
@@ -35,6 +36,7 @@ rule condense_body:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         code=code("condense_body.py"),
     output:
         body="results/{device}/body.npz",

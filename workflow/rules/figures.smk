@@ -1,7 +1,6 @@
 # Figures that mirror the paper's, the ablation, the maps and the section; full fields for those that draw them.
 # REQUIRED INPUTS: results of solve, filter, score and correlate. OUTPUTS: results/figures/*.{png,pdf}, fields.npz
 
-DEVICE_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEVICES]
 DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
 # the paper's figures 3 and 6 show Device 2; without it, the first device that prescribes sideways displacements
 LATERAL = min(
@@ -32,6 +31,7 @@ rule fields:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         mesh="results/{device}/mesh.npz",
         solutions=lambda w: [
             f"results/{w.device}/{condition.name}/shear/solution.npz"
@@ -60,6 +60,7 @@ rule figure_receptors:
     input:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         condensed=expand("results/{device}/condensed.npz", device=DEVICES),
         filtered=[
             f"results/{name}/{condition.name}/shear/filtered.npz"
@@ -84,6 +85,7 @@ rule figure_correlation:
     input:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         ratings=DATA / "ratings.csv",
         correlations="results/correlations.csv",
@@ -105,6 +107,7 @@ rule figure_ablation:
     input:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         correlations="results/correlations.csv",
         code=code("figure_ablation.py"),
@@ -125,6 +128,7 @@ rule figure_section:
     input:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         mesh=f"results/{DEVICES[0]}/mesh.npz",
         code=code("figure_section.py"),
     output:
@@ -144,6 +148,7 @@ rule figure_map:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         condensed="results/{device}/condensed.npz",
         fields="results/{device}/fields.npz",
         solutions=lambda w: [
@@ -174,6 +179,7 @@ if LATERAL:
         input:
             config=ancient(CONFIG),
             device=ancient(SCENES / "devices" / f"{LATERAL}.yaml"),
+            recordings=ancient(RECORDINGS[LATERAL]),
             condensed=f"results/{LATERAL}/condensed.npz",
             filtered=[
                 f"results/{LATERAL}/{condition.name}/shear/filtered.npz"
@@ -197,6 +203,7 @@ if LATERAL:
         input:
             config=ancient(CONFIG),
             device=ancient(SCENES / "devices" / f"{LATERAL}.yaml"),
+            recordings=ancient(RECORDINGS[LATERAL]),
             scores="results/scores.csv",
             ratings=DATA / "ratings.csv",
             correlations="results/correlations.csv",

@@ -7,6 +7,7 @@ rule filter:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         resampling="results/{device}/resampling.npz",
         solution=solution_of,
         code=code("filter.py"),

@@ -6,6 +6,7 @@ rule mesh:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         code=code("mesh.py"),
     output:
         mesh="results/{device}/mesh.npz",

@@ -8,6 +8,7 @@ rule readouts:
     input:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         meshes=expand("results/{device}/mesh.npz", device=DEVICES),
         condensed=expand("results/{device}/condensed.npz", device=DEVICES),
         solutions=[

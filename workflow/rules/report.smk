@@ -8,6 +8,7 @@ rule report:
     input:
         config=CONFIG,
         devices=DEVICE_FILES,
+        recordings=ALL_RECORDINGS,
         data=[DATA / name for name in ("ratings.csv", "stated_order.csv", "published_r2.csv")],
         scores="results/scores.csv",
         correlations="results/correlations.csv",

@@ -7,6 +7,7 @@ rule score:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         filtered="results/{device}/{condition}/{interface}/filtered.npz",
         code=code("score.py"),
     output:
@@ -31,6 +32,7 @@ rule check:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         code=code("check.py"),
     output:
         scores="results/{device}/check.csv",
@@ -49,7 +51,8 @@ rule check:
 rule scores:
     input:
         config=ancient(CONFIG),
-        devices=[ancient(SCENES / "devices" / f"{name}.yaml") for name in DEVICES],
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         scores=cases("results/{device}/{condition}/{interface}/score.csv"),
         checks=expand("results/{device}/check.csv", device=DEVICES),
         code=code("scores.py"),

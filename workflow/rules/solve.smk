@@ -7,6 +7,7 @@ rule solve:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         condensed="results/{device}/condensed.npz",
         body=body_of,
         code=code("solve.py"),

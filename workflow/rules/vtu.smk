@@ -14,6 +14,7 @@ rule field_output:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
+        recordings=ancient(recordings_of),
         mesh="results/{device}/mesh.npz",
         solution=solution_of,
         code=code("field_output.py"),

@@ -61,7 +61,7 @@ if __name__ == "__main__":
         Path(job.input.scores),
         Path(job.input.correlations),
         Path(job.input.claims),
-        [Path(path) for path in job.input.data],
+        [Path(path) for path in (*job.input.recordings, *job.input.data)],
         [Path(path) for path in job.input.figures],
         Path(job.input.graph),
         Path(job.input.rules),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import Any
 
@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..ratings import NO_RATINGS
 from ..scene import Interface, Readout
 from .style import (
     GREY,
@@ -34,6 +35,7 @@ from .style import (
 
 ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
 STATISTICS_WIDTH = 22  # characters in a line beside a panel
+MOST_NAMES = 10  # conditions whose names fit a panel's height
 TICKS = 4  # along a score's axis, at most
 SMALLEST_P = 0.001  # below it p is given as a bound
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
@@ -43,6 +45,8 @@ CAPTION = (
     " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
 )
 
+UNRATED = " Devices without ratings: an order of scores is a prediction, and no comparison with perception."
+
 
 @styled
 def correlation_figure(
@@ -50,10 +54,12 @@ def correlation_figure(
 ) -> Figure:
     """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row a device.
 
+    A device without ratings is shown with its conditions in the order of their scores.
+
     scores, correlations: the tables of that name. ratings: device, condition, rating. titles: by device.
     """
     figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
-    styles = condition_styles(shown_in(scores[scores["device"].isin(ratings["device"])]))
+    styles = condition_styles(shown_in(scores))
     grid = figure.subplots(len(titles), len(Readout), squeeze=False)
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         for axes, readout in zip(row, Readout, strict=True):
@@ -73,16 +79,21 @@ def correlation_panel(
     key: tuple[str, Interface, Readout],
     styles: Styles,
 ) -> None:
-    """Ratings over scores of one device, interface and read-out, with their statistics beside; or why there is none."""
+    """Ratings over scores of one device, interface and read-out, with their statistics beside; or why there is none.
+
+    Without ratings the conditions stand in the order of their scores.
+    """
     device, _, readout = key
     row = _only(correlations, key)
-    points = _rows(scores, key).merge(ratings[["device", "condition", "rating"]], on=["device", "condition"])
-    points = points.dropna(subset=["score", "rating"])
+    scored = _rows(scores, key).dropna(subset=["score"])
+    rated = scored.merge(ratings[["device", "condition", "rating"]], on=["device", "condition"])
+    points = scored.sort_values("score", kind="stable") if rated.empty else rated
     if points.empty:
         note_in(axes, str(row["note"]))
         return
     factor = SCORE_SCALE[readout][0]
-    x, y = factor * points["score"].to_numpy(), points["rating"].to_numpy()
+    x = factor * points["score"].to_numpy()
+    y = np.arange(1.0, 1.0 + len(points)) if rated.empty else points["rating"].to_numpy()
     if pd.notna(row["r2"]):
         slope, intercept = np.polyfit(x, y, 1)
         ends = np.array([x.min(), x.max()])
@@ -92,18 +103,30 @@ def correlation_panel(
         draw_point(axes, one, other, styles.series[device, name])
     axes.margins(PADDING)
     axes.locator_params(axis="x", nbins=TICKS)
-    axes.locator_params(axis="y", nbins=TICKS)
     axes.set_xlabel(score_label(readout, str(points["unit"].iloc[0])))
-    axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
+    if rated.empty:
+        _name_ranks(axes, [styles.series[device, name].label for name in points["condition"]])
+    else:
+        axes.locator_params(axis="y", nbins=TICKS)
+        axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
     axes.annotate(
         statistics(row, x), (1.0, 1.0), xycoords="axes fraction", xytext=(6.0, 0.0), textcoords="offset points",
         va="top", linespacing=1.35,
     )  # fmt: skip
 
 
+def _name_ranks(axes: Axes, names: Sequence[str]) -> None:
+    """Names of conditions at their ranks, lowest score first; ranks alone where names would not fit."""
+    if len(names) <= MOST_NAMES:
+        axes.set_yticks(np.arange(1, 1 + len(names)), list(names))
+    else:
+        axes.locator_params(axis="y", integer=True)
+    axes.set_ylabel("In order of score")
+
+
 def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     """What the correlation table says of one panel, and how far the scores (n,) spread, line by line."""
-    lines = [f"n = {row['n']}"]
+    lines = [f"n = {score.size}"]
     if pd.notna(row["r2"]):
         sign = {-1: ", falling", 1: ", rising"}.get(int(row["slope_sign"]), "")
         lines.append(f"R² = {row['r2']:.3f}{sign}")
@@ -126,7 +149,8 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
 def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
-    return CAPTION.format(interface=interface, kinds=kinds)
+    unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
+    return CAPTION.format(interface=interface, kinds=kinds) + unrated
 
 
 def shown_in(scores: pd.DataFrame) -> list[Shown]:

@@ -150,6 +150,12 @@ def save(figure: Figure, stem: Path) -> None:
             figure.savefig(part, format="pdf", metadata=nothing)
 
 
+def save_as(figure: Figure, path: Path) -> None:
+    """Write one file, in the format that its ending names."""
+    with mpl.rc_context(RC), replacing(path) as part:
+        figure.savefig(part, format=path.suffix.removeprefix("."))
+
+
 def as_png(figure: Figure, resolution: float) -> bytes:
     """A figure as a picture for a screen, at a resolution [dots per inch]."""
     file = BytesIO()

@@ -1,0 +1,52 @@
+"""What one should know before believing a score: of its solution, and of scores that lie close together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from .roughness import CONSTANT, KEY
+from .solution import CONE_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT, Solution
+
+MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
+NEAR = 0.1  # of a certificate's limit [1]; source: shipped devices stay below 0.05
+
+
+def solution_caveats(solution: Solution) -> list[str]:
+    """Increments that were cut or did not settle at once, and figures of the certificate near their limits."""
+    certificate = solution.certificate
+    found = []
+    if solution.cuts:
+        found.append(f"increments were halved {solution.cuts} times")
+    if solution.searches > MANY_SEARCHES:
+        found.append(f"{solution.searches} increments did not settle at once")
+    shares = {
+        "penetration": certificate.penetration / (PENETRATION_LIMIT * solution.indentation),
+        "tension": -certificate.smallest_pressure / (TENSION_LIMIT * float(solution.pressure.max())),
+        "excess over the friction cone": certificate.cone_excess / CONE_LIMIT,
+    }
+    found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
+    return found
+
+
+def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    """For each row of the score table: which conditions' scores are closer than the larger of the two errors.
+
+    Scores that are equal are equal stimuli, and no caveat. Rows without a score or an error have none.
+    """
+    found = []
+    for row in rows:
+        close = [
+            str(other["condition"])
+            for other in rows
+            if all(row[column] == other[column] for column in KEY) and _indistinct(row, other)
+        ]
+        found.append([f"error is larger than the difference to {', '.join(close)}"] if close else [])
+    return found
+
+
+def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    if any(each.get("score_error") is None for each in (row, other)):
+        return False
+    difference = abs(row["score"] - other["score"])
+    return bool(CONSTANT * abs(row["score"]) < difference < max(row["score_error"], other["score_error"]))

@@ -1,0 +1,44 @@
+"""The checkout in which somebody works: where config, devices and schemas are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .errors import UsageError
+
+
+@dataclass(frozen=True)
+class Checkout:
+    """Root folder of a copy of the project."""
+
+    root: Path
+
+    @property
+    def config(self) -> Path:
+        """The model."""
+        return self.root / "config" / "config.yaml"
+
+    @property
+    def devices(self) -> Path:
+        """The folder of device files."""
+        return self.root / "config" / "devices"
+
+    @property
+    def schemas(self) -> Path:
+        """The folder of schemas that scene files must fit."""
+        return self.root / "workflow" / "schemas"
+
+
+def find_checkout(start: Path) -> Checkout:
+    """The checkout that holds a folder. Raises UsageError if none does.
+
+    >>> find_checkout(Path.cwd() / "src").root == Path.cwd()
+    True
+    """
+    folder = start.resolve()
+    for root in (folder, *folder.parents):
+        found = Checkout(root)
+        if (found.schemas / "device.schema.yaml").is_file():
+            return found
+    raise UsageError(f"{folder}: is not in a checkout of fingerpad, which holds config/ and workflow/schemas/")

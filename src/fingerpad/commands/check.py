@@ -1,0 +1,59 @@
+"""`fingerpad check`: whether a device file is valid, and a drawing of it."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..errors import UsageError
+from ..figures.section import section_figure
+from ..figures.style import save_as
+from ..mesh import mesh_section, nominal_edges
+from ..scene import Scene
+from .options import add_scene_options, checked_scene
+
+DESCRIPTION = """\
+Check a device file: keys, units, ranges, and whether the device fits the finger. A mistake is answered with file, key,
+what was found and what is allowed. With -o the section is drawn with the actuators under it.
+
+examples:
+  fingerpad check config/devices/device2.yaml
+  fingerpad check config/devices/device2.yaml -o device2.png
+"""
+PICTURES = (".png", ".pdf", ".svg")
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    parser.add_argument("-o", "--output", type=Path, metavar="PICTURE", help=f"picture to draw ({', '.join(PICTURES)})")
+    add_scene_options(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Validate, say what there is, and draw."""
+    picture = options.output
+    if picture is not None and picture.suffix not in PICTURES:
+        raise UsageError(f"{picture}: found the ending '{picture.suffix}'; allowed: {', '.join(PICTURES)}")
+    scene = checked_scene(options.device, options)
+    print(f"{options.device}: valid\n{described(scene)}")
+    if picture is not None:
+        section = mesh_section(scene, nominal_edges(scene.device.actuators))
+        save_as(section_figure(scene.model, section, [scene.device]), picture)
+        print(f"drawn: {picture}")
+
+
+def described(scene: Scene) -> str:
+    """Title, actuators and conditions in words."""
+    device, row = scene.device, scene.device.actuators
+    kind = "deformable" if row.body else "rigid"
+    conditions = ", ".join(condition.name for condition in device.conditions)
+    places = ", ".join(f"{x:g}" for x in row.positions)
+    return (
+        f"{device.title} ({device.name})\n"
+        f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
+        f" at x = {places} mm\n"
+        f"{len(device.conditions)} conditions: {conditions}"
+    )

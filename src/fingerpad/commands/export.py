@@ -1,0 +1,76 @@
+"""`fingerpad export`: a condition as an input deck for Abaqus or CalculiX."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..condensation import condense_body, condense_section
+from ..edges import mesh_device
+from ..export import DeckSettings, input_deck
+from ..files import write_text
+from ..scene import Interface
+from ..solution import contact_problem, indented_state
+from .options import add_scene_options, checked_scene
+
+DESCRIPTION = """\
+Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
+as deep as fingerpad's own.
+
+example:
+  fingerpad export config/devices/device2.yaml --condition alternate_090 --interface shear -o scene.inp
+  ccx -i scene
+"""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("device", type=Path, metavar="DEVICE_FILE", help="device, as in config/devices")
+    parser.add_argument("--condition", required=True, metavar="NAME", help="condition of the device")
+    parser.add_argument("--interface", required=True, type=Interface, choices=list(Interface), help="friction or none")
+    parser.add_argument("-o", "--output", required=True, type=Path, metavar="FILE", help="deck to write")
+    add_scene_options(parser)
+    parser.add_argument(
+        "--friction-from",
+        choices=["indentation", "stimulus"],
+        default="indentation",
+        help="when friction begins to act; 'stimulus' indents without it and converges better (default: %(default)s)",
+    )
+    for flag, default, what in (
+        ("--pressure-slope", 500.0, "pressure over penetration [MPa/mm]"),
+        ("--stick-slope", 100.0, "shear over elastic slip [MPa/mm]"),
+    ):
+        parser.add_argument(flag, type=float, default=default, metavar="NUMBER", help=f"{what} (default: %(default)g)")
+    for flag, increments, what in (
+        ("--indentation-increments", 20, "of pre-indentation"),
+        ("--stimulus-increments", 4, "of each time of the stimulus"),
+        ("--rest-increments", 3, "at rest after each of them"),
+    ):
+        parser.add_argument(
+            flag, type=int, default=increments, metavar="N", help=f"increments {what} (default: %(default)d)"
+        )
+
+
+def run(options: argparse.Namespace) -> None:
+    """Mesh the scene, find how deep it is indented, and write the deck."""
+    scene = checked_scene(options.device, options)
+    condition = scene.device.condition(options.condition)
+    section = mesh_device(scene)
+    acting = scene.model.contact.coefficient(options.interface)
+    indenting = acting if options.friction_from == "indentation" else 0.0
+    body = condense_body(scene) if scene.device.actuators.body else None
+    interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS
+    problem = contact_problem(scene, condense_section(section, scene), body, interface)
+    settings = DeckSettings(
+        float(indented_state(scene, problem).actuator[0, 1]),
+        indenting,
+        acting,
+        options.pressure_slope,
+        options.stick_slope,
+        options.indentation_increments,
+        options.stimulus_increments,
+        options.rest_increments,
+    )
+    write_text(options.output, input_deck(scene, section, condition, settings))

@@ -1,0 +1,58 @@
+"""`fingerpad new`: a device file of one's own, from that of another device."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+from pathlib import Path
+
+from ..checkout import find_checkout
+from ..errors import UsageError
+from ..files import write_text
+from ..scenefile import recordings
+from ..template import device_text
+from ..validation import check_device, checked_document, require_device, require_name
+
+DESCRIPTION = """\
+Write config/devices/NAME.yaml with the values of another device and a comment on every key: what it is, its unit, what
+is allowed, and how to change the drive. An existing file is never overwritten.
+
+examples:
+  fingerpad new mydevice --from device2
+  fingerpad new mydevice --from somewhere/else/theirs.yaml
+"""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("name", metavar="NAME", help="small letters, digits and underscores; begins with a letter")
+    parser.add_argument(
+        "--from", dest="source", required=True, metavar="DEVICE", help="a device in config/devices, or a device file"
+    )
+
+
+def run(options: argparse.Namespace) -> None:
+    """Read the source, write the new file, with its recordings beside it, and say what comes next."""
+    checkout = find_checkout(Path.cwd())
+    target = checkout.devices / f"{options.name}.yaml"
+    require_name(target)
+    if options.name != target.stem:  # a name with separators
+        raise UsageError(f"device: found {options.name}; allowed: a name without a folder")
+    is_file = options.source.endswith(".yaml")
+    source = Path(options.source) if is_file else require_device(options.source, checkout.devices)
+    check_device(source, checkout.schemas, checkout.config)
+    text = device_text(options.name, *checked_document(source, checkout.schemas / "device.schema.yaml"))
+    copies = {path: checkout.devices / path.relative_to(source.parent) for path in recordings(source)}
+    copies = {path: copy for path, copy in copies.items() if path.resolve() != copy.resolve()}
+    for path in (target, *copies.values()):
+        if path.exists():
+            raise UsageError(f"{path}: exists already, and is not overwritten; choose another name, or remove it")
+    for path, copy in copies.items():
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, copy)
+    write_text(target, text)
+    shown = os.path.relpath(target)
+    print(f"{shown}: written. Edit it, then:\n  fingerpad check {shown}\n  fingerpad predict {shown}\n  snakemake all")

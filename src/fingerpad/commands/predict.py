@@ -1,0 +1,95 @@
+"""`fingerpad predict`: scores with their errors, as a table, JSON or CSV."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from ..forecast import forecast, steps
+from ..roughness import KEY
+from ..scene import Scene
+from .options import add_scene_options, checked_scene
+
+DESCRIPTION = """\
+Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
+discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
+read-out. Below the table stands what to know before believing it.
+
+examples:
+  fingerpad predict config/devices/device2.yaml
+  fingerpad predict --no-error config/devices/*.yaml
+  fingerpad predict --json config/devices/device2.yaml > device2.json
+"""
+COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
+RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
+GAP = "  "
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("devices", type=Path, nargs="+", metavar="FILE", help="device, as in config/devices")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
+    how.add_argument("--csv", action="store_true", help="print the columns of results/scores.csv, rank and caveats")
+    parser.add_argument("--no-error", action="store_true", help="skip the second solution and the errors")
+    add_scene_options(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Solve every device, and print all scores once they are there."""
+    scenes = [checked_scene(device, options) for device in options.devices]
+    error = not options.no_error
+    tables = []
+    with tqdm(total=sum(steps(scene, error) for scene in scenes), leave=False, disable=None) as bar:
+        for scene in scenes:
+            bar.set_description(scene.device.name)
+            tables.append(forecast(scene, error, bar.update))
+    rows = [row for table in tables for row in table]
+    if options.json:
+        print(json.dumps(rows, indent=2))
+    elif options.csv:
+        _print_csv(rows)
+    else:
+        print("\n\n".join(map(as_table, scenes, tables)))
+
+
+def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
+    """Title, aligned table and caveats of one device."""
+    ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
+    cells = [[_shown(column, row[column]) for column in COLUMNS] for row in ordered]
+    columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(row["note"] for row in rows)]
+    header = [name.replace("_", " ") for name in COLUMNS]
+    widths = [max(len(line[i]) for line in (header, *cells)) for i in range(len(COLUMNS))]
+    lines = [f"{scene.device.title} ({scene.device.name})"]
+    for line in (header, *cells):
+        padded = (line[i].rjust(widths[i]) if COLUMNS[i] in RIGHT else line[i].ljust(widths[i]) for i in columns)
+        lines.append(GAP.join(padded).rstrip())
+    said = [(caveat, row) for row in ordered for caveat in row["caveats"]]
+    for caveat, group in groupby(said, key=lambda pair: pair[0]):
+        where = ", ".join(f"{row['condition']} ({row['interface']}, {row['readout']})" for _, row in group)
+        lines.append(f"caveat: {where}: {caveat}")
+    return "\n".join(lines)
+
+
+def _shown(column: str, value: Any) -> str:
+    if value is None:
+        return ""
+    if column in KEY or not isinstance(value, float):
+        return str(value)
+    return f"{value:.1e}" if column == "score_error" else f"{value:.5g}"
+
+
+def _print_csv(rows: Sequence[Mapping[str, Any]]) -> None:
+    writer = csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({**row, "caveats": "; ".join(row["caveats"])} for row in rows)

@@ -1,0 +1,77 @@
+"""The whole prediction of a scene in one process: scores with errors, ranks and caveats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+
+from .accuracy import COARSENING, with_error, with_errors
+from .caveats import score_caveats, solution_caveats
+from .edges import edge_intervals
+from .prediction import condense_scene, rows_of, solve_scene
+from .roughness import CONSTANT, KEY, unpredicted_rows
+from .scene import FloatArray, Scene
+
+
+def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
+    """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
+
+    error: whether to solve a second time, more coarsely, for `score_error`; without, that is None. step: called
+    after each of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
+
+    Raises MeshError, CondensationError, ContactError.
+    """
+    with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
+        edges = edge_intervals(scene)
+        rows, caveats = _solved_rows(scene, edges, step)
+        coarser = _solved_rows(scene.coarsened(COARSENING), edges, step)[0] if error else []
+    silent = unpredicted_rows(scene)
+    found = [*rows, *silent]
+    table = with_errors(found, coarser) if error else [with_error(row, None) for row in found]
+    caveats += [[] for _ in silent]
+    return [
+        row | {"rank": rank, "caveats": own + close}
+        for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)
+    ]
+
+
+def steps(scene: Scene, error: bool = True) -> int:
+    """How often `forecast` calls its `step`: after condensation and after every condition of every solution."""
+    return (2 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
+
+
+def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
+    """Rank of each row's score among those of its device, interface and read-out, 1 the largest; None without one.
+
+    >>> key = {"device": "d", "interface": "shear", "readout": "strain"}
+    >>> ranks([key | {"score": 0.1}, key | {"score": 0.3}, key | {"score": 0.1}, key | {"score": None}])
+    [2, 1, 2, None]
+    """
+    scores: dict[tuple[str, ...], list[float]] = {}
+    for row in rows:
+        if row["score"] is not None:
+            scores.setdefault(tuple(row[column] for column in KEY), []).append(row["score"])
+    return [
+        None
+        if row["score"] is None
+        else 1 + sum(other > row["score"] * (1.0 + CONSTANT) for other in scores[tuple(row[column] for column in KEY)])
+        for row in rows
+    ]
+
+
+def _solved_rows(
+    scene: Scene, edges: FloatArray, step: Callable[[], object]
+) -> tuple[list[dict[str, Any]], list[list[str]]]:
+    """Rows of the score table, and what is to be said of the solution of each."""
+    condensed = condense_scene(scene, edges)
+    step()
+    rows: list[dict[str, Any]] = []
+    caveats: list[list[str]] = []
+    for solved in solve_scene(scene, condensed):
+        own = rows_of(scene, condensed, solved)
+        rows += own
+        caveats += [solution_caveats(solved.solution) for _ in own]
+        step()
+    return rows, caveats

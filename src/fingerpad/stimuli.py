@@ -1,0 +1,119 @@
+"""Kinds of stimuli: what a device file says of a drive, to the conditions of a device.
+
+A kind is a function in KINDS and a definition of the same name in `workflow/schemas/device.schema.yaml`. Nothing else
+knows the kinds (docs/adding-a-device.md shows how to add one). A file that a kind reads stands at a key `file`, so that
+rules depend on it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .errors import SceneError
+from .recording import read_recording
+from .scene import Condition, FloatArray
+
+# The plain values under `stimulus`, the number of actuators and the device file's folder, to conditions
+Builder = Callable[[Mapping[str, Any], int, Path], list[Condition]]
+
+CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; source: 16 per period, linear between
+
+
+def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over one period (cycle)."""
+    conditions = []
+    for dispersion, groups in stimulus["dispersions"].items():
+        if len(groups) != count:
+            raise SceneError(f"stimulus.dispersions.{dispersion}: needs {count} group indices, found {len(groups)}")
+        for phase in stimulus["phases"]:
+            lag = np.asarray(groups, dtype=float) * math.radians(phase)
+            if stimulus["playback"] == "snapshot":
+                # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
+                displacement = stimulus["amplitude"] * np.round(np.cos(lag), 15)[None, :]
+                time = np.array([1.0])
+            else:
+                time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
+                displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + lag)
+            conditions.append(
+                Condition(
+                    f"{dispersion}_{phase:03g}",
+                    dispersion,
+                    float(phase),
+                    time,
+                    **_directed(stimulus["direction"], displacement),
+                )
+            )
+    return conditions
+
+
+def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Actuator i at absolute + (-1)^i relative / 2 (paper, Table 1)."""
+    sign = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+    return [
+        Condition(
+            f"alternate_{row['phase']:03g}",
+            "alternate",
+            float(row["phase"]),
+            np.array([1.0]),
+            **_directed(stimulus["direction"], row["absolute"] + sign[None, :] * row["relative"] / 2.0),
+        )
+        for row in stimulus["rows"]
+    ]
+
+
+def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Any path: per-actuator normal and tangential displacements at given times."""
+    conditions = []
+    for name, given in stimulus["histories"].items():
+        arrays = {}
+        for key in ("normal", "tangential"):
+            rows = given[key]
+            if any(len(row) != count for row in rows):
+                raise SceneError(f"stimulus.histories.{name}.{key}: every row needs {count} numbers (one an actuator)")
+            arrays[key] = np.asarray(rows, dtype=float)
+        time = np.asarray(given["time"], dtype=float)
+        conditions.append(Condition(name, given["dispersion"], float(given["phase"]), time, **arrays))
+    return conditions
+
+
+def measured(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Any path, from CSV files in the device file's folder."""
+    conditions = []
+    for name, given in stimulus["recordings"].items():
+        try:
+            recording = read_recording(folder / given["file"], count)
+        except SceneError as error:
+            raise SceneError(f"stimulus.recordings.{name}.file: {error}") from error
+        conditions.append(
+            Condition(
+                name,
+                given["dispersion"],
+                float(given["phase"]),
+                recording.time,
+                recording.normal,
+                recording.tangential,
+            )
+        )
+    return conditions
+
+
+KINDS: Mapping[str, Builder] = {
+    "phased": phased,
+    "alternating": alternating,
+    "history": history,
+    "measured": measured,
+}
+
+
+def _directed(direction: str, displacement: FloatArray) -> dict[str, FloatArray]:
+    """Displacements (n_times, n_actuators) [mm] as normal and tangential histories; `both` is the same in both."""
+    still = np.zeros_like(displacement)
+    return {
+        "normal": still if direction == "lateral" else displacement,
+        "tangential": still if direction == "normal" else displacement,
+    }

@@ -1,0 +1,350 @@
+"""The command `fingerpad`: what it writes and prints, where it finds things, and its exit codes."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+import fingerpad.commands.predict as predicting
+from fingerpad.api import predict
+from fingerpad.caveats import MANY_SEARCHES, score_caveats, solution_caveats
+from fingerpad.checkout import find_checkout
+from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
+from fingerpad.errors import ContactError, UsageError
+from fingerpad.forecast import forecast, steps
+from fingerpad.scene import Interface
+from fingerpad.template import DRIVES, device_text
+from fingerpad.validation import check_device, checked_document
+from scenes import scene, solved
+
+ROOT = Path(__file__).parents[1]
+DEVICES = ROOT / "config" / "devices"
+SCHEMAS = ROOT / "workflow" / "schemas"
+CONFIG = ROOT / "config" / "config.yaml"
+MEASURED = re.sub("^#", "", DRIVES[DRIVES.index("#stimulus") : DRIVES.rindex("# -")], flags=re.MULTILINE)
+SHIPPED = ("device1", "device2", "device3")
+
+
+@pytest.fixture
+def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with what commands look for, in which the test works."""
+    for part in ("config", "workflow/schemas"):
+        shutil.copytree(ROOT / part, tmp_path / part)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+# fingerpad new
+
+
+@pytest.mark.parametrize("source", SHIPPED)
+def test_new_device_has_the_values_of_its_source(checkout: Path, source: str) -> None:
+    assert main(["new", "mine", "--from", source]) == 0
+    text = (checkout / "config/devices/mine.yaml").read_text(encoding="utf-8")
+    found, wanted = yaml.safe_load(text), yaml.safe_load((DEVICES / f"{source}.yaml").read_text(encoding="utf-8"))
+    assert found.pop("title")["value"] == "mine"
+    wanted.pop("title")
+    assert found == wanted
+    assert max(map(len, text.splitlines())) < 200
+    device = check_device(checkout / "config/devices/mine.yaml", SCHEMAS, CONFIG).device
+    assert [c.name for c in device.conditions] == [c.name for c in scene(source).device.conditions]
+
+
+def described(node: Any, schema: dict[str, Any]) -> set[str]:
+    """Descriptions in a resolved schema of all keys that a document has."""
+    found = set()
+    for key, child in node.items() if isinstance(node, dict) else ():
+        inner = schema["properties"].get(key)
+        inner = inner if isinstance(inner, dict) else schema.get("additionalProperties")
+        if isinstance(inner, dict):
+            found |= {inner["description"]} if key not in ("value", "unit", "source") else set()
+            found |= described(child, inner)
+    for child in node if isinstance(node, list) else ():
+        found |= described(child, schema["items"]) if isinstance(child, dict) else set()
+    return found
+
+
+@pytest.mark.parametrize("source", SHIPPED)
+def test_every_key_is_explained_as_the_schema_does(source: str) -> None:
+    document, schema = checked_document(DEVICES / f"{source}.yaml", SCHEMAS / "device.schema.yaml")
+    text = device_text("mine", document, schema)
+    comments = " ".join(re.findall(r"^ *# (.*)$", text, re.MULTILINE))
+    wanted = described(document, schema)
+    assert len(wanted) > 12
+    assert [each for each in wanted if each[1:] not in comments] == []
+    assert "unit: mm" in comments
+
+
+def test_the_drive_in_the_comments_is_valid(checkout: Path) -> None:
+    main(["new", "mine", "--from", "device2"])
+    path = checkout / "config/devices/mine.yaml"
+    kept = path.read_text(encoding="utf-8").partition("# How to change the drive")[0]
+    path.write_text(kept + MEASURED, encoding="utf-8")
+    rows = "".join(f"1,{k},0.01,0\n" for k in range(1, 5))
+    (path.parent / "tap.csv").write_text(f"time,actuator,normal,tangential\n{rows}", encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    assert main(["new", "other", "--from", "mine"]) == 0  # beside it, so it has the same recording
+
+
+def test_new_takes_recordings_along(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    theirs = tmp_path_factory.mktemp("theirs")
+    main(["new", "mine", "--from", "device2"])
+    document = yaml.safe_load((checkout / "config/devices/mine.yaml").read_text(encoding="utf-8"))
+    (theirs / "theirs.yaml").write_text(yaml.safe_dump(document | yaml.safe_load(MEASURED)), encoding="utf-8")
+    rows = "".join(f"1,{k},0.01,0\n" for k in range(1, 5))
+    (theirs / "tap.csv").write_text(f"time,actuator,normal,tangential\n{rows}", encoding="utf-8")
+    assert main(["new", "copied", "--from", str(theirs / "theirs.yaml")]) == 0
+    assert (checkout / "config/devices/tap.csv").read_bytes() == (theirs / "tap.csv").read_bytes()
+    assert main(["check", "config/devices/copied.yaml"]) == 0
+    assert main(["new", "again", "--from", str(theirs / "theirs.yaml")]) == FAILED  # would overwrite tap.csv
+    assert not (checkout / "config/devices/again.yaml").exists()
+
+
+def test_new_never_overwrites(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = checkout / "config/devices/device1.yaml"
+    before = path.read_bytes()
+    assert main(["new", "device1", "--from", "device2"]) == FAILED
+    assert "exists already" in capsys.readouterr().err
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("name", ["../mine", "a/b", "..", "Mine", "my device", "$(id)", "a;b", "4pins", "-x", "", "ü"])
+def test_new_refuses_what_is_no_name(checkout: Path, name: str) -> None:
+    before = sorted(checkout.rglob("*"))
+    try:
+        assert main(["new", name, "--from", "device2"]) == FAILED
+    except SystemExit as end:  # it looks like an option
+        assert end.code == FAILED
+    assert sorted(checkout.rglob("*")) == before
+
+
+def test_new_knows_the_devices(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "mine", "--from", "devise2"]) == FAILED
+    assert "did you mean device2?" in capsys.readouterr().err
+    assert main(["new", "mine", "--from", "absent.yaml"]) == FAILED
+    assert "absent.yaml: cannot be read" in capsys.readouterr().err
+
+
+# fingerpad check
+
+
+def test_check_says_what_there_is_and_draws(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "config/devices/device3.yaml", "-o", "third.png"]) == 0
+    said = capsys.readouterr().out
+    for part in ("valid", "Device 3: lateral pucks", "4 deformable actuators", "alternate_090", "third.png"):
+        assert part in said
+    assert (checkout / "third.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_check_refuses(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "config/devices/device3.yaml", "-o", "third.doc"]) == FAILED
+    assert "allowed: .png, .pdf, .svg" in capsys.readouterr().err
+    path = checkout / "config/devices/device3.yaml"
+    path.write_text(path.read_text(encoding="utf-8").replace("pitch:", "ptich:"), encoding="utf-8")
+    assert main(["check", str(path)]) == FAILED
+    assert "did you mean pitch?" in capsys.readouterr().err
+
+
+# fingerpad predict
+
+
+def test_forecast_calls_its_step_as_often_as_it_says() -> None:
+    for error in (True, False):
+        calls: list[None] = []
+        rows = forecast(scene("device3"), error, lambda counter=calls: counter.append(None))
+        assert len(calls) == steps(scene("device3"), error)
+        assert all((row["score_error"] is not None) == (error and row["score"] is not None) for row in rows)
+
+
+@pytest.mark.workflow
+@pytest.mark.parametrize("device", SHIPPED)
+def test_prediction_is_what_the_workflow_computes(device: str, finished: Any) -> None:
+    with (finished.folder / "results" / "scores.csv").open(encoding="utf-8") as file:
+        wanted = {
+            (row["condition"], row["interface"], row["readout"]): row
+            for row in csv.DictReader(file)
+            if row["device"] == device
+        }
+    rows = forecast(scene(device))
+    assert len(rows) == len(wanted)
+    for row in rows:
+        other = wanted[row["condition"], row["interface"], row["readout"]]
+        assert list(other) == [name for name in row if name not in ("rank", "caveats")]
+        for column in ("score", "score_error"):
+            # the same arithmetic; what another order of a sum moves is a millionth of this
+            found, stored = row[column], other[column]
+            assert (found is None and stored == "") or found == pytest.approx(float(stored), rel=1e-9)
+
+
+ROW = {"device": "d", "interface": "shear", "readout": "strain", "unit": "mm2", "note": "", "dispersion": "a"}
+
+
+def test_scores_closer_than_their_errors_are_told() -> None:
+    rows = [
+        ROW | {"condition": name, "score": score, "score_error": 0.01}
+        for name, score in (("a", 1.0), ("b", 1.005), ("c", 2.0), ("same", 2.0))
+    ]
+    assert score_caveats(rows) == [
+        ["error is larger than the difference to b"],
+        ["error is larger than the difference to a"],
+        [],
+        [],
+    ]
+    assert score_caveats([row | {"score_error": None} for row in rows]) == [[], [], [], []]
+
+
+def test_caveats_of_a_solution() -> None:
+    solution = solved("device2", "alternate_090", Interface.SHEAR)
+    assert solution_caveats(solution) == []
+    worse = replace(
+        solution,
+        cuts=2,
+        searches=MANY_SEARCHES + 1,
+        certificate=replace(solution.certificate, penetration=5e-5 * solution.indentation),
+    )
+    halved, searched, near = solution_caveats(worse)
+    assert "halved 2 times" in halved
+    assert str(MANY_SEARCHES + 1) in searched
+    assert near == "certificate: penetration is 50% of its limit"
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
+    """Rows that `predict` prints, without solving for them."""
+    rows = [
+        ROW | {"condition": "a", "score": 0.12345678, "score_error": 1e-4, "rank": 1, "caveats": ["doubtful", "odd"]},
+        ROW | {"condition": "bb", "score": None, "score_error": None, "note": "no prediction", "rank": None}
+        | {"caveats": []},
+    ]  # fmt: skip
+    monkeypatch.setattr(predicting, "forecast", lambda *given: rows)
+    return rows
+
+
+def test_predict_prints_an_aligned_table(
+    checkout: Path, quick: list[dict[str, Any]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["predict", "config/devices/device2.yaml"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""  # no progress where there is no terminal
+    title, header, *rows = printed.out.splitlines()
+    assert title == "Device 2: lateral pins (device2)"
+    for name in ("interface", "unit", "note"):
+        column = header.index(name)
+        assert all(row[column - 1 : column] in ("", " ") for row in rows[:2])
+    assert rows[0].split() == ["a", "shear", "strain", "0.12346", "1.0e-04", "mm2", "1"]
+    assert rows[1].split() == ["bb", "shear", "strain", "mm2", "no", "prediction"]
+    assert rows[2:] == ["caveat: a (shear, strain): doubtful", "caveat: a (shear, strain): odd"]
+
+
+def test_predict_shows_its_progress_on_a_terminal(
+    checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True  # type: ignore[method-assign]
+    monkeypatch.setattr(sys, "stderr", terminal)
+    assert main(["predict", "config/devices/device2.yaml"]) == 0
+    assert f"0/{steps(scene('device2'))}" in terminal.getvalue()
+    assert "0/" not in capsys.readouterr().out
+
+
+def test_predict_prints_json_and_csv(
+    checkout: Path, quick: list[dict[str, Any]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["predict", "--json", "config/devices/device2.yaml"]) == 0
+    assert json.loads(capsys.readouterr().out) == quick
+    assert main(["predict", "--csv", "config/devices/device2.yaml", "config/devices/device3.yaml"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert len(rows) == 4
+    assert rows[0]["score"] == "0.12345678"
+    assert rows[0]["caveats"] == "doubtful; odd"
+    assert rows[1]["score"] == rows[1]["rank"] == ""
+
+
+def test_python_gives_the_same_table(checkout: Path) -> None:
+    table = predict("config/devices/device3.yaml", error=False)
+    rows = forecast(scene("device3"), error=False)
+    assert list(table.columns) == list(rows[0])
+    assert table["score"].dropna().tolist() == [row["score"] for row in rows if row["score"] is not None]
+
+
+# Where things are, what is loaded, and exit codes
+
+
+def test_commands_work_from_any_folder_of_the_checkout(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(checkout / "config" / "devices")
+    assert find_checkout(Path.cwd()).root == checkout
+    assert main(["check", "device1.yaml"]) == 0
+    assert main(["new", "mine", "--from", "device1"]) == 0
+    assert "fingerpad check mine.yaml" in capsys.readouterr().out
+    monkeypatch.chdir("/")
+    assert main(["check", str(checkout / "config/devices/device1.yaml")]) == FAILED
+    assert "not in a checkout" in capsys.readouterr().err
+    given = ["--config", str(CONFIG), "--schemas", str(SCHEMAS)]
+    assert main(["check", str(checkout / "config/devices/device1.yaml"), *given]) == 0
+    with pytest.raises(UsageError):
+        find_checkout(Path("/"))
+
+
+@pytest.mark.parametrize("module", ["fingerpad", "fingerpad.cli"])
+def test_import_is_light(module: str) -> None:
+    code = f"import {module}, sys; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT / "src")
+    assert not {"numpy", "yaml", "pandas", "matplotlib"} & set(done.stdout.split())
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_shows_examples(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main([command, "--help"])
+    assert end.value.code == 0
+    said = capsys.readouterr().out
+    assert "example" in said
+    assert f"  fingerpad {command} " in said
+
+
+@pytest.mark.parametrize("arguments", [[], ["predct"], ["predict"], ["new", "mine"], ["check", "a.yaml", "--colour"]])
+def test_wrong_use_is_2(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == FAILED == 2
+
+
+def test_what_cannot_be_solved_is_3(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*given: object) -> None:
+        raise ContactError("no")
+
+    monkeypatch.setattr(predicting, "forecast", refuse)
+    assert main(["predict", "config/devices/device2.yaml"]) == UNSOLVED == 3
+
+
+def test_a_scene_without_solution_is_refused_with_3(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = checkout / "config/devices/device2.yaml"
+    far = path.read_text(encoding="utf-8").replace("value: 0.020, unit: mm", "value: 9.0, unit: mm")
+    path.write_text(far, encoding="utf-8")
+    assert main(["predict", "--no-error", str(path)]) == UNSOLVED
+    assert "device=device2" in capsys.readouterr().err
+
+
+def test_what_is_unexpected_is_1() -> None:
+    code = """
+import fingerpad.checkout
+fingerpad.checkout.find_checkout = None
+from fingerpad.cli import main
+main(["new", "mine", "--from", "device1"])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT / "src")
+    assert done.returncode == 1
+    assert "Traceback" in done.stderr

@@ -1,0 +1,169 @@
+"""Stimuli: the kinds that there are, drives in both directions, and displacements that were measured."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from fingerpad.errors import SceneError
+from fingerpad.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
+from fingerpad.scene import Condition
+from fingerpad.scenefile import recordings
+from fingerpad.stimuli import KINDS, alternating, measured, phased
+from fingerpad.validation import check_device
+
+ROOT = Path(__file__).parents[1]
+SCHEMAS = ROOT / "workflow" / "schemas"
+CONFIG = ROOT / "config" / "config.yaml"
+SECOND = ROOT / "config" / "devices" / "device2.yaml"
+HEADER = "time,actuator,normal,tangential\n"
+GOOD = ["0.5,1,0.01,0", "0.5,2,0,0", "1,1,0,0.02", "1,2,-0.01,0"]
+PHASED = {"amplitude": 0.02, "playback": "snapshot", "phases": [0, 180], "dispersions": {"all": [0, 1]}}
+
+
+def test_kinds_are_those_of_the_schema() -> None:
+    schema = yaml.safe_load((SCHEMAS / "device.schema.yaml").read_text(encoding="utf-8"))
+    stimulus = schema["properties"]["stimulus"]
+    assert stimulus["properties"]["kind"]["enum"] == list(KINDS)
+    branches = {
+        case["if"]["properties"]["kind"]["const"]: case["then"]["$ref"].removeprefix("#/$defs/")
+        for case in stimulus["allOf"]
+    }
+    assert branches == {name: name for name in KINDS}
+    assert schema["$defs"].keys() >= KINDS.keys()
+
+
+def test_limits_of_a_recording_are_those_of_a_history() -> None:
+    definitions = yaml.safe_load((SCHEMAS / "device.schema.yaml").read_text(encoding="utf-8"))["$defs"]
+    time = definitions["history"]["properties"]["histories"]["additionalProperties"]["properties"]["time"]
+    assert time["properties"]["value"]["items"]["maximum"] == LATEST
+    assert time["properties"]["value"]["maxItems"] == MOST_TIMES
+    number = definitions["displacements"]["properties"]["value"]["items"]["items"]
+    assert (number["minimum"], number["maximum"]) == (-FARTHEST, FARTHEST)
+
+
+@pytest.mark.parametrize(
+    ("direction", "normal", "tangential"), [("normal", 1, 0), ("lateral", 0, 1), ("both", 1, 1)], ids=str
+)
+def test_direction_says_where_actuators_move(direction: str, normal: int, tangential: int) -> None:
+    rows = [{"phase": 0, "absolute": 0.2, "relative": 0.01}]
+    made = [
+        (phased({**PHASED, "direction": direction}, 2, ROOT)[1], [[0.02, -0.02]]),
+        (alternating({"rows": rows, "direction": direction}, 2, ROOT)[0], [[0.205, 0.195]]),
+    ]
+    for condition, displacement in made:
+        assert condition.normal == pytest.approx(normal * np.array(displacement))
+        assert condition.tangential == pytest.approx(tangential * np.array(displacement))
+
+
+def written(folder: Path, lines: list[str], header: str = HEADER) -> Path:
+    path = folder / "tap.csv"
+    path.write_text(header + "\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def test_recording_is_read_in_any_order(tmp_path: Path) -> None:
+    shuffled = random.Random(1).sample(GOOD, len(GOOD))
+    found = read_recording(written(tmp_path, shuffled), 2)
+    assert found.time.tolist() == [0.5, 1.0]
+    assert found.normal.tolist() == [[0.01, 0.0], [0.0, -0.01]]
+    assert found.tangential.tolist() == [[0.0, 0.0], [0.02, 0.0]]
+
+
+def test_columns_come_in_any_order(tmp_path: Path) -> None:
+    lines = [",".join(reversed(line.split(","))) for line in GOOD]
+    header = ",".join(reversed(HEADER.strip().split(","))) + "\n"
+    assert read_recording(written(tmp_path, lines, header), 2).normal[0, 0] == 0.01
+
+
+MISTAKES = {  # lines of the file, and what the message must say
+    "no rows": ([], ["a header without rows", "'time', 'actuator', 'normal', 'tangential'"]),
+    "text": ([*GOOD[:3], "1,2,up,0"], ["line 5, column normal: found 'up'", "a number from -10 to 10 [mm]"]),
+    "empty cell": ([*GOOD[:3], "1,2,,0"], ["line 5, column normal: found ''"]),
+    "not a number": ([*GOOD[:3], "1,2,0,nan"], ["line 5, column tangential: found 'nan'"]),
+    "infinity": ([*GOOD[:3], "inf,2,0,0"], ["line 5, column time: found 'inf'", "from 0 to 1e+06 [s]"]),
+    "negative time": (["-1,1,0,0"], ["line 2, column time: found '-1'"]),
+    "micrometres": ([*GOOD[:3], "1,2,0,-20"], ["found '-20'", "[mm]; did you mean '-0.02'?"]),
+    "actuator 0": (["0.5,0,0,0"], ["column actuator: found '0'", "from 1 (the left one) to 2; did you mean '1'?"]),
+    "actuator beyond the row": (["0.5,3,0,0"], ["column actuator: found '3'", "to 2"]),
+    "half an actuator": (["0.5,1.5,0,0"], ["column actuator: found '1.5'", "a whole number"]),
+    "row twice": ([*GOOD, "1.0,2,0,0"], ["line 6, column actuator", "one row a time and actuator", "line 5"]),
+    "missing row": (GOOD[:3], ["found no row of actuator 2 at 1 s", "at every time a row of each of the 2"]),
+    "missing value": ([*GOOD[:3], "1,2,0"], ["line 5: found 3 values; allowed: 4"]),
+}
+
+
+@pytest.mark.parametrize(("lines", "parts"), MISTAKES.values(), ids=MISTAKES)
+def test_mistake_in_a_recording(tmp_path: Path, lines: list[str], parts: list[str]) -> None:
+    path = written(tmp_path, lines)
+    with pytest.raises(SceneError) as caught:
+        read_recording(path, 2)
+    message = str(caught.value)
+    assert message.startswith(f"{path}")
+    assert [part for part in parts if part not in message] == []
+
+
+def test_wrong_columns(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match="line 1, column header: found 'lateral'; allowed: 'time'"):
+        read_recording(written(tmp_path, GOOD, "time,actuator,normal,lateral\n"), 2)
+    with pytest.raises(SceneError, match="column 'tangential' is missing"):
+        read_recording(written(tmp_path, ["1,1,0"], "time,actuator,normal\n"), 2)
+
+
+def device(folder: Path, file: str) -> Path:
+    """A device of four actuators with one measured condition."""
+    document = yaml.safe_load(SECOND.read_text(encoding="utf-8"))
+    given = {"dispersion": ("one", "1"), "phase": (0, "deg"), "file": (file, "1")}
+    document["stimulus"] = {
+        "kind": "measured",
+        "recordings": {
+            "tap": {
+                key: {"value": value, "unit": unit, "source": "assumption: test"}
+                for key, (value, unit) in given.items()
+            }
+        },
+    }
+    path = folder / "mine.yaml"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    return path
+
+
+def test_measured_device_is_the_one_with_that_history(tmp_path: Path) -> None:
+    (tmp_path / "raw").mkdir()
+    written(tmp_path / "raw", [f"1,{k},0.0{k},-0.0{k}" for k in range(1, 5)])
+    path = device(tmp_path, "raw/tap.csv")
+    (condition,) = check_device(path, SCHEMAS, CONFIG).device.conditions
+    moved = np.array([[0.01, 0.02, 0.03, 0.04]])
+    assert condition.same_stimulus(Condition("tap", "one", 0.0, np.array([1.0]), moved, -moved))
+    assert recordings(path) == [tmp_path / "raw" / "tap.csv"]
+    assert recordings(SECOND) == []
+
+
+@pytest.mark.parametrize(
+    "file", ["../tap.csv", "raw/../tap.csv", "/tmp/tap.csv", "~/tap.csv", ".tap.csv", "tap.txt", "a b.csv", "tap.csv\n"]
+)
+def test_recording_lies_with_the_device(tmp_path: Path, file: str) -> None:
+    with pytest.raises(SceneError, match=r"stimulus.recordings.tap.file.value: found .* in the device file's folder"):
+        check_device(device(tmp_path, file), SCHEMAS, CONFIG)
+
+
+def test_mistake_names_device_file_key_and_recording(tmp_path: Path) -> None:
+    path = device(tmp_path, "tap.csv")
+    with pytest.raises(SceneError, match="cannot be read: No such file"):
+        check_device(path, SCHEMAS, CONFIG)
+    written(tmp_path, GOOD)
+    with pytest.raises(SceneError) as caught:
+        check_device(path, SCHEMAS, CONFIG)
+    said = f"{path}: stimulus.recordings.tap.file: {tmp_path / 'tap.csv'}, column actuator: found no row of actuator 3"
+    assert str(caught.value).startswith(said)
+
+
+def test_builder_of_recordings_reads_in_the_folder(tmp_path: Path) -> None:
+    written(tmp_path, GOOD)
+    given = {"recordings": {"tap": {"dispersion": "one", "phase": 90, "file": "tap.csv"}}}
+    (condition,) = measured(given, 2, tmp_path)
+    assert (condition.name, condition.dispersion, condition.phase_deg) == ("tap", "one", 90.0)
