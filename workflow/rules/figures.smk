@@ -99,6 +99,7 @@ rule figure_correlation:
         ENVIRONMENT
     params:
         titles=[SCENE[name].device.title for name in DEVICES],
+        conditions=support.fingerprint(KNOWN),
     script:
         "../scripts/figure_correlation.py"
 
@@ -217,5 +218,6 @@ if LATERAL:
             ENVIRONMENT
         params:
             title=SCENE[LATERAL].device.title,
+            conditions=support.fingerprint(KNOWN),
         script:
             "../scripts/figure_shear.py"

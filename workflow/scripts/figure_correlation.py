@@ -1,5 +1,6 @@
 """Draw scores against perceived roughness for all devices."""
 
+import json
 from pathlib import Path
 
 import pandas as pd
@@ -10,12 +11,19 @@ from fingerpad.ratings import read_ratings
 from fingerpad.scenefile import load_scene
 
 
-def main(config: Path, devices: list[Path], scores: Path, ratings: Path, correlations: Path, stem: Path) -> None:
-    """Read the tables, draw, write PNG and PDF."""
+def main(
+    config: Path,
+    devices: list[Path],
+    scores: Path,
+    ratings: Path,
+    correlations: Path,
+    conditions: dict[str, list[str]],
+    stem: Path,
+) -> None:
+    """Read the tables, draw, write PNG and PDF. conditions: of every known device."""
     titles = device_titles(load_scene(config, path).device for path in devices)
-    table = pd.read_csv(scores)
-    conditions = {device: list(dict.fromkeys(rows)) for device, rows in table.groupby("device")["condition"]}
-    save(correlation_figure(table, read_ratings(ratings, conditions), pd.read_csv(correlations), titles), stem)
+    rated = read_ratings(ratings, conditions)
+    save(correlation_figure(pd.read_csv(scores), rated, pd.read_csv(correlations), titles), stem)
 
 
 if __name__ == "__main__":
@@ -26,5 +34,6 @@ if __name__ == "__main__":
         Path(job.input.scores),
         Path(job.input.ratings),
         Path(job.input.correlations),
+        json.loads(job.params.conditions)[0],
         Path(job.output.png).with_suffix(""),
     )
