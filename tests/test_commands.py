@@ -133,7 +133,7 @@ def test_new_knows_the_devices(checkout: Path, capsys: pytest.CaptureFixture[str
     assert main(["new", "mine", "--from", "devise2"]) == FAILED
     assert "did you mean device2?" in capsys.readouterr().err
     assert main(["new", "mine", "--from", "absent.yaml"]) == FAILED
-    assert "absent.yaml: cannot be read" in capsys.readouterr().err
+    assert "absent.yaml: found no such file" in capsys.readouterr().err
 
 
 # fingerpad check

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
 
 from .errors import FingerpadError
+
+LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, ten thousand times of 64 actuators
 
 
 def checked_rows(path: Path, columns: Sequence[str], error: type[FingerpadError]) -> list[tuple[int, dict[str, str]]]:
@@ -17,18 +20,13 @@ def checked_rows(path: Path, columns: Sequence[str], error: type[FingerpadError]
     Empty lines are left out, and blanks around cells. Raises `error` if the file cannot be read, is no CSV, has other
     columns or no rows.
     """
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file, strict=True)
-            lines = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if any(map(str.strip, row))]
-    except OSError as failure:
-        raise error(f"{path}: cannot be read: {failure.strerror}") from failure
-    except (csv.Error, UnicodeDecodeError) as failure:
-        raise error(f"{path}: is not a CSV file in UTF-8: {failure}") from failure
+    lines = _cells(path, error)
     if len(lines) < 2:
         found = "a header without rows" if lines else "an empty file"
         raise error(f"{path}: found {found}; allowed: rows with the columns {listed(columns)}")
     line, header = lines[0]
+    if len(header) == 1 and (other := re.search("[;\t|]", header[0])):
+        raise error(f"{path}, line {line}: found columns that are separated by {other[0]!r}; allowed: by ','")
     for name in header:
         if name not in columns:
             raise error(told(path, line, "header", name, columns))
@@ -38,8 +36,29 @@ def checked_rows(path: Path, columns: Sequence[str], error: type[FingerpadError]
         raise error(f"{path}, line {line}: column {listed(missing)} is missing; allowed: {listed(columns)}")
     for line, cells in lines[1:]:
         if len(cells) != len(header):
-            raise error(f"{path}, line {line}: found {len(cells)} values; allowed: {len(header)}, for {listed(header)}")
+            hint = "; a decimal comma? a number has a point" if len(cells) > len(header) else ""
+            allowed = f"{len(header)}, for {listed(header)}{hint}"
+            raise error(f"{path}, line {line}: found {len(cells)} values; allowed: {allowed}")
     return [(line, dict(zip(header, cells, strict=True))) for line, cells in lines[1:]]
+
+
+def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]]]:
+    """Lines that are not empty, with their numbers. Raises `error` if the file cannot be read or is no CSV."""
+    line, lines = 0, []
+    try:
+        if (size := path.stat().st_size) > LARGEST_FILE:
+            raise error(f"{path}: found {size} bytes; allowed: at most {LARGEST_FILE}")
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.reader(file, strict=True)
+            for row in reader:
+                line = reader.line_num
+                if any(map(str.strip, row)):
+                    lines.append((line, [cell.strip() for cell in row]))
+    except OSError as failure:
+        raise error(f"{path}: cannot be read: {failure.strerror}") from failure
+    except (csv.Error, UnicodeDecodeError) as failure:
+        raise error(f"{path}: is not a CSV file in UTF-8: after line {line}: {failure}") from failure
+    return lines
 
 
 def told(path: Path, line: int, column: str, found: str, allowed: Sequence[str], meant: str = "") -> str:
@@ -57,8 +76,12 @@ def listed(names: Iterable[str]) -> str:
 
 
 def number(text: str) -> float:
-    """The number in a cell; NaN if there is none."""
+    """The number in a cell; NaN if there is none. Python alone would also take 1_000 and digits of any script.
+
+    >>> number("1e-3"), number("0.0_2")
+    (0.001, nan)
+    """
     try:
-        return float(text)
+        return float(text) if text.isascii() and "_" not in text else math.nan
     except ValueError:
         return math.nan

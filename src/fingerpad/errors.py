@@ -53,5 +53,9 @@ class ReachError(ContactError):
     """Contact reaches beyond the skin nodes that were considered."""
 
 
+class ResultError(FingerpadError):
+    """A file of results holds something else than fingerpad writes there."""
+
+
 class MissingResultError(FingerpadError):
     """A result that is to be looked at has not been computed; the message names the target that makes it."""

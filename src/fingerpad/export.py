@@ -8,6 +8,7 @@ and MPa; the thickness is 1 mm, so that forces are per mm.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -59,8 +60,8 @@ class DeckSettings:
 
     def __post_init__(self) -> None:
         for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
-            if not getattr(self, name) > 0:
-                raise SceneError(f"deck: {name} must be positive, found {getattr(self, name)}")
+            if not 0 < getattr(self, name) < math.inf:
+                raise SceneError(f"deck: {name} must be positive and finite, found {getattr(self, name)}")
         if self.rest_increments < 0:
             raise SceneError(f"deck: rest_increments must not be negative, found {self.rest_increments}")
 

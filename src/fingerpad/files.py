@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,8 +13,10 @@ PART = ".part"  # ends the name of a file that is being written
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """A path to write to, which becomes `path` when the block ends without an error; otherwise nothing is left of it,
-    and what was at `path` before stays.
+    and what was at `path` before stays. Raises FileNotFoundError that names the folder if there is none.
     """
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "is no folder, so nothing can be written there", str(path.parent))
     part = path.with_name(path.name + PART)
     try:
         yield part

@@ -19,7 +19,7 @@ from skfem import MeshTri, MeshTri2
 
 from .errors import MeshError
 from .scene import ActuatorRow, Finger, FloatArray, Numerics, Scene
-from .store import save_arrays
+from .store import reading, save_arrays
 
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
@@ -136,8 +136,8 @@ def save_section(path: Path, section: SectionMesh) -> None:
 
 
 def load_section(path: Path) -> SectionMesh:
-    """Read a section's mesh."""
-    with np.load(path, allow_pickle=False) as archive:
+    """Read a section's mesh. Raises ResultError."""
+    with reading(path) as archive:
         return SectionMesh(
             MeshTri2(archive["nodes"], archive["triangles"]),
             archive["layer"],

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from enum import StrEnum
 
 import numpy as np
@@ -289,7 +290,9 @@ class Device:
         for condition in self.conditions:
             if condition.name == name:
                 return condition
-        raise SceneError(f"{self.name}: no condition {name!r}; there are {[c.name for c in self.conditions]}")
+        names = [condition.name for condition in self.conditions]
+        hint = "".join(f"; did you mean '{close}'?" for close in get_close_matches(name, names, n=1))
+        raise SceneError(f"{self.name}: no condition '{name}'; allowed: {', '.join(names)}{hint}")
 
     def first_with_stimulus_of(self, name: str) -> Condition:
         """The first condition with the same stimulus."""

@@ -33,26 +33,52 @@ from .scene import (
 )
 from .stimuli import KINDS
 
+MERGE = "tag:yaml.org,2002:merge"
+MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
+LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema allows takes as much
+
 
 def read_yaml(path: Path) -> dict[str, Any]:
-    """The mapping in a YAML file. Raises SceneError if the file is missing, empty, not YAML, or has a key twice."""
+    """The mapping in a YAML file.
+
+    Raises SceneError if the file is missing, empty, too large, not YAML, or has a key twice, a tag or many aliases.
+    """
 
     class Loader(yaml.SafeLoader):
-        """Refuses a mapping that has a key twice; PyYAML alone would take the last."""
+        """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, a few lines of
+        which make lists beyond any memory.
+        """
+
+        def get_single_node(self) -> yaml.Node | None:
+            node = super().get_single_node()
+            known: dict[int, int] = {}
+            if node is not None and _written_out(node, known) - len(known) > MOST_REPEATED:
+                problem = f"found aliases that repeat more than {MOST_REPEATED} values, allowed: values written out"
+                raise yaml.MarkedYAMLError(problem=problem)
+            return node
+
+        def construct_undefined(self, node: yaml.Node) -> Any:
+            tag = node.tag.replace("tag:yaml.org,2002:", "!!")
+            raise yaml.MarkedYAMLError(problem=f"found the tag {tag}, allowed: none", problem_mark=node.start_mark)
 
         def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
             node = super().compose_mapping_node(anchor)
             seen: dict[str, int] = {}
             for key, _ in node.value:
-                if not isinstance(key, yaml.ScalarNode):
-                    continue
+                if not isinstance(key, yaml.ScalarNode) or key.tag == MERGE:
+                    found = f"{key.id} as a key" if key.tag != MERGE else "merge key <<"
+                    problem = f"found a {found}, allowed: texts as keys, each with its value written out"
+                    raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
                 if key.value in seen:
                     problem = f"found the key {key.value!r} twice (first in line {seen[key.value]}), allowed once"
                     raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
                 seen[key.value] = key.start_mark.line + 1
             return node
 
+    Loader.add_constructor(None, Loader.construct_undefined)
     try:
+        if (size := path.stat().st_size) > LARGEST_FILE:
+            raise SceneError(f"{path}: found {size} bytes; allowed: at most {LARGEST_FILE}")
         document = yaml.load(path.read_text(encoding="utf-8"), Loader)  # Loader is a SafeLoader
     except OSError as error:
         raise SceneError(f"{path}: cannot be read as a YAML file: {error.strerror}") from error
@@ -61,13 +87,30 @@ def read_yaml(path: Path) -> dict[str, Any]:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         where = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}") from error
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        begun = error.context_mark
+        context = f" ({error.context} that began in line {begun.line + 1})" if begun else ""
+        raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}{context}") from error
+    except RecursionError as error:
+        raise SceneError(f"{path}: is nested too deeply; allowed: the few levels of the shipped files") from error
+    except (yaml.YAMLError, ValueError) as error:
         raise SceneError(f"{path}: is not valid YAML: {' '.join(str(error).split())}") from error
     if not isinstance(document, dict):
         found = "an empty file" if document is None else f"the {type(document).__name__} {document!r:.40}"
         raise SceneError(f"{path}: must hold a mapping of keys to values, found {found}")
     return document
+
+
+def _written_out(node: yaml.Node, known: dict[int, int]) -> int:
+    """Number of nodes below and with a node if aliases were written out. known: of each node, 0 while it is counted."""
+    if id(node) not in known:
+        known[id(node)] = 0
+        pairs = node.value if isinstance(node, yaml.MappingNode) else []
+        children = node.value if isinstance(node, yaml.SequenceNode) else [child for pair in pairs for child in pair]
+        known[id(node)] = 1 + sum(_written_out(child, known) for child in children)
+    elif known[id(node)] == 0:
+        problem = "found an alias of what it is a part of, allowed: aliases of other values"
+        raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
+    return known[id(node)]
 
 
 def load_scene(config: Path, device: Path) -> Scene:

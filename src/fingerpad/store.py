@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-from collections.abc import Mapping, Sequence
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 
+from .errors import ResultError
 from .files import replacing
 from .scene import FloatArray
 
@@ -29,9 +32,19 @@ def save_arrays(path: Path, arrays: Mapping[str, Any]) -> None:
 
 
 def load(path: Path, kind: type[Record]) -> Record:
-    """Read a dataclass that `save` wrote."""
-    with np.load(path, allow_pickle=False) as archive:
+    """Read a dataclass that `save` wrote. Raises ResultError."""
+    with reading(path) as archive:
         return _built(kind, archive, "")
+
+
+@contextmanager
+def reading(path: Path) -> Iterator[Mapping[str, Any]]:
+    """The named arrays in an npz archive, read without pickles. Raises ResultError if it is none, or lacks an array."""
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            yield archive
+    except (ValueError, KeyError, EOFError, TypeError, zipfile.BadZipFile) as error:
+        raise ResultError(f"{path}: is not what fingerpad writes there ({error}); remove it, and run again") from error
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:

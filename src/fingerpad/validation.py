@@ -30,6 +30,9 @@ Key = list[str | int]
 Problem = tuple[int, str]  # how fundamental (0 is the most), and the line that begins with its key
 
 MOST_REPORTED = 5  # problems in one message [1]
+LONGEST_NAME = 64  # characters of a device's name [1]; source: as in the schemas
+NAME = f"small letters, digits and underscores that begin with a letter, at most {LONGEST_NAME}"
+YAML_ENDINGS = {".yaml", ".yml"}
 LONGEST_SHOWN = 60  # characters of a found value in a message [1]
 FACTORS: Mapping[tuple[str, str], float] = {
     **{("mm", unit): 1e-3 for unit in ("um", "\N{GREEK SMALL LETTER MU}m", "\N{MICRO SIGN}m")},
@@ -89,7 +92,7 @@ def known_devices(folder: Path) -> list[str]:
     """
     if not folder.is_dir():
         raise SceneError(f"{folder}: is not a folder; it should hold one YAML file for each device")
-    files = [p for p in folder.iterdir() if p.suffix.lower() in {".yaml", ".yml"} and not p.name.startswith(".")]
+    files = [p for p in folder.iterdir() if p.suffix.lower() in YAML_ENDINGS and not p.name.startswith(".")]
     for path in sorted(files):
         require_name(path)
     return sorted(path.stem for path in files)
@@ -109,12 +112,21 @@ def require_device(name: str, folder: Path) -> Path:
 
 def require_name(path: Path) -> None:
     """Refuse a device file whose name cannot be part of other files' names."""
-    fits = re.fullmatch("[a-z][a-z0-9_]*", path.stem)
+    fits = re.fullmatch("[a-z][a-z0-9_]*", path.stem) and len(path.stem) <= LONGEST_NAME
     if not fits or path.suffix != ".yaml":
-        allowed = "small letters, digits and underscores that begin with a letter, then .yaml"
+        allowed = f"{NAME}, then .yaml"
         meant = path.stem if fits else _as_name(path.stem)
+        hint = f"{meant}.yaml" if meant and path.suffix.lower() in YAML_ENDINGS else ""
         about = "the file name is the device's name"
-        _report(path, [_problem(0, "file name", path.name, allowed, meant=meant and f"{meant}.yaml", about=about)])
+        _report(path, [_problem(0, "file name", _shown_name(path.name), allowed, meant=hint, about=about)])
+
+
+def require_new_name(name: str) -> None:
+    """Refuse what cannot be the name of a new device."""
+    if not (re.fullmatch("[a-z][a-z0-9_]*", name) and len(name) <= LONGEST_NAME):
+        stem, about = name.removesuffix(".yaml"), "name of a device, and of its file without .yaml"
+        meant = _as_name(stem) or (stem if stem.isidentifier() and stem.isascii() and stem != name else "")
+        raise SceneError(_problem(0, "NAME", _shown_name(name), NAME, meant=meant, about=about)[1])
 
 
 def checked_document(path: Path, schema_path: Path) -> tuple[dict[str, Any], Schema]:
@@ -227,6 +239,9 @@ def _key_problems(schema: Schema, key: Key, found: dict[str, Any], about: str) -
     """Unknown and missing keys of a mapping; a misspelled one is both, and reported once, as unknown."""
     named, open_ = schema["properties"], schema.get("additionalProperties") is not False
     missing = [name for name in schema["required"] if name not in found]
+    if (comma := _decimal_comma(found)) and "value" in named:
+        yield _problem(0, _dotted([*key, "value"]), "a decimal comma", "a decimal point", meant=comma, about=about)
+        return
     unknown = {name: _closest(name, (n for n in named if n not in found)) for name in found if name not in named}
     for name, meant in unknown.items():
         if meant or not open_:
@@ -242,18 +257,52 @@ def _meant(schema: Schema, found: Any, quantity: Any) -> str:
     """What was probably meant by a wrong value (for a unit: by that of the quantity), or nothing."""
     kind, unit = schema.get("type"), schema["properties"].get("unit", {}).get("const")
     if "const" in schema:
-        value = _scaled(quantity.get("value"), FACTORS.get((schema["const"], str(found)), math.nan))
-        return "" if value is None else f"{{value: {_shown(value)}, unit: {schema['const']}}}"
+        return _meant_unit(schema["const"], found, quantity)
     if "enum" in schema:
         return _closest(found, schema["enum"])
     if unit and isinstance(found, str | int | float | list):
         return f"{{value: {_shown(found)}, unit: {_shown(unit)}, source: ...}}"
+    if kind == "number":
+        return _meant_number(schema, found, quantity.get("unit") if isinstance(quantity, dict) else None)
+    if kind in ("integer", "boolean", "array"):
+        return _meant_type(kind, found)
+    return _as_name(found) if schema.get("format") == "name" else ""
+
+
+def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
+    """The unit in its own letters, or the quantity in that unit, or nothing."""
+    if isinstance(found, str) and found.lower() == unit.lower():
+        return unit
+    value = _scaled(quantity.get("value"), FACTORS.get((unit, str(found)), math.nan))
+    return "" if value is None else f"{{value: {_shown(value)}, unit: {unit}}}"
+
+
+def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
+    """What was probably meant by a text for a number (1e-9, which YAML takes for text, 0,6 or 16 mm), or by micrometres
+    that are called mm; or nothing.
+    """
+    if isinstance(found, str):
+        with suppress(ValueError):
+            value = float(found.removesuffix(str(unit)).replace(",", "."))
+            return _shown(value) if math.isfinite(value) else ""
+    highest = schema.get("maximum", math.inf)
+    micrometres = unit == "mm" and _is_number(found) and highest < found <= highest / FACTORS["mm", "um"]
+    return f"{{value: {_shown(_scaled(found, FACTORS['mm', 'um']))}, unit: mm}}" if micrometres else ""
+
+
+def _meant_type(kind: str, found: Any) -> str:
+    """The value of that type which was probably meant by one of another, or nothing."""
     if kind == "integer" and isinstance(found, float) and found.is_integer():
         return _shown(int(found))
-    if kind == "number" and isinstance(found, str):
-        with suppress(ValueError):  # YAML takes 1e-9, which has no point, for text
-            return _shown(float(found)) if math.isfinite(float(found)) else ""
-    return _as_name(found) if schema.get("format") == "name" else ""
+    if kind == "boolean" and isinstance(found, str):
+        return {"yes": "true", "on": "true", "no": "false", "off": "false"}.get(found.lower(), "")
+    return f"[{_shown(found)}]" if kind == "array" and _is_number(found) else ""
+
+
+def _decimal_comma(found: Mapping[Any, Any]) -> str:
+    """The number that was meant by {value: 0,6, ...}, which is a value 0 and a key 6 without a value; or nothing."""
+    whole, parts = found.get("value"), [name for name, value in found.items() if type(name) is int and value is None]
+    return f"{whole}.{parts[0]}" if type(whole) is int and len(parts) == 1 else ""
 
 
 def _scaled(value: Any, factor: float) -> Any:
@@ -273,13 +322,24 @@ def _closest(word: object, known: Iterable[str]) -> str:
 
 def _as_name(text: object) -> str:
     """The name that comes nearest to a text that is none, or nothing."""
+    if isinstance(text, bool):  # an unquoted no, which YAML takes for false
+        return f'"{"yes" if text else "no"}" in quotes'
+    if not str(text).isascii():
+        return ""
     name = re.sub("[^a-z0-9]+", "_", str(text).lower()).strip("_").lstrip("0123456789_")
     return name if name != text else ""
 
 
 def _dotted(key: Key) -> str:
     """A key as it is spoken of: `finger.pad[2].modulus`."""
-    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in key).removeprefix(".")
+    steps = (f"[{step}]" if isinstance(step, int) else f".{_shown_name(step)}" for step in key)
+    return "".join(steps).removeprefix(".")
+
+
+def _shown_name(name: object) -> str:
+    """A name on one line, in quotes and with codes of its letters if some are look-alikes or cannot be seen."""
+    text = str(name)
+    return text if text.isascii() and text.isprintable() and text else ascii(text)
 
 
 def _shown(value: object) -> str:

@@ -10,7 +10,11 @@ from fingerpad.scenefile import load_scene, recordings
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
 
-SCENES = Path(config.get("scenes", BASE / "config"))
+SETTINGS = ("scenes", "stress_scenes")  # what --config takes
+if unknown := [name for name in config if name not in SETTINGS]:
+    raise WorkflowError(f"--config: found {', '.join(unknown)}; allowed: {', '.join(SETTINGS)}")
+
+SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
 DATA = BASE / "data"
 ENVIRONMENT = BASE / "environment.yml"

@@ -2,7 +2,9 @@
 # Not part of `all`: ask for it with `snakemake stress`; `--config stress_scenes=200` takes fewer, for a look.
 # REQUIRED INPUTS: none. OUTPUTS: results/stress/scenes_{chunk}.csv, results/stress/summary.csv
 
-STRESS_SCENES = int(config.get("stress_scenes", 10000))
+STRESS_SCENES = config.get("stress_scenes", 10000)
+if type(STRESS_SCENES) is not int or STRESS_SCENES < 1:
+    raise WorkflowError(f"--config stress_scenes: found {STRESS_SCENES!r}; allowed: a whole number, 1 or more")
 STRESS_CHUNK = 500  # scenes a job
 STRESS_CHUNKS = range(-(-STRESS_SCENES // STRESS_CHUNK))
 

@@ -6,7 +6,9 @@ import argparse
 from pathlib import Path
 
 from ..condensation import condense_body, condense_section
+from ..csvrows import listed
 from ..edges import mesh_device
+from ..errors import UsageError
 from ..export import DeckSettings, input_deck
 from ..files import write_text
 from ..scene import Interface
@@ -29,7 +31,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.description = DESCRIPTION
     parser.add_argument("device", type=Path, metavar="DEVICE_FILE", help="device, as in config/devices")
     parser.add_argument("--condition", required=True, metavar="NAME", help="condition of the device")
-    parser.add_argument("--interface", required=True, type=Interface, choices=list(Interface), help="friction or none")
+    parser.add_argument(
+        "--interface", required=True, choices=[each.value for each in Interface], help="friction or none"
+    )
     parser.add_argument("-o", "--output", required=True, type=Path, metavar="FILE", help="deck to write")
     add_scene_options(parser)
     parser.add_argument(
@@ -57,8 +61,11 @@ def run(options: argparse.Namespace) -> None:
     """Mesh the scene, find how deep it is indented, and write the deck."""
     scene = checked_scene(options.device, options)
     condition = scene.device.condition(options.condition)
+    if Interface(options.interface) not in scene.device.interfaces():
+        allowed = f"{listed(scene.device.interfaces())} (a device that controls force moves nothing without friction)"
+        raise UsageError(f"{scene.device.name}: found the interface '{options.interface}'; allowed: {allowed}")
     section = mesh_device(scene)
-    acting = scene.model.contact.coefficient(options.interface)
+    acting = scene.model.contact.coefficient(Interface(options.interface))
     indenting = acting if options.friction_from == "indentation" else 0.0
     body = condense_body(scene) if scene.device.actuators.body else None
     interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS

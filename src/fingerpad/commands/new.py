@@ -12,7 +12,8 @@ from ..errors import UsageError
 from ..files import write_text
 from ..scenefile import recordings
 from ..template import device_text
-from ..validation import check_device, checked_document, require_device, require_name
+from ..validation import check_device, checked_document, require_device, require_new_name
+from .options import existing_file
 
 DESCRIPTION = """\
 Write config/devices/NAME.yaml with the values of another device and a comment on every key: what it is, its unit, what
@@ -37,12 +38,10 @@ def add(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """Read the source, write the new file, with its recordings beside it, and say what comes next."""
     checkout = find_checkout(Path.cwd())
+    require_new_name(options.name)
     target = checkout.devices / f"{options.name}.yaml"
-    require_name(target)
-    if options.name != target.stem:  # a name with separators
-        raise UsageError(f"device: found {options.name}; allowed: a name without a folder")
     is_file = options.source.endswith(".yaml")
-    source = Path(options.source) if is_file else require_device(options.source, checkout.devices)
+    source = existing_file(Path(options.source)) if is_file else require_device(options.source, checkout.devices)
     check_device(source, checkout.schemas, checkout.config)
     text = device_text(options.name, *checked_document(source, checkout.schemas / "device.schema.yaml"))
     copies = {path: checkout.devices / path.relative_to(source.parent) for path in recordings(source)}

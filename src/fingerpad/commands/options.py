@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
+from contextlib import suppress
+from difflib import get_close_matches
 from pathlib import Path
 
 from ..checkout import find_checkout
+from ..errors import UsageError
 from ..scene import Scene
 from ..validation import check_device
 
@@ -27,4 +31,17 @@ def checked_scene(device: Path, options: argparse.Namespace) -> Scene:
     """The scene of a device file and the options. Raises SceneError, and UsageError outside a checkout."""
     config = options.config or find_checkout(Path.cwd()).config
     schemas = options.schemas or find_checkout(Path.cwd()).schemas
-    return check_device(device, schemas, config)
+    return check_device(existing_file(device), schemas, config)
+
+
+def existing_file(device: Path) -> Path:
+    """That file. Raises UsageError that names the device file that was probably meant if there is none."""
+    if device.is_file():
+        return device
+    found, folders = "a folder" if device.is_dir() else "no such file", [device.parent]
+    with suppress(UsageError):
+        folders.append(find_checkout(Path.cwd()).devices)
+    known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
+    close = get_close_matches(device.stem, known, n=1)
+    hint = f"; did you mean {os.path.relpath(known[close[0]])}?" if close else ""
+    raise UsageError(f"{device}: found {found}; allowed: a device file, such as those in config/devices{hint}")
