@@ -80,40 +80,6 @@ def test_columns_come_in_any_order(tmp_path: Path) -> None:
     assert read_recording(written(tmp_path, lines, header), 2).normal[0, 0] == 0.01
 
 
-MISTAKES = {  # lines of the file, and what the message must say
-    "no rows": ([], ["a header without rows", "'time', 'actuator', 'normal', 'tangential'"]),
-    "text": ([*GOOD[:3], "1,2,up,0"], ["line 5, column normal: found 'up'", "a number from -10 to 10 [mm]"]),
-    "empty cell": ([*GOOD[:3], "1,2,,0"], ["line 5, column normal: found ''"]),
-    "not a number": ([*GOOD[:3], "1,2,0,nan"], ["line 5, column tangential: found 'nan'"]),
-    "infinity": ([*GOOD[:3], "inf,2,0,0"], ["line 5, column time: found 'inf'", "from 0 to 1e+06 [s]"]),
-    "negative time": (["-1,1,0,0"], ["line 2, column time: found '-1'"]),
-    "micrometres": ([*GOOD[:3], "1,2,0,-20"], ["found '-20'", "[mm]; did you mean '-0.02'?"]),
-    "actuator 0": (["0.5,0,0,0"], ["column actuator: found '0'", "from 1 (the left one) to 2; did you mean '1'?"]),
-    "actuator beyond the row": (["0.5,3,0,0"], ["column actuator: found '3'", "to 2"]),
-    "half an actuator": (["0.5,1.5,0,0"], ["column actuator: found '1.5'", "a whole number"]),
-    "row twice": ([*GOOD, "1.0,2,0,0"], ["line 6, column actuator", "one row a time and actuator", "line 5"]),
-    "missing row": (GOOD[:3], ["found no row of actuator 2 at 1 s", "at every time a row of each of the 2"]),
-    "missing value": ([*GOOD[:3], "1,2,0"], ["line 5: found 3 values; allowed: 4"]),
-}
-
-
-@pytest.mark.parametrize(("lines", "parts"), MISTAKES.values(), ids=MISTAKES)
-def test_mistake_in_a_recording(tmp_path: Path, lines: list[str], parts: list[str]) -> None:
-    path = written(tmp_path, lines)
-    with pytest.raises(SceneError) as caught:
-        read_recording(path, 2)
-    message = str(caught.value)
-    assert message.startswith(f"{path}")
-    assert [part for part in parts if part not in message] == []
-
-
-def test_wrong_columns(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match="line 1, column header: found 'lateral'; allowed: 'time'"):
-        read_recording(written(tmp_path, GOOD, "time,actuator,normal,lateral\n"), 2)
-    with pytest.raises(SceneError, match="column 'tangential' is missing"):
-        read_recording(written(tmp_path, ["1,1,0"], "time,actuator,normal\n"), 2)
-
-
 def device(folder: Path, file: str) -> Path:
     """A device of four actuators with one measured condition."""
     document = yaml.safe_load(SECOND.read_text(encoding="utf-8"))

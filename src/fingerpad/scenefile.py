@@ -45,8 +45,8 @@ def read_yaml(path: Path) -> dict[str, Any]:
     """
 
     class Loader(yaml.SafeLoader):
-        """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, a few lines of
-        which make lists beyond any memory.
+        """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, which make
+        lists beyond any memory from a few lines.
         """
 
         def get_single_node(self) -> yaml.Node | None:
