@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from tqdm import tqdm
+
 from ..condensation import condense_body, condense_section
 from ..csvrows import listed
 from ..edges import mesh_device
@@ -15,6 +17,7 @@ from ..scene import Interface
 from ..solution import contact_problem, indented_state
 from .options import add_scene_options, checked_scene
 
+STEPS = 3  # of the progress: mesh, condensation, pre-indentation
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
 as deep as fingerpad's own.
@@ -64,20 +67,24 @@ def run(options: argparse.Namespace) -> None:
     if Interface(options.interface) not in scene.device.interfaces():
         allowed = f"{listed(scene.device.interfaces())} (a device that controls force moves nothing without friction)"
         raise UsageError(f"{scene.device.name}: found the interface '{options.interface}'; allowed: {allowed}")
-    section = mesh_device(scene)
     acting = scene.model.contact.coefficient(Interface(options.interface))
     indenting = acting if options.friction_from == "indentation" else 0.0
-    body = condense_body(scene) if scene.device.actuators.body else None
     interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS
-    problem = contact_problem(scene, condense_section(section, scene), body, interface)
-    settings = DeckSettings(
-        float(indented_state(scene, problem).actuator[0, 1]),
-        indenting,
-        acting,
-        options.pressure_slope,
-        options.stick_slope,
-        options.indentation_increments,
-        options.stimulus_increments,
-        options.rest_increments,
-    )
+    with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
+        section = mesh_device(scene)
+        bar.update()
+        body = condense_body(scene) if scene.device.actuators.body else None
+        problem = contact_problem(scene, condense_section(section, scene), body, interface)
+        bar.update()
+        settings = DeckSettings(
+            float(indented_state(scene, problem).actuator[0, 1]),
+            indenting,
+            acting,
+            options.pressure_slope,
+            options.stick_slope,
+            options.indentation_increments,
+            options.stimulus_increments,
+            options.rest_increments,
+        )
+        bar.update()
     write_text(options.output, input_deck(scene, section, condition, settings))
