@@ -42,7 +42,8 @@ def accuracy_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         _of_scores(tables["scores"])
         | _of_increments(tables["increments"])
         | _of_closed_forms(tables["closed_forms"])
-        | {"calculix": _of_calculix(tables["calculix"]), "stress": table(tables["stress"].convert_dtypes().astype(object).fillna(""))}
+        | {"calculix": _of_calculix(tables["calculix"])}
+        | {"stress": table(tables["stress"].convert_dtypes().astype(object).fillna(""))}
         | _of_graph(tables["graph"])
         | _of_run_time(tables["timings"], tables["ladder"], tables["exponents"])
     )

@@ -66,4 +66,4 @@ def _draw_growth(axes: Axes, sizes: pd.DataFrame, fits: pd.DataFrame) -> None:
         )
     axes.set(xscale="log", yscale="log", xlabel="Size, of the smallest", ylabel="Wall time, of the smallest")
     axes.set_title("Growth, and its exponent", loc="left")
-    axes.legend(loc="upper left", borderaxespad=0.0)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
