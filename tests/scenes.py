@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.condensation import condense_body, condense_section
+from fingerpad.condensation import body_of, condense_section
 from fingerpad.edges import mesh_device
 from fingerpad.mesh import SectionMesh
 from fingerpad.scene import Condition, Interface, Scene
@@ -32,7 +32,7 @@ def section(device: str) -> SectionMesh:
 @cache
 def condensed(device: str) -> tuple[CondensedSection, CondensedBody | None]:
     """Its condensed tissue and actuators."""
-    body = condense_body(scene(device)) if scene(device).device.actuators.body else None
+    body = body_of(scene(device))
     return condense_section(section(device), scene(device)), body
 
 

@@ -161,6 +161,11 @@ def _unfold(symmetric: FloatArray, antisymmetric: FloatArray, rows: _Unfolding, 
     return np.asarray(signs * (symmetric[block] + together * antisymmetric[block]) / 2.0)
 
 
+def body_of(scene: Scene) -> CondensedBody | None:
+    """The condensed body of the scene's actuators, or None if they are rigid."""
+    return condense_body(scene) if scene.device.actuators.body else None
+
+
 def condense_body(scene: Scene) -> CondensedBody:
     """Condense the deformable body of the scene's actuators (all equal) to its face."""
     row = scene.device.actuators

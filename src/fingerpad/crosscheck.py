@@ -12,7 +12,7 @@ import numpy as np
 
 from .calculix import Printed, read_printed, run
 from .compliance import CondensedBody, CondensedSection
-from .condensation import arc_length, condense_body, condense_section, receptor_strain
+from .condensation import arc_length, body_of, condense_section, receptor_strain
 from .contact import ContactProblem, rest, switch_friction, touching_height
 from .edges import mesh_device
 from .elasticity import displacement_basis, node_dofs
@@ -68,11 +68,6 @@ def sharpened(scene: Scene) -> Scene:
     """The scene with sharp edges: contact ends where the flat face does, and no normal can turn."""
     actuators = replace(scene.device.actuators, edge_radius=0.0)
     return replace(scene, device=replace(scene.device, actuators=actuators))
-
-
-def body_of(scene: Scene) -> CondensedBody | None:
-    """The condensed body of deformable actuators."""
-    return condense_body(scene) if scene.device.actuators.body else None
 
 
 def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings]:

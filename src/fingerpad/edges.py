@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .condensation import condense_body, condense_section
+from .condensation import body_of, condense_section
 from .contact import ContactProblem, ContactState
 from .errors import ContactError
 from .mesh import SectionMesh, mesh_section, nominal_edges
@@ -33,7 +33,7 @@ def edge_intervals(scene: Scene) -> FloatArray:
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
     coarse = scene.coarsened(COARSER)
     section = condense_section(mesh_section(coarse, wide), coarse)
-    body = condense_body(coarse) if scene.device.actuators.body else None
+    body = body_of(coarse)
     found: list[FloatArray] = []
     try:
         for interface in scene.device.interfaces():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .compliance import CondensedBody, CondensedSection
-from .condensation import condense_body, condense_section
+from .condensation import body_of, condense_section
 from .edges import edge_intervals
 from .gabor import filtered_readouts
 from .mesh import mesh_section
@@ -39,7 +39,7 @@ class Solved:
 def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
     """Mesh, fine at the edges' intervals (k, 2) [mm], and condense. Raises MeshError, CondensationError."""
     section = condense_section(mesh_section(scene, edges), scene)
-    body = condense_body(scene) if scene.device.actuators.body else None
+    body = body_of(scene)
     return Condensed(section, body, resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 

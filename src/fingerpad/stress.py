@@ -11,7 +11,7 @@ from itertools import groupby
 import numpy as np
 
 from .compliance import CondensedSection
-from .condensation import condense_body, condense_section, contact_tractions
+from .condensation import body_of, condense_section, contact_tractions
 from .errors import CertificateError, FingerpadError, MeshError
 from .mesh import mesh_section, nominal_edges
 from .randomscene import GROUP, random_group, random_scene
@@ -113,7 +113,7 @@ def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:
 
 def solved(scene: Scene, section: CondensedSection, condition: Condition) -> Solution:
     """The scene's solution with friction. Raises FingerpadError, also if a number in it is not finite."""
-    body = condense_body(scene) if scene.device.actuators.body else None
+    body = body_of(scene)
     solution = solve_condition(scene, section, body, condition, Interface.SHEAR)
     for name in ("force", "pressure", "shear", "place", "strain", "change_of_strain"):
         if not np.all(np.isfinite(getattr(solution, name))):

@@ -1,13 +1,11 @@
 """Time set-up and solution of every device in one process, each step repeated, and write medians and spreads."""
 
-import resource
 import statistics
-import time
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from fingerpad.benchmark.timing import peak_memory, timed
 from fingerpad.edges import edge_intervals
 from fingerpad.mesh import mesh_section
 from fingerpad.prediction import Condensed, condense_scene, read_out
@@ -16,18 +14,6 @@ from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Indented, indent_device, stimulate
 from fingerpad.store import write_rows
-
-MEBIBYTE = 1024.0  # KiB in one; the system counts peak memory in KiB
-
-
-def timed(repeats: int, work: Callable[[], Any]) -> tuple[Any, list[float]]:
-    """What the work returns, and the seconds of each repetition."""
-    seconds = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        result = work()
-        seconds.append(time.perf_counter() - start)
-    return result, seconds
 
 
 def from_stimulus_to_score(scene: Scene, condensed: Condensed, indented: Indented) -> None:
@@ -66,7 +52,7 @@ def main(config: Path, devices: list[Path], repeats: int, timings: Path) -> None
                     "median_s": round(statistics.median(seconds), 4),
                     "lowest_s": round(min(seconds), 4),
                     "highest_s": round(max(seconds), 4),
-                    "peak_MiB_so_far": round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MEBIBYTE),
+                    "peak_MiB_so_far": round(peak_memory()),
                 }
             )
     write_rows(timings, rows)

@@ -4,11 +4,10 @@ from pathlib import Path
 from typing import Any
 
 from fingerpad.calculix import installed
-from fingerpad.condensation import condense_section
+from fingerpad.condensation import body_of, condense_section
 from fingerpad.crosscheck import (
     Law,
     Outcome,
-    body_of,
     calculix_outcome,
     coarsened,
     differences,

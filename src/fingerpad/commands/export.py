@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from ..condensation import condense_body, condense_section
+from ..condensation import body_of, condense_section
 from ..csvrows import listed
 from ..edges import mesh_device
 from ..errors import UsageError
@@ -73,7 +73,7 @@ def run(options: argparse.Namespace) -> None:
     with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
         section = mesh_device(scene)
         bar.update()
-        body = condense_body(scene) if scene.device.actuators.body else None
+        body = body_of(scene)
         problem = contact_problem(scene, condense_section(section, scene), body, interface)
         bar.update()
         settings = DeckSettings(
