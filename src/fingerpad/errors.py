@@ -1,5 +1,8 @@
 """Named errors: one class for each way in which a user or a computation can fail."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 class FingerpadError(Exception):
     """Base of every error that fingerpad raises on purpose."""
@@ -19,6 +22,14 @@ class RatingError(FingerpadError):
 
 class MeshError(FingerpadError):
     """The section cannot be meshed, or a mesh came out inverted."""
+
+
+class InvertedError(FingerpadError):
+    """Tissue was turned inside out; `where` marks the points."""
+
+    def __init__(self, where: NDArray[np.bool_]) -> None:
+        super().__init__(f"tissue is turned inside out at {np.count_nonzero(where)} points")
+        self.where = where
 
 
 class CondensationError(FingerpadError):

@@ -95,6 +95,7 @@ def contact_problem(
         numerics.newton_tolerance,
         numerics.max_cuts,
         scene.model.skips.inactive_nodes,
+        section.free,
     )
     centres = problem.row.positions
     missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
@@ -157,7 +158,7 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
         last = states[-1]
         certificate = certify(problem, section, last)
     forces = np.array([state.force for state in states[1:]])
-    readouts = receptor_readouts(section.strain, before.force, forces)
+    readouts = receptor_readouts(section.receptor_strain(np.stack([before.force, *forces])))
     return Solution(
         float(before.actuator[0, 1]),
         before.force,

@@ -23,7 +23,7 @@ def indent_by_halves(problem: ContactProblem, criterion: Criterion, increments: 
     """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
     if not mirrors(problem):
         return indent(problem, criterion, increments, limit)
-    return _unfolded(indent(_folded(problem), criterion, increments, limit))
+    return unfolded(indent(fold(problem), criterion, increments, limit))
 
 
 def mirrors(problem: ContactProblem) -> bool:
@@ -38,7 +38,7 @@ def mirrors(problem: ContactProblem) -> bool:
     )
 
 
-def _folded(problem: ContactProblem) -> ContactProblem:
+def fold(problem: ContactProblem) -> ContactProblem:
     """The right half's problem."""
     count = problem.position.shape[0]
     half = count // 2
@@ -58,7 +58,7 @@ def _folded(problem: ContactProblem) -> ContactProblem:
     )
 
 
-def _unfolded(state: ContactState) -> ContactState:
+def unfolded(state: ContactState) -> ContactState:
     """The whole state of the right half's."""
     return replace(
         state,

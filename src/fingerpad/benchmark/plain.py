@@ -46,10 +46,10 @@ def plain_scores(
         for step in range(1, count + 1):
             condensed = condense_section(section, scene)
             problem = replace(problem, compliance=condensed.compliance)
-            state, _ = advance(problem, state, start + step / count * (target - start), 1, None)
+            state, _ = advance(problem, state, start + step / count * (target - start), 1, None, solve_increment)
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
-    readouts = receptor_readouts(condensed.strain, forces[0], forces[1:])
+    readouts = receptor_readouts(condensed.receptor_strain(forces))
     resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
     strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
     read = filtered_readouts(resampling, *strains, scene.model.gabor)

@@ -56,7 +56,9 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     condition = scene.device.conditions[-1]
     solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
     _, recovering = fewest(repeats, partial(recover_fields, section, scene, solution.force[-1:]))
-    reading = partial(receptor_readouts, condensed.section.strain, solution.indented_force, solution.force)
+    forces = np.stack([solution.indented_force, *solution.force])
+    _, reading_one = fewest(repeats, lambda: condensed.section.receptor_strain(forces))
+    reading = partial(receptor_readouts, condensed.section.receptor_strain(forces))
     _, reading_both = fewest(repeats, reading)
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
         yield {

@@ -1,0 +1,122 @@
+"""Stimuli on tissue that deforms much: paths on the condensed tangent, corrected by what the tissue really bears.
+
+About the pre-indented state u_0 with tangent K, a path on the condensed maps ends with forces f and the displacement
+    u' = u + K^-1 (L f - R(u))
+of the tissue. Where R(u') is not L f, the contact nodes' displacement without forces, free = L^T (u - K^-1 R(u)), is
+another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
+the way from u_0, where K is exact, and evenly from elsewhere. So the tissue is in equilibrium wherever a move ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse.linalg import SuperLU
+
+from .condensation import factorise
+from .contact import ContactProblem, ContactState
+from .deformation import internal_force, internal_force_and_tangent
+from .deformed import Span
+from .errors import ConvergenceError, InvertedError
+from .increment import Patch, solve_increment
+from .path import advance
+from .scene import FloatArray
+
+MAX_CORRECTIONS = 12  # of one move [1]; source: usual count is 2-4 (measured)
+MEMORY = 6  # iterates [1] that are combined; source: fewest corrections of 3, 4, 6, 8
+EQUILIBRIUM = 1e-3  # change of displacement in a correction over the largest of the move [1]; source: 1e-3 of a score's error
+
+
+@dataclass(frozen=True)
+class DeformedTissue:
+    """The whole section about the pre-indented state: factors of its tangent, and compliance of the contact nodes."""
+
+    span: Span
+    factors: SuperLU
+    displacement: FloatArray
+
+
+@dataclass(frozen=True)
+class Move:
+    """Where a move ends. state: of contact. displacement: (size,) of the tissue [mm]. corrections: it took. defect: change
+    of displacement in the last of them over the largest of the move [1].
+    """
+
+    state: ContactState
+    displacement: FloatArray
+    corrections: int
+    defect: float
+
+
+def deformed_tissue(span: Span, displacement: FloatArray) -> DeformedTissue:
+    """Linearise about a displacement (size,) [mm]. Raises CondensationError."""
+    _, matrix = internal_force_and_tangent(span.elements, displacement)
+    return DeformedTissue(span, factorise(matrix), displacement)
+
+
+def move(
+    tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
+) -> Move:
+    """Move the actuators in a straight line to `target` (n_actuators, 2) [mm].
+
+    problem: condensed about the tissue's displacement. Raises ConvergenceError if corrections do not settle, and what
+    `path.advance` raises.
+    """
+    span, free = tissue.span, tissue.span.elements.free
+    begin = start.state.actuator
+    length = float(np.abs(target - begin).max())
+    if length == 0.0:
+        return start
+    power = 2 if start.displacement is tissue.displacement else 1
+    steps: list[FloatArray] = []
+    ends: list[FloatArray] = []
+    displacement, first, defect = start.displacement, None, float("inf")
+    for correction in range(MAX_CORRECTIONS):
+        back = -tissue.factors.solve(internal_force(span.elements, displacement)[free])
+        last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+        first = last if first is None else first
+        state = _followed(problem, start.state, target, increments, first, last - first, power)
+        step = back + tissue.factors.solve(span.loads @ state.force.ravel())
+        reached = displacement[free] + step
+        defect = float(np.abs(step).max() / np.abs(reached - start.displacement[free]).max())
+        displacement = displacement.copy()
+        if defect <= EQUILIBRIUM:
+            displacement[free] = reached
+            return Move(state, displacement, start.corrections + correction, max(start.defect, defect))
+        steps.append(step)
+        ends.append(reached)
+        displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
+    raise ConvergenceError(f"the tissue's equilibrium was not found: {defect:.1e} > {EQUILIBRIUM:.0e}")
+
+
+def accelerated(steps: list[FloatArray], ends: list[FloatArray]) -> FloatArray:
+    """Anderson's next iterate of a fixed point, from steps G(u) - u and ends G(u) of the last iterations, oldest first
+    (Walker and Ni 2011): the combination of ends whose steps nearly cancel.
+    """
+    if len(steps) == 1:
+        return ends[0]
+    differences = np.stack(steps[1:], axis=1) - np.stack(steps[:-1], axis=1)
+    weights = np.linalg.lstsq(differences, steps[-1], rcond=None)[0]
+    return np.asarray(ends[-1] - (np.stack(ends[1:], axis=1) - np.stack(ends[:-1], axis=1)) @ weights)
+
+
+def _followed(
+    problem: ContactProblem,
+    start: ContactState,
+    target: FloatArray,
+    increments: int,
+    first: FloatArray,
+    drift: FloatArray,
+    power: int,
+) -> ContactState:
+    """State at the end of a move along which contact nodes without forces drift from `first` by `drift` (m, 2) [mm]."""
+    length = float(np.abs(target - start.actuator).max())
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
+    ) -> tuple[ContactState, Patch]:
+        way = float(np.abs(actuator - start.actuator).max()) / length
+        return solve_increment(replace(problem, free=first + way**power * drift), state, actuator, patch)
+
+    return advance(problem, start, target, increments, None, solve)[0]
