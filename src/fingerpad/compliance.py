@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .finite_strain import logarithmic_strain
 from .scene import FloatArray
 
 VOIGT = 3  # strain components [1]: exx, eyy, gxy = 2 exy
@@ -32,39 +31,9 @@ class CondensedSection:
     strain: FloatArray
     residual: float
 
-    @property
-    def free(self) -> FloatArray | None:
-        """Displacement (n, 2) [mm] of the contact nodes without contact forces; None is zero."""
-        return None
-
     def receptor_strain(self, forces: FloatArray) -> FloatArray:
         """Strain (k, 3m) [1] at the receptors under contact forces (k, n, 2) [N/mm]."""
         return np.asarray(forces.reshape(forces.shape[0], -1) @ self.strain.T)
-
-
-@dataclass(frozen=True)
-class TangentSection(CondensedSection):
-    """A finger condensed about a deformed state: what holds for small changes of it.
-
-    compliance: of the tangent. rest: (n, 2) displacement that contact nodes had without contact forces if the tangent
-    held so far [mm]. gradient: (4m, 2n) of displacement gradients [1 per N/mm] at the receptors, and at_rest: (4m,) what
-    they had without contact forces [1]. strain: without rows.
-    """
-
-    rest: FloatArray
-    gradient: FloatArray
-    at_rest: FloatArray
-
-    @property
-    def free(self) -> FloatArray:
-        """Displacement (n, 2) [mm] of the contact nodes without contact forces."""
-        return self.rest
-
-    def receptor_strain(self, forces: FloatArray) -> FloatArray:
-        """Logarithmic strain (k, 3m) [1] at the receptors under contact forces (k, n, 2) [N/mm]."""
-        gradient = self.at_rest + forces.reshape(forces.shape[0], -1) @ self.gradient.T
-        points = gradient.reshape(forces.shape[0], -1, 2, 2).transpose(2, 3, 0, 1)
-        return np.asarray(logarithmic_strain(points).transpose(1, 2, 0).reshape(forces.shape[0], -1))
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,8 @@ from scipy.sparse import csc_matrix
 from skfem import Basis
 
 from .compliance import VOIGT
+from .errors import InvertedError
+from .finite_strain import is_upright
 from .hyperelasticity import Tissue, respond
 from .scene import FloatArray
 
@@ -24,12 +26,13 @@ NODES = 6  # of a second-order triangle [1]
 class Elements:
     """Second-order elements of hyperelastic tissue, and where their entries go in the tangent.
 
-    gradient: (n_elements, n_points, 6, 2) of the shape functions [1/mm]. weight: (n_elements, n_points) [mm2].
+    centre: (n_elements, 2) [mm]. gradient: (n_elements, n_points, 6, 2) of the shape functions [1/mm]. weight: (n_elements, n_points) [mm2].
     unknowns: (n_elements, 12), x and y by node. tissue: constants at (n_elements, 1). size: number of unknowns.
     free: (n_free,) unknowns that move, in the order of the tangent's rows. rows, starts: of the tangent's columns
     (compressed). entry: (n_elements 144,) place of each element entry among them, the last for none.
     """
 
+    centre: FloatArray
     gradient: FloatArray
     weight: FloatArray
     unknowns: np.ndarray
@@ -56,6 +59,7 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
     known = known[known >= 0]
     starts = np.searchsorted(known, np.arange(free.size + 1) * free.size)
     return Elements(
+        basis.global_coordinates().mean(axis=-1).T,
         np.ascontiguousarray(gradient.transpose(2, 3, 0, 1)),
         np.asarray(basis.dx),
         unknowns,
@@ -69,9 +73,20 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
 
 
 def displacement_gradient(elements: Elements, displacement: FloatArray) -> FloatArray:
-    """Displacement gradient (2, 2, n_elements, n_points) [1] of unknowns (size,) [mm]."""
+    """Displacement gradient (2, 2, n_elements, n_points) [1] of unknowns (size,) [mm].
+
+    Raises InvertedError, with the first place, where elements are turned inside out.
+    """
     nodal = displacement[elements.unknowns].reshape(-1, 1, NODES, 2)
-    return np.asarray((nodal.transpose(0, 1, 3, 2) @ elements.gradient).transpose(2, 3, 0, 1))
+    gradient = np.asarray((nodal.transpose(0, 1, 3, 2) @ elements.gradient).transpose(2, 3, 0, 1))
+    inverted = ~is_upright(gradient).all(axis=-1)
+    if inverted.any():
+        x, y = elements.centre[np.flatnonzero(inverted)[0]]
+        raise InvertedError(
+            f"tissue is turned inside out in {np.count_nonzero(inverted)} elements, the first at x, y ="
+            f" {x:.3f}, {y:.3f} mm"
+        )
+    return gradient
 
 
 def internal_force(elements: Elements, displacement: FloatArray) -> FloatArray:

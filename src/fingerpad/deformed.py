@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import SuperLU
 
 from .condensation import condense_ordered, factorise
-from .contact import ContactProblem, ContactState
+from .contact import ContactProblem, ContactState, Status
 from .deformation import Elements, internal_force, internal_force_and_tangent
 from .errors import CondensationError, InvertedError
 from .increment import NotConvergedError, Patch, solve_increment
@@ -25,6 +25,8 @@ from .path import SolveIncrement
 from .scene import FloatArray
 
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
+LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
+AHEAD = 3.0  # increments [1] within which a node may touch if forces on it are condensed; source: a tangent serves two
 CONTRACTION = 0.2  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
 
 
@@ -41,19 +43,26 @@ class Span:
 
 @dataclass(frozen=True)
 class Tangent:
-    """Tissue linearised about a displacement: factors of its stiffness, compliance (2m, 2m) of its contact nodes [mm
-    per N/mm], and the patch that contact was solved on last.
+    """Tissue linearised about a displacement.
+
+    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes under forces on some of them, `nodes` (k,) [mm per
+    N/mm]; other columns are zero. residual: of the factorisation [1]. patch: that contact was solved on last.
     """
 
     factors: SuperLU
     compliance: FloatArray
+    nodes: np.ndarray
     residual: float
     patch: Patch | None = None
 
 
 @dataclass(frozen=True)
 class DeformedState(ContactState):
-    """A converged state of contact and tissue. displacement: (size,) of all unknowns [mm]. tangents: made so far."""
+    """A converged state of contact and tissue.
+
+    displacement: (size,) of all unknowns [mm]. rate: its change over the way of the actuators in the last increment [1].
+    tangents: made so far. changes: of displacement in the iterations of the last increment, over the load [1].
+    """
 
     displacement: FloatArray
     rate: FloatArray
@@ -61,18 +70,15 @@ class DeformedState(ContactState):
     changes: tuple[float, ...] = ()
 
 
-def at_rest(span: Span, state: ContactState) -> DeformedState:
-    """A state of contact without forces, on undeformed tissue."""
+def deformed(state: ContactState, displacement: FloatArray) -> DeformedState:
+    """A state of contact on tissue with a displacement (size,) [mm]."""
     own = {field.name: getattr(state, field.name) for field in fields(ContactState)}
-    return DeformedState(**own, displacement=np.zeros(span.elements.size), rate=np.zeros(span.elements.size), tangents=0)
+    return DeformedState(**own, displacement=displacement, rate=np.zeros_like(displacement), tangents=0)
 
 
-def tangent_at(span: Span, displacement: FloatArray) -> Tangent:
-    """Linearise about a displacement (size,) [mm]. Raises InvertedError, CondensationError."""
-    _, matrix = internal_force_and_tangent(span.elements, displacement)
-    factors = factorise(matrix)
-    compliance, _, residual = condense_ordered(matrix, factors, span.loads, csr_matrix((0, matrix.shape[0])))
-    return Tangent(factors, compliance, residual)
+def undeformed(state: DeformedState) -> ContactState:
+    """The state of contact alone."""
+    return ContactState(**{field.name: getattr(state, field.name) for field in fields(ContactState)})
 
 
 def solver_on(span: Span) -> SolveIncrement[DeformedState, Tangent]:
@@ -85,33 +91,59 @@ def solve_deformed_increment(
 ) -> tuple[DeformedState, Tangent]:
     """The state with the actuators at `actuator` (n_actuators, 2) [mm], and the tangent it was found with.
 
-    tangent: one from earlier on this path. Raises NotConvergedError.
+    problem: of undeformed tissue, whatever its compliance. tangent: one from earlier on this path. Raises
+    NotConvergedError.
     """
     length = float(np.abs(actuator - start.actuator).max())
+    scale = float(np.abs(actuator).max()) + length
+    near = (start.status != Status.OPEN) | (start.gap < AHEAD * length)
     free, displacement = span.elements.free, start.displacement + length * start.rate
-    scale = float(np.abs(actuator).max() + np.abs(actuator - start.actuator).max())
-    made, iterations, changes = 0, 0, []
+    made, iterations = 0, 0
+    changes: list[float] = []
     try:
         while len(changes) < MAX_ITERATIONS:
             if tangent is None:
-                tangent, made = tangent_at(span, displacement), made + 1
+                tangent, made = tangent_at(span, displacement, near), made + 1
             back = -tangent.factors.solve(internal_force(span.elements, displacement)[free])
-            rest = span.loads.T @ (displacement[free] + back)
-            here = replace(problem, compliance=tangent.compliance, free=rest.reshape(-1, 2))
-            found, patch = solve_increment(here, start, actuator, tangent.patch)
-            tangent = replace(tangent, patch=patch)
+            rest = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+            condensed = replace(problem, compliance=tangent.compliance, free=rest)
+            found, patch = solve_increment(condensed, start, actuator, tangent.patch)
             iterations += found.iterations - start.iterations
+            missed = np.setdiff1d(patch.nodes, tangent.nodes)
+            if missed.size:
+                near[missed], tangent = True, None
+                changes.append(float("inf"))
+                continue
+            tangent = replace(tangent, patch=patch)
             step = back + tangent.factors.solve(span.loads @ found.force.ravel())
             displacement[free] += step
             changes.append(float(np.abs(step).max()) / scale)
             if changes[-1] <= problem.tolerance:
-                own = {field.name: getattr(found, field.name) for field in fields(ContactState)}
-                own["iterations"] = start.iterations + iterations
-                return DeformedState(**own, displacement=displacement, rate=(displacement - start.displacement) / length, tangents=start.tangents + made, changes=tuple(changes)), tangent
-            if not np.isfinite(changes[-1]) or changes[-1] > 1.0:
+                reached = deformed(replace(found, iterations=start.iterations + iterations), displacement)
+                rate = (displacement - start.displacement) / length
+                return replace(reached, rate=rate, tangents=start.tangents + made, changes=tuple(changes)), tangent
+            if not changes[-1] <= LARGEST_CHANGE:
                 break
             if len(changes) > 1 and changes[-1] > CONTRACTION * changes[-2]:
                 tangent = None
-    except (InvertedError, CondensationError) as error:
+    except InvertedError as error:
+        raise NotConvergedError(float("inf"), inverted=str(error)) from error
+    except CondensationError as error:
         raise NotConvergedError(float("inf")) from error
-    raise NotConvergedError(changes[-1] if changes else float("inf"))
+    raise NotConvergedError(changes[-1])
+
+
+def tangent_at(span: Span, displacement: FloatArray, near: np.ndarray) -> Tangent:
+    """Linearise about a displacement (size,) [mm], for contact forces on some of the nodes (m,).
+
+    Raises InvertedError, CondensationError.
+    """
+    _, matrix = internal_force_and_tangent(span.elements, displacement)
+    factors = factorise(matrix)
+    nodes = np.flatnonzero(near)
+    columns = (2 * nodes[:, None] + np.arange(2)).ravel()
+    within, everywhere, residual = condense_ordered(matrix, factors, span.loads[:, columns], csr_matrix(span.loads.T))
+    compliance = np.zeros((span.loads.shape[1],) * 2)
+    compliance[:, columns] = everywhere
+    compliance[np.ix_(columns, columns)] = within
+    return Tangent(factors, compliance, nodes, residual)

@@ -17,13 +17,12 @@ from scipy.sparse.linalg import SuperLU
 from .condensation import factorise
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import Span
-from .errors import ConvergenceError, InvertedError
+from .deformed import Span, Tangent, deformed, solver_on, undeformed
 from .increment import Patch, solve_increment
 from .path import advance
 from .scene import FloatArray
 
-MAX_CORRECTIONS = 12  # of one move [1]; source: usual count is 2-4 (measured)
+MAX_CORRECTIONS = 20  # of one move [1] before new tangents are made on the way; source: usual count is 2-12 (measured)
 MEMORY = 6  # iterates [1] that are combined; source: fewest corrections of 3, 4, 6, 8
 EQUILIBRIUM = 1e-3  # change of displacement in a correction over the largest of the move [1]; source: 1e-3 of a score's error
 
@@ -39,13 +38,18 @@ class DeformedTissue:
 
 @dataclass(frozen=True)
 class Move:
-    """Where a move ends. state: of contact. displacement: (size,) of the tissue [mm]. corrections: it took. defect: change
-    of displacement in the last of them over the largest of the move [1].
+    """Where a move ends.
+
+    state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without contact
+    forces, had the tangent held all the way [mm]. corrections: so far. tangents: made so far. defect: largest change of displacement in the
+    last correction of a move, over the largest displacement in it [1], so far.
     """
 
     state: ContactState
     displacement: FloatArray
+    free: FloatArray
     corrections: int
+    tangents: int
     defect: float
 
 
@@ -60,8 +64,8 @@ def move(
 ) -> Move:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm].
 
-    problem: condensed about the tissue's displacement. Raises ConvergenceError if corrections do not settle, and what
-    `path.advance` raises.
+    problem: condensed about the tissue's displacement. Where corrections do not settle the move is made anew, with new
+    tangents. Raises what `path.advance` raises.
     """
     span, free = tissue.span, tissue.span.elements.free
     begin = start.state.actuator
@@ -83,11 +87,32 @@ def move(
         displacement = displacement.copy()
         if defect <= EQUILIBRIUM:
             displacement[free] = reached
-            return Move(state, displacement, start.corrections + correction, max(start.defect, defect))
+            defect = max(start.defect, defect)
+            return Move(state, displacement, last, start.corrections + correction, start.tangents, defect)
         steps.append(step)
         ends.append(reached)
         displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
-    raise ConvergenceError(f"the tissue's equilibrium was not found: {defect:.1e} > {EQUILIBRIUM:.0e}")
+    return _followed_newly(tissue, problem, start, target, increments)
+
+
+def _followed_newly(
+    tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
+) -> Move:
+    """`move` with a new tangent wherever an increment asks for one."""
+    span, free = tissue.span, tissue.span.elements.free
+    begin = deformed(start.state, start.displacement)
+    tangent = Tangent(tissue.factors, problem.compliance, np.arange(problem.position.shape[0]), 0.0)
+    reached, _ = advance(problem, begin, target, increments, tangent, solver_on(span))
+    moved = (span.loads.T @ reached.displacement[free]).reshape(-1, 2)
+    rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
+    return Move(
+        undeformed(reached),
+        reached.displacement,
+        rest,
+        start.corrections + MAX_CORRECTIONS,
+        start.tangents + reached.tangents,
+        start.defect,
+    )
 
 
 def accelerated(steps: list[FloatArray], ends: list[FloatArray]) -> FloatArray:

@@ -1,7 +1,5 @@
 """Named errors: one class for each way in which a user or a computation can fail."""
 
-import numpy as np
-from numpy.typing import NDArray
 
 
 class FingerpadError(Exception):
@@ -24,14 +22,6 @@ class MeshError(FingerpadError):
     """The section cannot be meshed, or a mesh came out inverted."""
 
 
-class InvertedError(FingerpadError):
-    """Tissue was turned inside out; `where` marks the points."""
-
-    def __init__(self, where: NDArray[np.bool_]) -> None:
-        super().__init__(f"tissue is turned inside out at {np.count_nonzero(where)} points")
-        self.where = where
-
-
 class CondensationError(FingerpadError):
     """The factorised stiffness failed its own residual check."""
 
@@ -50,6 +40,10 @@ class ConvergenceError(ContactError):
 
 class UniquenessError(ContactError):
     """The laws of contact lost their unique solution: friction is too large, or skin hangs on a wall."""
+
+
+class InvertedError(ContactError):
+    """Tissue is turned inside out: an element would be pressed to nothing."""
 
 
 class CriterionError(ContactError):

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .errors import InvertedError
 from .scene import FloatArray
 
 
@@ -29,11 +29,7 @@ def green_strain(gradient: FloatArray) -> FloatArray:
 
 
 def principal_strain(gradient: FloatArray) -> Principal:
-    """Principal values and axes of Green's strain of displacement gradients (2, 2, ...).
-
-    Raises InvertedError where a gradient turns the material inside out.
-    """
-    require_upright(gradient)
+    """Principal values and axes of Green's strain of displacement gradients (2, 2, ...)."""
     strain = green_strain(gradient)
     middle, half = (strain[0] + strain[1]) / 2.0, (strain[0] - strain[1]) / 2.0
     radius = np.hypot(half, strain[2] / 2.0)
@@ -44,8 +40,6 @@ def principal_strain(gradient: FloatArray) -> Principal:
 def logarithmic_strain(gradient: FloatArray) -> FloatArray:
     """Hencky's strain ln U (3, ...), e_11, e_22, 2 e_12 [1], of displacement gradients (2, 2, ...).
 
-    Raises InvertedError where a gradient turns the material inside out.
-
     >>> logarithmic_strain(np.array([[np.e - 1.0, 0.0], [0.0, 0.0]])).round(12).tolist()
     [1.0, 0.0, 0.0]
     """
@@ -55,9 +49,7 @@ def logarithmic_strain(gradient: FloatArray) -> FloatArray:
     return np.stack([cc * first + ss * second, ss * first + cc * second, 2.0 * cs * (first - second)])
 
 
-def require_upright(gradient: FloatArray) -> None:
-    """Raise InvertedError if the determinant of any deformation gradient I + H is not positive."""
+def is_upright(gradient: FloatArray) -> NDArray[np.bool_]:
+    """Where (...) the determinant of the deformation gradient I + H is positive, of gradients (2, 2, ...)."""
     (a, b), (c, d) = gradient
-    inverted = ~((1.0 + a) * (1.0 + d) - b * c > 0.0)
-    if inverted.any():
-        raise InvertedError(inverted)
+    return np.asarray((1.0 + a) * (1.0 + d) - b * c > 0.0)

@@ -53,7 +53,7 @@ def tissue_of(law: Law, exponent: float, materials: Sequence[Material], index: n
 
 
 def respond(tissue: Tissue, gradient: FloatArray) -> Response:
-    """Stress and tangent of tissue at displacement gradients (2, 2, ...). Raises InvertedError."""
+    """Stress and tangent of tissue at displacement gradients (2, 2, ...)."""
     axes = principal_strain(gradient)
     square = 1.0 + 2.0 * axes.values
     tau, (c11, c12, c22) = _kirchhoff(tissue, axes.values)

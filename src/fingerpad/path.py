@@ -8,7 +8,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from .contact import ContactProblem, ContactState
-from .errors import ConvergenceError, UniquenessError
+from .errors import ContactError, ConvergenceError, InvertedError, UniquenessError
 from .increment import NotConvergedError, Patch, solve_increment
 from .scene import FloatArray
 
@@ -68,11 +68,7 @@ def advance(
             cuts += 1
             state = replace(state, cuts=state.cuts + 1)
             if step < smallest or cuts > CRAWL * problem.max_cuts:
-                kind, advice = (
-                    (UniquenessError, "there the states of contact have no unique solution; try less friction")
-                    if failure.turned
-                    else (ConvergenceError, "try more increments")
-                )
+                kind, advice = _named(failure)
                 raise kind(
                     f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
                     f" increment {int(done * increments) + 1}/{increments} halved {cuts - 1} times, residual"
@@ -80,6 +76,15 @@ def advance(
                     " actuators' edges"
                 ) from failure
     return state, carried
+
+
+def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
+    """Class and advice of the error that ends a path."""
+    if failure.inverted:
+        return InvertedError, f"{failure.inverted}; try less indentation"
+    if failure.turned:
+        return UniquenessError, "there the states of contact have no unique solution; try less friction"
+    return ConvergenceError, "try more increments"
 
 
 def _located(actuator: FloatArray) -> str:

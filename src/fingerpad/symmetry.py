@@ -39,7 +39,7 @@ def mirrors(problem: ContactProblem) -> bool:
 
 
 def fold(problem: ContactProblem) -> ContactProblem:
-    """The right half's problem."""
+    """The right half's problem, its compliance under loads that mirror."""
     count = problem.position.shape[0]
     half = count // 2
     right = np.arange(2 * half, 2 * count)
@@ -49,13 +49,14 @@ def fold(problem: ContactProblem) -> ContactProblem:
     compliance = problem.compliance[np.ix_(right, right)] + problem.compliance[np.ix_(right, left)] * np.tile(
         MIRROR, half
     )
+    return replace(right_half(problem), compliance=compliance)
+
+
+def right_half(problem: ContactProblem) -> ContactProblem:
+    """The problem with the right half's nodes and actuators, whatever its compliance."""
     positions = tuple(x for x in problem.row.positions if x > 0.0)
-    return replace(
-        problem,
-        position=problem.position[half:],
-        compliance=compliance,
-        row=replace(problem.row, positions=positions),
-    )
+    half = problem.position.shape[0] // 2
+    return replace(problem, position=problem.position[half:], row=replace(problem.row, positions=positions))
 
 
 def unfolded(state: ContactState) -> ContactState:
