@@ -446,9 +446,14 @@ class Skips:
 
 @dataclass(frozen=True)
 class TissueLaw:
-    """How tissue deforms: kinematics, and with finite ones the law and the exponent of Ogden's [1]."""
+    """How tissue deforms.
+
+    kinematics: of this scene, one of `computed`, those of the workflow. law: with finite kinematics. ogden_exponent: of
+    Ogden's law [1].
+    """
 
     kinematics: Kinematics
+    computed: tuple[Kinematics, ...]
     law: Law
     ogden_exponent: float
 

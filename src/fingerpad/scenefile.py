@@ -133,6 +133,7 @@ def load_scene(config: Path, device: Path, kinematics: Kinematics = Kinematics.S
 def build_model(config: dict[str, Any]) -> Model:
     """The model of a validated config mapping. Raises SceneError."""
     finger, tissue, contact, readout = (_values(config[key]) for key in ("finger", "tissue", "contact", "readout"))
+    computed = tuple(Kinematics) if tissue["kinematics"] == "both" else (Kinematics.SMALL,)
     return Model(
         Finger(
             finger["width"],
@@ -142,7 +143,7 @@ def build_model(config: dict[str, Any]) -> Model:
             tuple(_layer(entry) for entry in finger["pad"]),
             tuple(_layer(entry) for entry in finger["dorsal"]),
         ),
-        TissueLaw(Kinematics.SMALL, Law(tissue["law"]), tissue["ogden_exponent"]),
+        TissueLaw(Kinematics.SMALL, computed, Law(tissue["law"]), tissue["ogden_exponent"]),
         ContactLaw(contact["friction"], Criterion(contact["criterion"])),
         GaborFilter(**_values(config["filter"])),
         ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
