@@ -18,6 +18,7 @@ from .condensation import factorise
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
 from .deformed import Span, Tangent, deformed, solver_on, undeformed
+from .errors import ContactError
 from .increment import Patch, solve_increment
 from .path import advance
 from .scene import FloatArray
@@ -67,20 +68,35 @@ def move(
     problem: condensed about the tissue's displacement. Where corrections do not settle the move is made anew, with new
     tangents. Raises what `path.advance` raises.
     """
-    span, free = tissue.span, tissue.span.elements.free
-    begin = start.state.actuator
-    length = float(np.abs(target - begin).max())
-    if length == 0.0:
+    if np.array_equal(target, start.state.actuator):
         return start
+    try:
+        return _corrected(tissue, problem, start, target, increments)
+    except _UnsettledError:
+        return _followed_newly(tissue, problem, start, target, increments)
+
+
+class _UnsettledError(Exception):
+    """Corrections of a move do not settle."""
+
+
+def _corrected(
+    tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
+) -> Move:
+    """`move` on the tissue's tangent alone. Raises _UnsettledError."""
+    span, free = tissue.span, tissue.span.elements.free
     power = 2 if start.displacement is tissue.displacement else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
-    displacement, first, defect = start.displacement, None, float("inf")
+    displacement, first = start.displacement, None
     for correction in range(MAX_CORRECTIONS):
-        back = -tissue.factors.solve(internal_force(span.elements, displacement)[free])
-        last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
-        first = last if first is None else first
-        state = _followed(problem, start.state, target, increments, first, last - first, power)
+        try:  # an iterate may overshoot: tissue turned inside out, contact without a solution
+            back = -tissue.factors.solve(internal_force(span.elements, displacement)[free])
+            last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+            first = last if first is None else first
+            state = _followed(problem, start.state, target, increments, first, last - first, power)
+        except ContactError as error:
+            raise _UnsettledError from error
         step = back + tissue.factors.solve(span.loads @ state.force.ravel())
         reached = displacement[free] + step
         defect = float(np.abs(step).max() / np.abs(reached - start.displacement[free]).max())
@@ -92,7 +108,7 @@ def move(
         steps.append(step)
         ends.append(reached)
         displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
-    return _followed_newly(tissue, problem, start, target, increments)
+    raise _UnsettledError
 
 
 def _followed_newly(
