@@ -73,12 +73,12 @@ class _Claim:
 def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFrame:
     """Which of the paper's statements hold.
 
-    scores: columns kinematics, device, condition, dispersion, phase_deg, interface, readout, score [in `unit`, NaN without a
-    prediction], unit, note. correlations: from `perception.correlation_table`, or its CSV read back.
+    scores: columns kinematics, device, condition, dispersion, phase_deg, interface, readout, score [in `unit`, NaN
+    without a prediction], unit, note. correlations: from `perception.correlation_table`, or its CSV read back.
 
-    Returns the columns kinematics, claim, source, holds (True or False) and evidence (a sentence with the numbers). To rise
-    means by more than the solver's tolerance. A claim which needs a score or a rating that is not there has no row:
-    it is neither confirmed nor refuted.
+    Returns the columns kinematics, claim, source, holds (True or False) and evidence (a sentence with the numbers). To
+    rise means by more than the solver's tolerance. A claim which needs a score or a rating that is not there has no
+    row: it is neither confirmed nor refuted.
     """
     rows = []
     for kinematics in scores["kinematics"].unique():

@@ -274,7 +274,10 @@ def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) 
 
 
 def factorise(permuted: csc_matrix) -> SuperLU:
-    """LU factors of a symmetric stiffness already in a fill-reducing order. Raises CondensationError if it is singular."""
+    """LU factors of a symmetric stiffness already in a fill-reducing order.
+
+    Raises CondensationError if it is singular.
+    """
     factors = _factorise(permuted, "NATURAL")
     pivots = np.abs(factors.U.diagonal())
     if pivots.min() < PIVOT_LIMIT * pivots.max():

@@ -1,6 +1,7 @@
 """Internal forces and tangent stiffness of deformed tissue: total Lagrangian, second-order elements.
 
-With shape functions N_i, displacement gradient H = sum of u_i (x) grad N_i, F = I + H and stress S(E) (`hyperelasticity`):
+With shape functions N_i, displacement gradient H = sum of u_i (x) grad N_i, F = I + H and stress S(E), from
+`hyperelasticity`:
     f_i = ∫ F S grad N_i dA            K_ij = ∫ B_i^T D B_j + (grad N_i . S grad N_j) I dA,    B = dE/du
 both over the undeformed section, with the quadrature of `elasticity`: at zero displacement K is the linear stiffness.
 """
@@ -26,8 +27,9 @@ NODES = 6  # of a second-order triangle [1]
 class Elements:
     """Second-order elements of hyperelastic tissue, and where their entries go in the tangent.
 
-    centre: (n_elements, 2) [mm]. gradient: (n_elements, n_points, 6, 2) of the shape functions [1/mm]. weight: (n_elements, n_points) [mm2].
-    unknowns: (n_elements, 12), x and y by node. tissue: constants at (n_elements, 1). size: number of unknowns.
+    centre: (n_elements, 2) [mm]. gradient: (n_elements, n_points, 6, 2) of the shape functions [1/mm]. weight:
+    (n_elements, n_points) [mm2]. unknowns: (n_elements, 12), x and y by node. tissue: constants at (n_elements, 1).
+    size: number of unknowns.
     free: (n_free,) unknowns that move, in the order of the tangent's rows. rows, starts: of the tangent's columns
     (compressed). entry: (n_elements 144,) place of each element entry among them, the last for none.
     """
@@ -51,7 +53,9 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
     place = np.full(basis.N, -1, dtype=np.int64)
     place[free] = np.arange(free.size)
     own = place[unknowns]
-    row, column = (np.broadcast_to(each, (own.shape[0], own.shape[1], own.shape[1])) for each in (own[:, :, None], own[:, None, :]))
+    row, column = (
+        np.broadcast_to(each, (own.shape[0], own.shape[1], own.shape[1])) for each in (own[:, :, None], own[:, None, :])
+    )
     held = (row < 0) | (column < 0)
     key = np.where(held, -1, column * free.size + row).ravel()
     known, entry = np.unique(key, return_inverse=True)
@@ -112,10 +116,14 @@ def internal_force_and_tangent(elements: Elements, displacement: FloatArray) -> 
     strain = strain.reshape(*nx.shape[:2], VOIGT, 2 * NODES)
     weighted = (response.tangent * elements.weight).transpose(2, 3, 0, 1)
     count = nx.shape[0]
-    material = strain.reshape(count, -1, 2 * NODES).transpose(0, 2, 1) @ (weighted @ strain).reshape(count, -1, 2 * NODES)
+    material = strain.reshape(count, -1, 2 * NODES).transpose(0, 2, 1) @ (weighted @ strain).reshape(
+        count, -1, 2 * NODES
+    )
     s11, s22, s12 = (response.stress * elements.weight)[..., None]
     pulled = np.stack([s11 * nx + s12 * ny, s12 * nx + s22 * ny], axis=-1)
-    geometric = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODES, -1) @ pulled.transpose(0, 1, 3, 2).reshape(count, -1, NODES)
+    geometric = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODES, -1) @ pulled.transpose(
+        0, 1, 3, 2
+    ).reshape(count, -1, NODES)
     blocks = material.reshape(count, NODES, 2, NODES, 2)
     blocks[:, :, 0, :, 0] += geometric
     blocks[:, :, 1, :, 1] += geometric
@@ -140,4 +148,4 @@ def _assembled(elements: Elements, stress: FloatArray) -> FloatArray:
     weighted = (stress * elements.weight).transpose(2, 3, 1, 0)  # (n_elements, n_points, J, component)
     count = weighted.shape[0]
     nodal = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODES, -1) @ weighted.reshape(count, -1, 2)
-    return np.bincount(elements.unknowns.ravel(), nodal.ravel(), minlength=elements.size)
+    return np.asarray(np.bincount(elements.unknowns.ravel(), nodal.ravel(), minlength=elements.size), dtype=float)

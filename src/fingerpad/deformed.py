@@ -1,6 +1,7 @@
 """Contact of tissue that deforms much: Newton's method around contact on a linearised tissue.
 
-About a displacement u, with tangent K and internal force R(u), the tissue answers contact forces f (nodal forces L f) by
+About a displacement u, with tangent K and internal force R(u), the tissue answers contact forces f (nodal forces
+L f) by
     u' = u + K^-1 (L f - R(u)),        and its contact nodes by  L^T u' = free + C f,   C = L^T K^-1 L,
 which is the condensed problem of `contact` with free = L^T (u - K^-1 R(u)): a path's increment is solved on it, u' is
 where the tissue is linearised next, and the increment is solved anew from where it began, until u' = u. An older K
@@ -45,8 +46,8 @@ class Span:
 class Tangent:
     """Tissue linearised about a displacement.
 
-    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes under forces on some of them, `nodes` (k,) [mm per
-    N/mm]; other columns are zero. residual: of the factorisation [1]. patch: that contact was solved on last.
+    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes under forces on some of them, `nodes` (k,)
+    [mm per N/mm]; other columns are zero. residual: of the factorisation [1]. patch: that contact was solved on last.
     """
 
     factors: SuperLU
@@ -60,8 +61,8 @@ class Tangent:
 class DeformedState(ContactState):
     """A converged state of contact and tissue.
 
-    displacement: (size,) of all unknowns [mm]. rate: its change over the way of the actuators in the last increment [1].
-    tangents: made so far. changes: of displacement in the iterations of the last increment, over the load [1].
+    displacement: (size,) of all unknowns [mm]. rate: its change over the way of the actuators in the last increment
+    [1]. tangents: made so far. changes: of displacement in the iterations of the last increment, over the load [1].
     """
 
     displacement: FloatArray
@@ -81,7 +82,7 @@ def undeformed(state: DeformedState) -> ContactState:
     return ContactState(**{field.name: getattr(state, field.name) for field in fields(ContactState)})
 
 
-def solver_on(span: Span) -> SolveIncrement[DeformedState, Tangent]:
+def solver_on(span: Span) -> SolveIncrement[DeformedState]:
     """What solves an increment on that tissue, for a path."""
     return partial(solve_deformed_increment, span)
 

@@ -25,7 +25,9 @@ from .scene import FloatArray
 
 MAX_CORRECTIONS = 20  # of one move [1] before new tangents are made on the way; source: usual count is 2-12 (measured)
 MEMORY = 6  # iterates [1] that are combined; source: fewest corrections of 3, 4, 6, 8
-EQUILIBRIUM = 1e-3  # change of displacement in a correction over the largest of the move [1]; source: 1e-3 of a score's error
+EQUILIBRIUM = (
+    1e-3  # change of displacement in a correction over the largest of the move [1]; source: 1e-3 of a score's error
+)
 
 
 @dataclass(frozen=True)
@@ -41,9 +43,9 @@ class DeformedTissue:
 class Move:
     """Where a move ends.
 
-    state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without contact
-    forces, had the tangent held all the way [mm]. corrections: so far. tangents: made so far. defect: largest change of displacement in the
-    last correction of a move, over the largest displacement in it [1], so far.
+    state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without
+    contact forces, had the tangent held all the way [mm]. corrections: so far. tangents: made so far. defect: largest
+    change of displacement in the last correction of a move, over the largest displacement in it [1], so far.
     """
 
     state: ContactState
@@ -60,9 +62,7 @@ def deformed_tissue(span: Span, displacement: FloatArray) -> DeformedTissue:
     return DeformedTissue(span, factorise(matrix), displacement)
 
 
-def move(
-    tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
-) -> Move:
+def move(tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int) -> Move:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm].
 
     problem: condensed about the tissue's displacement. Where corrections do not settle the move is made anew, with new

@@ -1,7 +1,6 @@
 """Named errors: one class for each way in which a user or a computation can fail."""
 
 
-
 class FingerpadError(Exception):
     """Base of every error that fingerpad raises on purpose."""
 

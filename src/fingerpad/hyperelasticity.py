@@ -1,7 +1,7 @@
 """Hyperelasticity of isotropic tissue in plane strain: stress and tangent from principal logarithmic strains.
 
-With the principal values E_a of Green's strain the stretches are lambda_a = sqrt(1 + 2 E_a); out of the plane the stretch
-is 1. Every law is a stored energy W of the principal logarithmic strains e_a = ln lambda_a:
+With the principal values E_a of Green's strain the stretches are lambda_a = sqrt(1 + 2 E_a); out of the plane the
+stretch is 1. Every law is a stored energy W of the principal logarithmic strains e_a = ln lambda_a:
     tau_a = dW/de_a                    Kirchhoff stress; c_ab = d tau_a/de_b its stiffness
     S_a = tau_a / lambda_a^2           second Piola-Kirchhoff stress, coaxial with E
     dS_a/dE_b = (c_ab - 2 tau_a delta_ab) / (lambda_a^2 lambda_b^2),     dS_12 = (S_1 - S_2)/(E_1 - E_2) dE_12

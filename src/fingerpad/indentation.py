@@ -7,7 +7,7 @@ import numpy as np
 from .contact import ContactProblem, ContactState, Status, rest, touching_height
 from .errors import CriterionError
 from .increment import solve_increment
-from .path import Carried, SolveIncrement, State, advance
+from .path import SolveIncrement, State, advance
 from .profile import profile
 from .scene import Criterion, FloatArray
 
@@ -30,7 +30,7 @@ def raise_until(
     increments: int,
     limit: float,
     state: State,
-    solve: SolveIncrement[State, Carried],
+    solve: SolveIncrement[State],
 ) -> State:
     """Raise all actuators together until the criterion holds.
 
@@ -41,7 +41,7 @@ def raise_until(
     Raises CriterionError if the criterion is not met within the limit.
     """
     touch = float(state.actuator[0, 1])
-    carried: Carried | None = None
+    carried = None
     over_face = np.abs(state.place) <= problem.row.half_face
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
     stride = max(rise / increments, END_STEP)

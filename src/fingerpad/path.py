@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -13,20 +13,19 @@ from .increment import NotConvergedError, Patch, solve_increment
 from .scene import FloatArray
 
 State = TypeVar("State", bound=ContactState)
-Carried = TypeVar("Carried")
 
 NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
 CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
 
 
-class SolveIncrement(Protocol[State, Carried]):
+class SolveIncrement(Protocol[State]):
     """Solves one increment: from a problem, a state, where the actuators go, and what the last increment left to use
     again. Raises NotConvergedError.
     """
 
     def __call__(
-        self, problem: ContactProblem, start: State, actuator: FloatArray, carried: Carried | None, /
-    ) -> tuple[State, Carried]: ...
+        self, problem: ContactProblem, start: State, actuator: FloatArray, carried: Any, /
+    ) -> tuple[State, Any]: ...
 
 
 def follow(
@@ -45,9 +44,9 @@ def advance(
     state: State,
     target: FloatArray,
     increments: int,
-    carried: Carried | None,
-    solve: SolveIncrement[State, Carried],
-) -> tuple[State, Carried | None]:
+    carried: Any,
+    solve: SolveIncrement[State],
+) -> tuple[State, Any]:
     """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
     and giving the last of it back.
     """

@@ -100,7 +100,7 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
     compliance = compliances[0]
     if mirrored:
         columns = unfolding(tractions.position.shape[0], MIRROR)
-        compliance = unfold(*compliances, columns, columns)
+        compliance = unfold(compliances[0], compliances[1], columns, columns)
         displacement, state = _mirrored(section, displacement), unfolded(state)
     moved = tractions.loads.T @ displacement[:, tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)

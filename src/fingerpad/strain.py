@@ -29,9 +29,9 @@ def receptor_readouts(
 ) -> dict[Readout, FloatArray]:
     """Both read-outs (m,) at the receptors, in the unit of the measure: of maximum principal strain [1].
 
-    components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. Of several times the one is read at which the measure has changed most
-    (largest root mean square): the reference actuator's peak for a snapshot, the peak of the cycle otherwise. measure:
-    of strains (3m,).
+    components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. Of several times the one is
+    read at which the measure has changed most (largest root mean square): the reference actuator's peak for a snapshot,
+    the peak of the cycle otherwise. measure: of strains (3m,).
     """
     before, *strains = (measure(each) for each in components)
     changes = [strain - before for strain in strains]

@@ -15,6 +15,7 @@ from ..compliance import CondensedSection
 from ..condensation import condense_section
 from ..contact import ContactState, rest, touching_height
 from ..gabor import filtered_readouts
+from ..increment import solve_increment
 from ..mesh import SectionMesh
 from ..path import advance
 from ..resampling import resampling_to_grid

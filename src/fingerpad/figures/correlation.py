@@ -72,7 +72,9 @@ def correlation_figure(
         row[0].set_title(title, loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    legend_below(figure, as_points(styles.legend), caption(correlations, f"With shear, {KINEMATICS_NAME[kinematics]}. "))
+    legend_below(
+        figure, as_points(styles.legend), caption(correlations, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
+    )
     return figure
 
 

@@ -7,7 +7,17 @@ from matplotlib.figure import Figure
 
 from ..scene import Interface, Kinematics, Readout
 from .correlation import caption, correlation_panel, shown_in
-from .style import INTERFACE_NAME, KINEMATICS_NAME, WIDE, as_points, condition_styles, legend_below, letter, new_figure, styled
+from .style import (
+    INTERFACE_NAME,
+    KINEMATICS_NAME,
+    WIDE,
+    as_points,
+    condition_styles,
+    legend_below,
+    letter,
+    new_figure,
+    styled,
+)
 
 HEIGHT = 108.0  # mm
 COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)
@@ -36,5 +46,7 @@ def shear_figure(
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(f"{title}, {INTERFACE_NAME[interface]}", loc="left")
         letter(axes, text)
-    legend_below(figure, as_points(styles.legend), caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. "))
+    legend_below(
+        figure, as_points(styles.legend), caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ")
+    )
     return figure
