@@ -241,7 +241,7 @@ def test_edited_filter_reruns_filter_and_what_follows(changeable: Project, plan:
 
 def test_new_mesh_that_equals_the_old_one_hides_no_edited_tissue(changeable: Project) -> None:
     changeable.edit(CONFIG, lambda text: text.replace("modulus: {value: 0.08,", "modulus: {value: 0.09,"))
-    mesh, condensed = "results/device2/mesh.npz", "results/device2/condensed.npz"
+    mesh, condensed = "results/small/device2/mesh.npz", "results/small/device2/condensed.npz"
     run = changeable.snakemake(mesh)  # as if the run of everything had been interrupted here
     assert run.status == 0, run.text
     assert condensed in changeable.snakemake("-n", condensed).outputs
@@ -367,12 +367,12 @@ def assert_refused(project: Project, target: str, *said: str) -> None:
 
 def test_unknown_device_is_refused(finished: Project) -> None:
     known = "device1, device2, device3"
-    assert_refused(finished, "results/devise2/mesh.npz", "'devise2'", known, "did you mean 'device2'?")
+    assert_refused(finished, "results/small/devise2/mesh.npz", "'devise2'", known, "did you mean 'device2'?")
 
 
 def test_unknown_condition_is_refused(finished: Project) -> None:
     known = "alternate_000, alternate_090, alternate_180"
-    assert_refused(finished, "results/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
+    assert_refused(finished, "results/small/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
 
 
 @pytest.mark.parametrize(
