@@ -32,6 +32,7 @@ from .contact import ContactState, rest, touching_height
 from .deformation import elements_of, internal_force_and_tangent
 from .deformed import Span, deformed, solver_on, undeformed
 from .elasticity import displacement_basis
+from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
 from .indentation import raise_until
 from .mesh import SectionMesh
@@ -49,13 +50,15 @@ class Pressed:
 
     section: condensed about that state; without a strain map, as strain follows from displacements. free: (n, 2)
     displacement that contact nodes would have without contact forces, had the tangent held all the way [mm]. state: of
-    all contact nodes. displacement: (2, n_nodes) of the section [mm]. tangents: condensed on the way.
+    all contact nodes. displacement: (2, n_nodes) of the section [mm]. curve: (k, 2) heights above first touch [mm] and
+    pressing forces [N/mm] on the way. tangents: condensed on the way.
     """
 
     section: CondensedSection
     free: FloatArray
     state: ContactState
     displacement: FloatArray
+    curve: FloatArray
     tangents: int
 
 
@@ -85,14 +88,15 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
     parts = _half(section, scene, tractions) if mirrored else _whole(section, scene, tractions)
     spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
     pressing = right_half(problem) if mirrored else problem
+    touch, states = touching_height(pressing), list[ContactState]()
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
         reached = raise_until(
             pressing,
             scene.model.contact.criterion,
             increments(scene, problem)[0],
             scene.model.finger.pad_thickness,
-            deformed(rest(pressing, touching_height(pressing)), np.zeros(parts.matrix.shape[0])),
-            solver_on(spans[0]),
+            deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])),
+            recording(solver_on(spans[0]), states.append),
         )
     compliances, residuals = zip(*(_condensed(span, reached.displacement) for span in spans), strict=True)
     displacement = reached.displacement[parts.dofs]
@@ -107,7 +111,8 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
     condensed = CondensedSection(
         bare.position, bare.weight, compliance, bare.receptor, bare.arc, np.empty((0, 2 * free.size)), max(residuals)
     )
-    return Pressed(condensed, free, state, displacement, reached.tangents)
+    curve = curve_of(states, touch) * np.array([1.0, 2.0 if mirrored else 1.0])
+    return Pressed(condensed, free, state, displacement, curve, reached.tangents)
 
 
 def whole_span(scene: Scene, section: SectionMesh) -> Span:

@@ -29,6 +29,7 @@ FIGURES = [
             for mode, kinematics in MODES.items()
             if kinematics in KINEMATICS
         ),
+        *(["kinematics"] if Kinematics.FINITE in KINEMATICS else []),
         "section",
         *(f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]),
     )
@@ -144,6 +145,27 @@ rule figure_ablation:
         titles=[SCENE[name].device.title for name in DEVICES],
     script:
         "../scripts/figure_ablation.py"
+
+
+rule figure_kinematics:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+        scores="results/scores.csv",
+        curves="results/indentation.csv",
+        code=code("figure_kinematics.py"),
+    output:
+        png="results/figures/kinematics.png",
+        pdf="results/figures/kinematics.pdf",
+    log:
+        "results/logs/figures/kinematics.log",
+    conda:
+        ENVIRONMENT
+    params:
+        titles=[SCENE[name].device.title for name in DEVICES],
+    script:
+        "../scripts/figure_kinematics.py"
 
 
 rule figure_section:

@@ -1,6 +1,7 @@
 # With finite kinematics: a device pressed onto the finger, and each of its stimuli from there.
 # REQUIRED INPUTS: results/finite/{device}/mesh.npz, results/{device}/body.npz for deformable actuators.
-# OUTPUTS: results/finite/{device}/{interface}/pressed.npz, results/finite/{device}/{condition}/{interface}/solution.npz
+# OUTPUTS: results/finite/{device}/{interface}/pressed.npz, results/finite/{device}/{condition}/{interface}/solution.npz;
+# force against indentation, of small kinematics too: results/indentation.csv
 
 
 rule press:
@@ -57,3 +58,30 @@ rule stimulate:
         path=lambda w: support.fingerprint(support.path_of(condition_of(w))),
     script:
         "../scripts/stimulate.py"
+
+
+rule indentation:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+        condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
+        bodies=[f"results/{name}/body.npz" for name in DEVICES if SCENE[name].device.actuators.body],
+        pressed=[
+            f"results/finite/{name}/{interface}/pressed.npz"
+            for name in (DEVICES if Kinematics.FINITE in KINEMATICS else [])
+            for interface in SCENE[name].device.interfaces()
+        ],
+        code=code("indentation.py"),
+    output:
+        table="results/indentation.csv",
+    log:
+        "results/logs/indentation.log",
+    conda:
+        ENVIRONMENT
+    params:
+        scenes=support.fingerprint(
+            [(SCENE[name].model.contact, SCENE[name].model.numerics, SCENE[name].device) for name in DEVICES]
+        ),
+    script:
+        "../scripts/indentation.py"

@@ -88,12 +88,12 @@ def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.
                 )  # fmt: skip
     axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
     axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
-    _name_conditions(axes, conditions)
+    name_conditions(axes, conditions)
     lines = [_statistics(correlations, interface) for interface in Interface]
     axes.set_title("\n".join(lines), loc="left", fontsize="medium", fontweight="normal")
 
 
-def _name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
+def name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
     """Phases under the bars, and under them the dispersions; or the conditions' names where these say too little."""
     places = np.arange(len(conditions))
     if conditions.duplicated(["dispersion", "phase_deg"]).any():
