@@ -12,7 +12,7 @@ import pytest
 from conftest import Project
 
 EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
-KEY = ["device", "condition", "interface", "readout"]
+KEY = ["kinematics", "device", "condition", "interface", "readout"]
 # Another processor rounds differently; that may move the end of pre-indentation by its resolution of 1e-4 mm in 1.6 mm
 TOLERANCE = 1e-3
 
@@ -41,7 +41,8 @@ def test_figures_are_complete_and_byte_stable(finished: Project) -> None:
     """All figures exist as PNG and PDF, and drawing one anew gives the same bytes."""
     figures = finished.folder / "results" / "figures"
     stems = {path.stem for path in figures.iterdir()}
-    wanted = {"figure_3_workflow", "figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear"}
+    both = ("figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear")
+    wanted = {"figure_3_workflow", "kinematics", *both, *(f"{stem}_finite" for stem in both)}
     maps = {f"map_device1_{dispersion}" for dispersion in ("low", "medium", "high")}
     assert wanted | maps | {"section", "map_device2_alternate", "map_device3_alternate"} == stems
     assert {path.suffix for path in figures.iterdir()} == {".png", ".pdf"}
