@@ -49,6 +49,27 @@ def compare(
     return Comparison(case, quantity, *mesh, *values, error, tolerance)
 
 
+def orders(
+    coarse: Iterable[Comparison], fine: Iterable[Comparison], wanted: dict[str, float], tolerance: float
+) -> list[Comparison]:
+    """Orders with which the errors of some quantities fall from a mesh to a finer one.
+
+    wanted: order [1] by quantity. tolerance: largest shortfall of an order, relative [1].
+    """
+    before = {row.quantity: row for row in coarse}
+    found = []
+    for row in fine:
+        if row.quantity not in wanted:
+            continue
+        ratio = np.sqrt(row.unknowns / before[row.quantity].unknowns)  # of element sizes, on the whole
+        order = float(np.log(before[row.quantity].error / row.error) / np.log(ratio))
+        exact = wanted[row.quantity]
+        shortfall = max(1.0 - order / exact, 0.0)  # what falls faster is no error
+        quantity = ORDER_OF + row.quantity
+        found.append(replace(row, quantity=quantity, computed=order, exact=exact, error=shortfall, tolerance=tolerance))
+    return found
+
+
 def root_mean_square(values: FloatArray) -> float:
     """Root mean square of a field (n,)."""
     return float(np.sqrt(np.mean(np.square(values))))
