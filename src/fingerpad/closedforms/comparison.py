@@ -50,23 +50,20 @@ def compare(
 
 
 def orders(
-    coarse: Iterable[Comparison], fine: Iterable[Comparison], wanted: dict[str, float], tolerance: float
+    coarse: Iterable[Comparison], fine: Iterable[Comparison], finer: float, wanted: dict[str, float], tolerance: float
 ) -> list[Comparison]:
-    """Orders with which the errors of some quantities fall from a mesh to a finer one.
+    """Orders with which the errors of some quantities fall from a mesh to one whose elements are `finer` times smaller.
 
     wanted: order [1] by quantity. tolerance: largest shortfall of an order, relative [1].
     """
-    before = {row.quantity: row for row in coarse}
+    before = {row.quantity: row.error for row in coarse}
     found = []
-    for row in fine:
-        if row.quantity not in wanted:
-            continue
-        ratio = np.sqrt(row.unknowns / before[row.quantity].unknowns)  # of element sizes, on the whole
-        order = float(np.log(before[row.quantity].error / row.error) / np.log(ratio))
+    for row in (row for row in fine if row.quantity in wanted):
+        order = float(np.log(before[row.quantity] / row.error) / np.log(finer))
         exact = wanted[row.quantity]
         shortfall = max(1.0 - order / exact, 0.0)  # what falls faster is no error
-        quantity = ORDER_OF + row.quantity
-        found.append(replace(row, quantity=quantity, computed=order, exact=exact, error=shortfall, tolerance=tolerance))
+        name = ORDER_OF + row.quantity
+        found.append(replace(row, quantity=name, computed=order, exact=exact, error=shortfall, tolerance=tolerance))
     return found
 
 

@@ -14,9 +14,7 @@ from ..errors import ConvergenceError
 from ..hyperelasticity import Tissue
 from ..scene import FloatArray
 
-STEP = (
-    1e-9  # last change of displacement over the largest of it [1]; source: the error left is of the order of its square
-)
+STEP = 1e-9  # last change of displacement over the largest of it [1]; source: its square is below rounding
 MAX_STEPS = 20  # of Newton's method [1]; source: 4-7 are usual
 
 

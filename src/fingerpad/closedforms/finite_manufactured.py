@@ -20,7 +20,7 @@ from ..scene import FloatArray, Scene
 from .comparison import Comparison, compare, orders
 from .energy import first_stress
 from .equilibrium import equilibrium
-from .manufactured import EXACT_ORDER, SHORTFALL, SPACINGS, displacement, gradient, uniform
+from .manufactured import EXACT_ORDER, SHORTFALL, SPACINGS, displacement, finer, gradient, uniform
 
 EXPANSION = 0.15  # s [1]; source: above the compression that w brings about
 WAVES = 5.0  # w over the displacement of `manufactured` [1]: its gradients reach 0.1
@@ -33,7 +33,7 @@ CASE = "Finite manufactured solution"
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
     found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    return [row for mesh in found for row in mesh] + orders(*found[-2:], ORDERS, SHORTFALL)
+    return [row for mesh in found for row in mesh] + orders(*found[-2:], finer(*found[-2:]), ORDERS, SHORTFALL)
 
 
 def large_displacement(place: FloatArray) -> FloatArray:

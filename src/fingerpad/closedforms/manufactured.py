@@ -43,7 +43,12 @@ def gradient(x: FloatArray, y: FloatArray) -> FloatArray:
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
     found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    return [row for mesh in found for row in mesh] + orders(*found[-2:], ORDERS, SHORTFALL)
+    return [row for mesh in found for row in mesh] + orders(*found[-2:], finer(*found[-2:]), ORDERS, SHORTFALL)
+
+
+def finer(coarse: list[Comparison], fine: list[Comparison]) -> float:
+    """How many times smaller elements are [1], on the whole."""
+    return float(np.sqrt(fine[0].unknowns / coarse[0].unknowns))
 
 
 def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
