@@ -1,8 +1,9 @@
 """A block of Hencky tissue bent into a circular sector: finite, inhomogeneous strain with a closed form at every nu.
 
-Plane X keeps to a circle of radius r(X), line Y to the ray at angle c Y, so that lambda_1 = r' and lambda_2 = c r. Since
-X does not appear in the energy W(lambda_1, lambda_2), W - lambda_1 dW/dlambda_1 is the same everywhere (Ogden 1984,
-Non-linear Elastic Deformations, section 5.2; Bruhns, Xiao and Meyers 2002 for this law). The faces are free, so with e = ln lambda and e_2 = -a on the inner face, e_2 = a on the outer one,
+Plane X keeps to a circle of radius r(X), line Y to the ray at angle c Y, so lambda_1 = r' and lambda_2 = c r. As the
+energy W(lambda_1, lambda_2) does not know X, W - lambda_1 dW/dlambda_1 is the same everywhere (Ogden 1984, Non-linear
+Elastic Deformations, section 5.2; Bruhns, Xiao and Meyers 2002 for this law). The faces are free, so with e = ln lambda
+and e_2 = -a on the inner face, e_2 = a on the outer one,
     (lam/2)(e_1 + e_2)^2 + mu (e_1^2 + e_2^2) - lam (e_1 + e_2) - 2 mu e_1 = 2 mu (lam + mu)/(lam + 2 mu) a^2,
 a quadratic equation for e_1(e_2), and c X = int exp(s - e_1(s)) ds from -a to e_2.
 

@@ -33,7 +33,8 @@ CASE = "Finite manufactured solution"
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
     found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    return [row for mesh in found for row in mesh] + orders(*found[-2:], finer(*found[-2:]), ORDERS, SHORTFALL)
+    coarse, fine = found[-2:]
+    return [row for mesh in found for row in mesh] + orders(coarse, fine, finer(coarse, fine), ORDERS, SHORTFALL)
 
 
 def large_displacement(place: FloatArray) -> FloatArray:

@@ -43,7 +43,8 @@ def gradient(x: FloatArray, y: FloatArray) -> FloatArray:
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
     found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    return [row for mesh in found for row in mesh] + orders(*found[-2:], finer(*found[-2:]), ORDERS, SHORTFALL)
+    coarse, fine = found[-2:]
+    return [row for mesh in found for row in mesh] + orders(coarse, fine, finer(coarse, fine), ORDERS, SHORTFALL)
 
 
 def finer(coarse: list[Comparison], fine: list[Comparison]) -> float:
