@@ -20,6 +20,7 @@ from fingerpad.errors import InvertedError
 from fingerpad.hyperelasticity import Tissue, tissue_of
 from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.scene import FloatArray, Law
+from forms import LAWS, forms
 from scenes import scene
 
 SPACING = 1.6  # mm: some hundred elements, curved, of all layers
@@ -100,6 +101,20 @@ def test_tangent_is_the_derivative_of_the_force(law: Law) -> None:
         )
         found = tangent @ held[free]
         assert np.linalg.norm(((4.0 * one - two) / 3.0)[free] - found) < DIFFERENCES * np.linalg.norm(found)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_scikit_fem_assembles_the_same(law: Law) -> None:
+    """Forces and tangent of the same law, written in tensors and assembled by scikit-fem's own loops."""
+    own = section(law)
+    field, free = deformed(own), own.elements.free
+    force, tangent = internal_force_and_tangent(own.elements, field)
+    points = np.ones(own.basis.dx.shape)
+    given = {"state": own.basis.interpolate(field), "lam": own.tissue.lam * points, "mu": own.tissue.mu * points}
+    work, stiffness_form = forms(law)
+    wanted, stiff = work.assemble(own.basis, **given), csc_matrix(stiffness_form.assemble(own.basis, **given))
+    assert np.abs(force - wanted).max() < ROUNDING * np.abs(wanted).max()
+    assert np.abs(tangent - stiff[free][:, free]).max() < ROUNDING * np.abs(stiff).max()
 
 
 @everywhere
