@@ -1,7 +1,7 @@
 """Cook's membrane at finite strain: an open example of another program, and Newton's method on it.
 
 OpenGeoSys publishes this benchmark with its results (Tests/Data/LargeDeformation/CooksMembrane; after de Souza Neto et
-al. 1996 and Elguedj et al. 2008): plane strain, the neo-Hookean law with kappa/2 (J - 1)^2 that the library has too, E =
+al. 1996 and Elguedj et al. 2008): plane strain, the neo-Hookean law with kappa/2 (J - 1)^2 which is the library's, E =
 240.565 MPa, nu = 0.499, clamped at the left, 6.25 N/mm2 of shear on the right. With four-node elements it locks.
 """
 
