@@ -30,10 +30,10 @@ ASTRAY = 0.003  # displacement of nodes from the exact solution where Newton's m
 
 def rows() -> list[Comparison]:
     """Stretch and shear under every law."""
-    return [row for case in (stretched, sheared) for law in Law for row in case(law)]
+    return [case(law) for case in (stretched, sheared) for law in Law]
 
 
-def stretched(law: Law) -> list[Comparison]:
+def stretched(law: Law) -> Comparison:
     """A block stretched to STRETCH of its height, its left side on rollers and its right one free."""
     tissue = _tissue(law)
 
@@ -44,7 +44,7 @@ def stretched(law: Law) -> list[Comparison]:
     return _compared("Finite stretch", tissue, _gradient(wide - 1.0, 0.0, STRETCH - 1.0), free_side=True)
 
 
-def sheared(law: Law) -> list[Comparison]:
+def sheared(law: Law) -> Comparison:
     """A block whose boundary moves by x = X + SHEAR Y."""
     return _compared("Finite shear", _tissue(law), _gradient(0.0, SHEAR, 0.0), free_side=False)
 
@@ -67,8 +67,8 @@ def _gradient(xx: float, xy: float, yy: float) -> FloatArray:
     return np.array([[xx, xy], [0.0, yy]])[..., None, None]
 
 
-def _compared(case: str, tissue: Tissue, gradient: FloatArray, free_side: bool) -> list[Comparison]:
-    """Displacement of all nodes, and mean nominal stress, of the block under a uniform gradient."""
+def _compared(case: str, tissue: Tissue, gradient: FloatArray, free_side: bool) -> Comparison:
+    """Mean nominal stress of the block under a uniform gradient."""
     mesh = block(DIVISIONS)
     basis = displacement_basis(mesh)
     dofs = node_dofs(basis)
@@ -85,8 +85,4 @@ def _compared(case: str, tissue: Tissue, gradient: FloatArray, free_side: bool) 
     found = equilibrium(basis, tissue, held, start, np.zeros(basis.N))
     stress = found.force[dofs] @ mesh.doflocs.T  # over the area, 1 mm2
     wanted = first_stress(tissue, gradient)
-    grid = 1.0 / DIVISIONS, int(basis.N)
-    return [
-        compare(case, f"{tissue.law}, displacement", grid, found.displacement, exact, ROUNDING),
-        compare(case, f"{tissue.law}, stress", grid, stress.ravel(), wanted.ravel(), ROUNDING),
-    ]
+    return compare(case, str(tissue.law), (1.0 / DIVISIONS, int(basis.N)), stress.ravel(), wanted.ravel(), ROUNDING)
