@@ -20,7 +20,7 @@ from .energy import first_stress
 from .equilibrium import equilibrium
 from .patch import ROUNDING, SOFT
 
-STRETCH = 1.3  # length over undeformed length [1]; source: beyond the tissue's under an actuator
+STRETCH = 1.3  # length over undeformed length [1]; source: any that is far from linear
 SHEAR = 0.5  # tangent of the angle [1]; source: as for the stretch
 EXPONENT = 9.0  # of Ogden's law [1]; source: config/config.yaml
 DIVISIONS = 4  # of the block, each way [1]
