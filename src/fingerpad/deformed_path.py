@@ -24,7 +24,7 @@ from .path import advance
 from .scene import FloatArray
 
 MAX_CORRECTIONS = 20  # of one move [1] before new tangents are made on the way; source: usual count is 2-12 (measured)
-MEMORY = 6  # iterates [1] that are combined; source: fewest corrections of 3, 4, 6, 8
+MEMORY = 12  # iterates [1] that are combined; source: fewest corrections of 6, 8, 12
 EQUILIBRIUM = (
     1e-3  # change of displacement in a correction over the largest of the move [1]; source: 1e-3 of a score's error
 )
@@ -90,24 +90,26 @@ def _corrected(
     ends: list[FloatArray] = []
     displacement, first = start.displacement, None
     for correction in range(MAX_CORRECTIONS):
-        try:  # an iterate may overshoot: tissue turned inside out, contact without a solution
+        try:
             back = -tissue.factors.solve(internal_force(span.elements, displacement)[free])
             last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
             state = _followed(problem, start.state, target, increments, first, last - first, power)
-        except ContactError as error:
+        except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
             raise _UnsettledError from error
         step = back + tissue.factors.solve(span.loads @ state.force.ravel())
         reached = displacement[free] + step
         defect = float(np.abs(step).max() / np.abs(reached - start.displacement[free]).max())
+        if correction > 0:  # the first is no correction, but the move itself
+            steps.append(step)
+            ends.append(reached)
         displacement = displacement.copy()
+        displacement[free] = reached
         if defect <= EQUILIBRIUM:
-            displacement[free] = reached
             defect = max(start.defect, defect)
             return Move(state, displacement, last, start.corrections + correction, start.tangents, defect)
-        steps.append(step)
-        ends.append(reached)
-        displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
+        if len(steps) > 1:
+            displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
     raise _UnsettledError
 
 
@@ -135,8 +137,6 @@ def accelerated(steps: list[FloatArray], ends: list[FloatArray]) -> FloatArray:
     """Anderson's next iterate of a fixed point, from steps G(u) - u and ends G(u) of the last iterations, oldest first
     (Walker and Ni 2011): the combination of ends whose steps nearly cancel.
     """
-    if len(steps) == 1:
-        return ends[0]
     differences = np.stack(steps[1:], axis=1) - np.stack(steps[:-1], axis=1)
     weights = np.linalg.lstsq(differences, steps[-1], rcond=None)[0]
     return np.asarray(ends[-1] - (np.stack(ends[1:], axis=1) - np.stack(ends[:-1], axis=1)) @ weights)

@@ -31,17 +31,17 @@ from .style import (
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 16.0  # mm
-WIDTHS = (0.8, 1.0, 1.0)  # of the columns, relative
+WIDTHS = (0.75, 1.0, 1.0)  # of the columns, relative
 COLOUR = {Kinematics.SMALL: BLUE, Kinematics.FINITE: ORANGE}
 LOOK: dict[Kinematics, dict[str, Any]] = {
     Kinematics.SMALL: {"facecolor": BLUE, "edgecolor": BLUE},
     Kinematics.FINITE: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
 }
 LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
+MANY = 6  # conditions beyond which their phases are written smaller
+SMALL_TEXT = 5.0  # pt
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
-CAPTION = (
-    "Marks: where all flat faces are covered, and stimuli begin. Bars: scores with shear, and their stated errors."
-)
+CAPTION = "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin. Bars: scores with shear, and their stated errors."
 
 
 @styled
@@ -79,7 +79,7 @@ def _curves(axes: Axes, curves: pd.DataFrame) -> None:
                 height, force = own["indentation_mm"].to_numpy(), own["force_N_per_mm"].to_numpy()
                 axes.plot(height, force, color=COLOUR[kinematics], linestyle=LINE[interface])
                 axes.plot(height[-1:], force[-1:], color=COLOUR[kinematics], marker=END[kinematics], fillstyle="none")
-    axes.set_ylabel("Force (N per mm of thickness)")
+    axes.set_ylabel("Force (N/mm)")
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
 
@@ -97,3 +97,5 @@ def _bars(axes: Axes, readout: Readout, scores: pd.DataFrame) -> None:
     axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
     axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
     name_conditions(axes, conditions)
+    if len(places) > MANY:
+        axes.tick_params(axis="x", labelsize=SMALL_TEXT)
