@@ -41,7 +41,10 @@ LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, 
 MANY = 6  # conditions beyond which their phases are written smaller
 SMALL_TEXT = 5.0  # pt
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
-CAPTION = "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin. Bars: scores with shear, and their stated errors."
+CAPTION = (
+    "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin."
+    " Bars: scores with shear, and their stated errors."
+)
 
 
 @styled
