@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix, csr_matrix, diags_array
 from scipy.sparse.linalg import SuperLU, splu
 from threadpoolctl import threadpool_limits
@@ -23,6 +24,7 @@ from .scene import FloatArray, Scene, Side
 from .traction import Tractions, linear_tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
+TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding, and Newton corrects the rest
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
 MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte
@@ -228,6 +230,39 @@ def condense_ordered(
     if not residual <= RESIDUAL_TOLERANCE:
         raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
     return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
+
+
+def contact_last(order: np.ndarray, loads: csc_matrix) -> np.ndarray:
+    """A fill-reducing order (n_free,) with the unknowns that loads (n_unknowns, k) act on moved to its end."""
+    loaded = np.isin(order, loads.indices)
+    return np.concatenate([order[~loaded], order[loaded]])
+
+
+def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matrix) -> tuple[FloatArray, float]:
+    """Compliance (k, k) of loads (n_free, k) on the last unknowns of a stiffness, and relative residual.
+
+    The trailing block of the factors K = L D L^T is that of the stiffness condensed to the last unknowns, so that
+    C = Y^T D^-1 Y with L Y = W on that block: nothing is solved on the whole. Raises CondensationError.
+    """
+    size = permuted.shape[0] - int(loads.indices.min())
+    place = factors.perm_c[-size:] - (permuted.shape[0] - size)
+    if place.min() < 0:
+        raise CondensationError("some of the tissue hangs together with nothing that actuators can touch")
+    upper = np.asarray(factors.U[-size:, -size:].toarray())
+    pivots = np.diag(upper)[:, None]
+    last = np.empty((size, loads.shape[1]))
+    last[place] = loads[-size:].toarray()
+    carried = solve_triangular((upper / pivots).T, last, lower=True, unit_diagonal=True)
+    compliance = carried.T @ (carried / pivots)
+
+    mix = np.random.default_rng(0).standard_normal(loads.shape[1])
+    load = loads @ mix
+    field = factors.solve(load)
+    residual = _residual(permuted, field, load)
+    residual = max(residual, float(np.abs(loads.T @ field - compliance @ mix).max() / np.abs(field).max()))
+    if not residual <= TRAILING_TOLERANCE:
+        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {TRAILING_TOLERANCE:.0e}")
+    return (compliance + compliance.T) / 2.0, residual
 
 
 def receptor_strain(section: SectionMesh, scene: Scene) -> tuple[FloatArray, csr_matrix]:

@@ -14,11 +14,11 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU
 
-from .condensation import condense_ordered, factorise
-from .contact import ContactProblem, ContactState, Status
+from .condensation import factorise, trailing_compliance
+from .contact import ContactProblem, ContactState
 from .deformation import Elements, internal_force, internal_force_and_tangent
 from .errors import CondensationError, InvertedError
 from .increment import NotConvergedError, Patch, solve_increment
@@ -27,7 +27,6 @@ from .scene import FloatArray
 
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
 LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
-AHEAD = 3.0  # increments [1] within which a node may touch if forces on it are condensed; source: a tangent serves two
 CONTRACTION = 0.2  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
 
 
@@ -35,7 +34,8 @@ CONTRACTION = 0.2  # of a change [1] to the one before it, above which a new tan
 class Span:
     """The tissue that is solved: a section, or its right half under loads that mirror.
 
-    elements. loads: (n_free, 2m) nodal forces of unit contact forces, in the order of the tangent.
+    elements. loads: (n_free, 2m) nodal forces of unit contact forces, in the order of the tangent, which has the nodes
+    that they act on last.
     """
 
     elements: Elements
@@ -46,13 +46,11 @@ class Span:
 class Tangent:
     """Tissue linearised about a displacement.
 
-    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes under forces on some of them, `nodes` (k,)
-    [mm per N/mm]; other columns are zero. residual: of the factorisation [1]. patch: that contact was solved on last.
+    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of the factorisation [1]. patch: that contact was solved on last.
     """
 
     factors: SuperLU
     compliance: FloatArray
-    nodes: np.ndarray
     residual: float
     patch: Patch | None = None
 
@@ -97,24 +95,18 @@ def solve_deformed_increment(
     """
     length = float(np.abs(actuator - start.actuator).max())
     scale = float(np.abs(actuator).max()) + length
-    near = (start.status != Status.OPEN) | (start.gap < AHEAD * length)
     free, displacement = span.elements.free, start.displacement + length * start.rate
     made, iterations = 0, 0
     changes: list[float] = []
     try:
         while len(changes) < MAX_ITERATIONS:
             if tangent is None:
-                tangent, made = tangent_at(span, displacement, near), made + 1
+                tangent, made = tangent_at(span, displacement), made + 1
             back = -tangent.factors.solve(internal_force(span.elements, displacement)[free])
             rest = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             condensed = replace(problem, compliance=tangent.compliance, free=rest)
             found, patch = solve_increment(condensed, start, actuator, tangent.patch)
             iterations += found.iterations - start.iterations
-            missed = np.setdiff1d(patch.nodes, tangent.nodes)
-            if missed.size:
-                near[missed], tangent = True, None
-                changes.append(float("inf"))
-                continue
             tangent = replace(tangent, patch=patch)
             step = back + tangent.factors.solve(span.loads @ found.force.ravel())
             displacement[free] += step
@@ -134,17 +126,8 @@ def solve_deformed_increment(
     raise NotConvergedError(changes[-1])
 
 
-def tangent_at(span: Span, displacement: FloatArray, near: np.ndarray) -> Tangent:
-    """Linearise about a displacement (size,) [mm], for contact forces on some of the nodes (m,).
-
-    Raises InvertedError, CondensationError.
-    """
+def tangent_at(span: Span, displacement: FloatArray) -> Tangent:
+    """Linearise about a displacement (size,) [mm]. Raises InvertedError, CondensationError."""
     _, matrix = internal_force_and_tangent(span.elements, displacement)
     factors = factorise(matrix)
-    nodes = np.flatnonzero(near)
-    columns = (2 * nodes[:, None] + np.arange(2)).ravel()
-    within, everywhere, residual = condense_ordered(matrix, factors, span.loads[:, columns], csr_matrix(span.loads.T))
-    compliance = np.zeros((span.loads.shape[1],) * 2)
-    compliance[:, columns] = everywhere
-    compliance[np.ix_(columns, columns)] = within
-    return Tangent(factors, compliance, nodes, residual)
+    return Tangent(factors, *trailing_compliance(matrix, factors, span.loads))

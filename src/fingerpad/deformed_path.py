@@ -119,7 +119,7 @@ def _followed_newly(
     """`move` with a new tangent wherever an increment asks for one."""
     span, free = tissue.span, tissue.span.elements.free
     begin = deformed(start.state, start.displacement)
-    tangent = Tangent(tissue.factors, problem.compliance, np.arange(problem.position.shape[0]), 0.0)
+    tangent = Tangent(tissue.factors, problem.compliance, 0.0)
     reached, _ = advance(problem, begin, target, increments, tangent, solver_on(span))
     moved = (span.loads.T @ reached.displacement[free]).reshape(-1, 2)
     rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)

@@ -12,14 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix
 
 from .compliance import CondensedBody, CondensedSection
 from .condensation import (
     arc_length,
-    condense_ordered,
+    contact_last,
     contact_tractions,
-    factorise,
     fill_reducing_order,
     folded_loads,
     receptor_strain,
@@ -29,8 +28,8 @@ from .condensation import (
     unit_loads,
 )
 from .contact import ContactState, rest, touching_height
-from .deformation import elements_of, internal_force_and_tangent
-from .deformed import Span, deformed, solver_on, undeformed
+from .deformation import elements_of
+from .deformed import Span, deformed, solver_on, tangent_at, undeformed
 from .elasticity import displacement_basis
 from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
@@ -98,18 +97,24 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
             deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])),
             recording(solver_on(spans[0]), states.append),
         )
-    compliances, residuals = zip(*(_condensed(span, reached.displacement) for span in spans), strict=True)
+    tangents = [tangent_at(span, reached.displacement) for span in spans]
     displacement = reached.displacement[parts.dofs]
     state = undeformed(reached)
-    compliance = compliances[0]
+    compliance = tangents[0].compliance
     if mirrored:
         columns = unfolding(tractions.position.shape[0], MIRROR)
-        compliance = unfold(compliances[0], compliances[1], columns, columns)
+        compliance = unfold(tangents[0].compliance, tangents[1].compliance, columns, columns)
         displacement, state = _mirrored(section, displacement), unfolded(state)
     moved = tractions.loads.T @ displacement[:, tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
     condensed = CondensedSection(
-        bare.position, bare.weight, compliance, bare.receptor, bare.arc, np.empty((0, 2 * free.size)), max(residuals)
+        bare.position,
+        bare.weight,
+        compliance,
+        bare.receptor,
+        bare.arc,
+        np.empty((0, 2 * free.size)),
+        max(each.residual for each in tangents),
     )
     curve = curve_of(states, touch) * np.array([1.0, 2.0 if mirrored else 1.0])
     return Pressed(condensed, free, state, displacement, curve, reached.tangents)
@@ -140,20 +145,12 @@ def _span(scene: Scene, section: SectionMesh, parts: _Parts, which: int) -> Span
     """The tissue with one choice of what is held."""
     free = np.ones(parts.matrix.shape[0], dtype=bool)
     free[parts.held[which]] = False
-    order = fill_reducing_order(parts.matrix, parts.dofs, free)
+    order = contact_last(fill_reducing_order(parts.matrix, parts.dofs, free), parts.loads[which])
     finger, law = scene.model.finger, scene.model.tissue
     materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
     basis = displacement_basis(section.mesh, parts.elements)
     return Span(elements_of(basis, tissue, order), csc_matrix(parts.loads[which][order]))
-
-
-def _condensed(span: Span, displacement: FloatArray) -> tuple[FloatArray, float]:
-    """Compliance, and residual, about a displacement (size,)."""
-    _, matrix = internal_force_and_tangent(span.elements, displacement)
-    nothing = csr_matrix((0, matrix.shape[0]))
-    compliance, _, residual = condense_ordered(matrix, factorise(matrix), span.loads, nothing)
-    return compliance, residual
 
 
 def _mirrored(section: SectionMesh, right: FloatArray) -> FloatArray:
