@@ -24,7 +24,7 @@ from .scene import FloatArray, Scene, Side
 from .traction import Tractions, linear_tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
-TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding, and Newton corrects the rest
+TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
 MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte

@@ -46,7 +46,8 @@ class Span:
 class Tangent:
     """Tissue linearised about a displacement.
 
-    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of the factorisation [1]. patch: that contact was solved on last.
+    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of the factorisation
+    [1]. patch: that contact was solved on last.
     """
 
     factors: SuperLU
