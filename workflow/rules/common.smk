@@ -41,6 +41,7 @@ except FingerpadError as error:
 
 ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
 KINEMATICS = [str(each) for each in SCENE[DEVICES[0]].model.tissue.computed]
+MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
 
@@ -77,6 +78,11 @@ def kinematics_of(wildcards):
     return wildcards.get("kinematics", str(Kinematics.SMALL))
 
 
+def mode_of(wildcards):
+    """The kinematics that a figure's ending names."""
+    return MODES[wildcards.mode]
+
+
 def tissue_of(wildcards):
     """What finite kinematics know of the tissue besides its layers; with small ones nothing."""
     return scene_of(wildcards).model.tissue if kinematics_of(wildcards) == Kinematics.FINITE else None
@@ -111,6 +117,7 @@ def body_of(wildcards):
 
 wildcard_constraints:
     kinematics="|".join(Kinematics),
+    mode="|".join(MODES),
     device="[a-z][a-z0-9_]*",
     condition="[a-z][a-z0-9_]*",
     interface="|".join(Interface),

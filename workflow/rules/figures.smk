@@ -13,7 +13,6 @@ LATERAL = min(
     key=lambda name: name != "device2",
     default=None,
 )
-MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
 FIGURES = [
     f"results/figures/{stem}.{suffix}"
     for stem in (
@@ -35,15 +34,6 @@ FIGURES = [
     )
     for suffix in ("png", "pdf")
 ]
-
-
-def mode_of(wildcards):
-    """The kinematics that a figure's ending names."""
-    return MODES[wildcards.mode]
-
-
-wildcard_constraints:
-    mode="|".join(MODES),
 
 
 rule fields:
