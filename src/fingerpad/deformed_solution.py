@@ -61,7 +61,7 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
         last = moves[-1]
         section = replace(finger.pressed.section, residual=max(finger.pressed.section.residual, last.defect))
         certificate = certify(replace(finger.problem, free=last.free), section, last.state)
-    strains = np.array([receptor_logarithmic_strain(finger, each.displacement) for each in moves])
+    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
     return solution(section, [each.state for each in moves], receptor_readouts(strains), certificate)
 
 
@@ -75,7 +75,9 @@ def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) ->
     return moves
 
 
-def receptor_logarithmic_strain(finger: PressedFinger, displacement: FloatArray) -> FloatArray:
-    """Logarithmic strain (3m,) [1] at the receptors of a displacement (size,) [mm]."""
-    gradient = (finger.gradient @ displacement).reshape(-1, 2, 2).transpose(1, 2, 0)
-    return np.asarray(logarithmic_strain(gradient).T.ravel())
+def receptor_logarithmic_strain(gradient: csr_matrix, displacement: FloatArray) -> FloatArray:
+    """Logarithmic strain (3m,) [1] at the receptors, whose displacement gradient (4m, size) of a displacement (size,)
+    [mm] is given.
+    """
+    of_points = (gradient @ displacement).reshape(-1, 2, 2).transpose(1, 2, 0)
+    return np.asarray(logarithmic_strain(of_points).T.ravel())

@@ -255,12 +255,12 @@ def _materials(scene: Scene, part: _Part) -> list[str]:
     finger, row = scene.model.finger, scene.device.actuators
     lines = [
         "**",
-        "** ---- materials: *ELASTIC Young's modulus [MPa], Poisson's ratio [1]; *HYPERELASTIC, NEO HOOKE C10 [MPa], D1",
-        "** [1/MPa]; *HYPERELASTIC, OGDEN mu [MPa], alpha [1], D1 [1/MPa]; sections: thickness [mm]",
+        "** ---- materials: *ELASTIC Young's modulus [MPa], Poisson's ratio [1]; NEO HOOKE C10 [MPa], D1 [1/MPa];",
+        "** OGDEN mu [MPa], alpha [1], D1 [1/MPa]; sections: thickness [mm]",
     ]
     for index, layer in enumerate((*finger.pad, *finger.dorsal)):
         name = _layer_name(index, layer)
-        lines += [f"*MATERIAL, NAME={name}", *_tissue(layer.material, scene.model.tissue)]
+        lines += [f"*MATERIAL, NAME={name}", *material_lines(layer.material, scene.model.tissue)]
         lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL={name}", "1.0"]
     lines += ["*MATERIAL, NAME=ACTUATOR", *_elastic(part.material)]
     for number in range(len(row.positions)):
@@ -344,8 +344,11 @@ def _output(actuators: int) -> list[str]:
     ]
 
 
-def _tissue(material: Material, tissue: TissueLaw) -> list[str]:
-    """Stored energy as Abaqus and CalculiX write it: C10 (I1 - 3) + (J - 1)^2/D1 or 2 mu/alpha^2 (...) + (J - 1)^2/D1."""
+def material_lines(material: Material, tissue: TissueLaw) -> list[str]:
+    """A material with the tissue's law. Abaqus and CalculiX take its constants in the stored energies
+    C10 (I1 - 3) + (J - 1)^2/D1,    2 mu/alpha^2 (sum of stretches^alpha - 3) + (J - 1)^2/D1,
+    the first terms of isochoric stretches.
+    """
     if tissue.kinematics is Kinematics.SMALL or tissue.law in (Law.GREEN, Law.HENCKY):
         return _elastic(material)
     lam, mu = lame(material)

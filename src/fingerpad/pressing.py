@@ -17,6 +17,8 @@ from scipy.sparse import csc_matrix
 from .compliance import CondensedBody, CondensedSection
 from .condensation import (
     arc_length,
+    body_of,
+    condense_section,
     contact_last,
     contact_tractions,
     fill_reducing_order,
@@ -35,8 +37,9 @@ from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
 from .indentation import raise_until
 from .mesh import SectionMesh
-from .scene import FloatArray, Interface, Scene
-from .solution import contact_problem, increments, named
+from .path import advance
+from .scene import FloatArray, Interface, Kinematics, Scene
+from .solution import contact_problem, increments, indent_device, named
 from .symmetry import MIRROR, mirrors, right_half, unfolded
 from .traction import Tractions
 
@@ -74,8 +77,15 @@ class _Parts:
     loads: Sequence[csc_matrix]
 
 
-def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> Pressed:
-    """Raise the actuators until the criterion holds, and condense the contact nodes about that state.
+def press(
+    scene: Scene,
+    section: SectionMesh,
+    body: CondensedBody | None,
+    interface: Interface,
+    height: float | None = None,
+) -> Pressed:
+    """Raise the actuators until the criterion holds, or to a given height of their faces above the undeformed pad's
+    lowest point [mm], and condense the contact nodes about that state.
 
     Raises MeshError, CondensationError, and ContactError, naming device and interface, if the path cannot be followed.
     """
@@ -89,14 +99,14 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
     pressing = right_half(problem) if mirrored else problem
     touch, states = touching_height(pressing), list[ContactState]()
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
-        reached = raise_until(
-            pressing,
-            scene.model.contact.criterion,
-            increments(scene, problem)[0],
-            scene.model.finger.pad_thickness,
-            deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])),
-            recording(solver_on(spans[0]), states.append),
-        )
+        start, count = deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])), increments(scene, problem)[0]
+        solve = recording(solver_on(spans[0]), states.append)
+        if height is None:
+            criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
+            reached = raise_until(pressing, criterion, count, limit, start, solve)
+        else:
+            target = np.full_like(start.actuator, height) * [0.0, 1.0]
+            reached, _ = advance(pressing, start, target, count, None, solve)
     tangents = [tangent_at(span, reached.displacement) for span in spans]
     displacement = reached.displacement[parts.dofs]
     state = undeformed(reached)
@@ -118,6 +128,19 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
     )
     curve = curve_of(states, touch) * np.array([1.0, 2.0 if mirrored else 1.0])
     return Pressed(condensed, free, state, displacement, curve, reached.tangents)
+
+
+def indented_height(scene: Scene, section: SectionMesh, interface: Interface) -> float:
+    """Height of the faces above the undeformed pad's lowest point [mm] at which pre-indentation ends.
+
+    Raises MeshError, CondensationError, ContactError.
+    """
+    body = body_of(scene)
+    if scene.kinematics is Kinematics.FINITE:
+        state = press(scene, section, body, interface).state
+    else:
+        state = indent_device(scene, condense_section(section, scene), body, interface).state
+    return float(state.actuator[0, 1])
 
 
 def whole_span(scene: Scene, section: SectionMesh) -> Span:
