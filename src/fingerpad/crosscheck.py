@@ -134,7 +134,7 @@ def fingerpad_outcome(
     problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
     follow_path = _turning_forces if contact is ContactModel.TURNING else _own_forces
     if contact is ContactModel.PENALTIES:
-        problem = replace(problem, compliance=problem.compliance + np.diag(_softness(section, settings)))
+        problem = replace(problem, compliance=problem.compliance + np.diag(softness(section, settings)))
     forces = follow_path(problem, section, condition, settings)
     strains = [section.strain @ force.ravel() for force in forces]
     return outcome_of(scene, section.arc, strains, actuator_forces(problem, forces))
@@ -161,7 +161,7 @@ def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
     return [indented, *(indented + np.stack(move, axis=1) for move in moves)]
 
 
-def _softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
+def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
     """Compliance (2n,) [mm per N/mm] that the penalties add to each node: 1 / (slope times its length of skin)."""
     slopes = np.array([settings.stick_slope, settings.pressure_slope])
     return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())

@@ -42,18 +42,16 @@ def compared(
     stimulus = scene.device.condition(condition)
     reference, seconds = calculix_outcome(scene, section, stimulus, settings, folder, limit)
     body = body_of(scene)
-    solve: dict[ContactModel, Callable[[], Outcome]]
+    solve: Callable[[ContactModel], Outcome]
     if scene.kinematics is Kinematics.FINITE:
-        solve = {ContactModel.OWN: partial(deformed_outcome, scene, section, body, stimulus, settings)}
+        solve = partial(deformed_outcome, scene, section, body, stimulus, settings)
     else:
-        condensed = condense_section(section, scene)
-        path = partial(fingerpad_outcome, scene, condensed, body, stimulus, settings)
-        solve = {model: partial(path, model) for model in ContactModel}
+        solve = partial(fingerpad_outcome, scene, condense_section(section, scene), body, stimulus, settings)
     cost = {"unknowns": 2 * section.mesh.doflocs.shape[1], "calculix_s": round(seconds, 1)}
     rows = []
-    for model, outcome in solve.items():
+    for model in ContactModel:
         try:
-            rows.append(row(name, case, model, differences(outcome(), reference)) | cost)
+            rows.append(row(name, case, model, differences(solve(model), reference)) | cost)
         except ContactError as error:
             rows.append(row(name, case, model, {}) | cost | {"note": str(error)})
     return rows, reference
