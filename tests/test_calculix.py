@@ -161,8 +161,8 @@ def test_a_law_that_calculix_does_not_have_is_refused(tmp_path: Path) -> None:
 
 @needs_calculix
 def test_calculix_agrees_on_a_small_case_of_large_strains(tmp_path: Path) -> None:
-    """As with small strains, on a mesh that is coarser away from the faces."""
-    small = finite(coarsened(sharpened(scene("device2")), 4.0), Law.NEO_HOOKEAN)
+    """Nodes are half as far apart as in the case of small strains, so half of its differences are allowed."""
+    small = finite(coarsened(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
     numerics = replace(small.model.numerics, growth=1.2, receptor_size=0.6, largest_size=3.0)
     small = replace(small, model=replace(small.model, numerics=numerics))
     condition = small.device.condition("alternate_000")
@@ -170,5 +170,5 @@ def test_calculix_agrees_on_a_small_case_of_large_strains(tmp_path: Path) -> Non
     settings = replace(SETTINGS, indentation=0.8)
     reference, _ = calculix_outcome(small, section, condition, settings, tmp_path, 300.0)
     apart = differences(deformed_outcome(small, section, None, condition, settings, ContactModel.PENALTIES), reference)
-    assert apart["pressing_indented"] < 0.01
-    assert apart["strain_indented"] < 0.02
+    assert apart["pressing_indented"] < 0.005
+    assert apart["strain_indented"] < 0.01
