@@ -260,7 +260,10 @@ def _materials(scene: Scene, part: _Part) -> list[str]:
     ]
     for index, layer in enumerate((*finger.pad, *finger.dorsal)):
         name = _layer_name(index, layer)
-        lines += [f"*MATERIAL, NAME={name}", *material_lines(layer.material, scene.model.tissue)]
+        # nail and nail bed hardly strain; CalculiX finds no equilibrium where such stiff tissue has the law of Ogden
+        soft = index < len(finger.pad)
+        lines += [f"*MATERIAL, NAME={name}"]
+        lines += material_lines(layer.material, scene.model.tissue) if soft else _elastic(layer.material)
         lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL={name}", "1.0"]
     lines += ["*MATERIAL, NAME=ACTUATOR", *_elastic(part.material)]
     for number in range(len(row.positions)):
