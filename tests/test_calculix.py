@@ -26,7 +26,7 @@ from fingerpad.deformation import elements_of, internal_force
 from fingerpad.deformed_crosscheck import deformed_outcome
 from fingerpad.edges import mesh_device
 from fingerpad.elasticity import displacement_basis, node_dofs
-from fingerpad.errors import CalculixError
+from fingerpad.errors import CalculixError, ContactError
 from fingerpad.export import DeckSettings, input_deck, material_lines, triangles
 from fingerpad.hyperelasticity import tissue_of
 from fingerpad.mesh import mesh_section, nominal_edges
@@ -157,6 +157,21 @@ def test_a_law_that_calculix_does_not_have_is_refused(tmp_path: Path) -> None:
     section = mesh_section(scene("device2").coarsened(4.0), nominal_edges(hencky.device.actuators))
     with pytest.raises(CalculixError, match="no law in logarithmic strain"):
         calculix_outcome(hencky, section, hencky.device.conditions[0], SETTINGS, tmp_path, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("contact", "friction", "said"),
+    [
+        (ContactModel.TURNING, 0.0, "for small kinematics"),
+        (ContactModel.PENALTIES, 0.6, "frictionless pre-indentation"),
+    ],
+)
+def test_contact_that_is_not_for_large_strains_is_refused(contact: ContactModel, friction: float, said: str) -> None:
+    hencky = finite(scene("device2"), Law.HENCKY)
+    section = mesh_section(scene("device2").coarsened(4.0), nominal_edges(hencky.device.actuators))
+    settings = replace(SETTINGS, friction_indenting=friction, friction_acting=friction)
+    with pytest.raises(ContactError, match=said):
+        deformed_outcome(hencky, section, None, hencky.device.conditions[0], settings, contact)
 
 
 @needs_calculix

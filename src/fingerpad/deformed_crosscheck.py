@@ -40,8 +40,10 @@ def deformed_outcome(
     With penalties the last increment of pre-indentation and the stimulus are followed on springs: without friction no
     earlier one leaves a trace. Raises ContactError if the path cannot be followed, or a contact model is not for it.
     """
-    if contact is ContactModel.TURNING or (contact is ContactModel.PENALTIES and settings.friction_indenting > 0.0):
-        raise ContactError(f"{contact} is not for finite kinematics with this friction")
+    if contact is ContactModel.TURNING:
+        raise ContactError("the penalty law with a turning normal is for small kinematics")
+    if contact is ContactModel.PENALTIES and settings.friction_indenting > 0.0:
+        raise ContactError("with finite kinematics penalties follow a frictionless pre-indentation")
     indenting = _rubbing(scene, settings.friction_indenting)
     indented, *stimulus = targets(condition, settings)
     last = settings.indentation / INDENTATION_INCREMENTS
