@@ -173,13 +173,19 @@ def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) ->
 
 
 @pytest.fixture(scope="session")
-def finite_run(project: Project, coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """Results of a complete run of the coarse scenes with both kinematics."""
+def both_scenes(coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The coarse scenes with both kinematics."""
     scenes = tmp_path_factory.mktemp("both") / "scenes"
     shutil.copytree(coarse_scenes, scenes)
-    there = Project(tmp_path_factory.mktemp("finite"))
     Project(scenes).edit("config.yaml", lambda text: text.replace("{value: small", "{value: both", 1))
-    run = project.snakemake("all", "--directory", there.folder, "--config", f"scenes={scenes}")
+    return scenes
+
+
+@pytest.fixture(scope="session")
+def finite_run(project: Project, both_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """Results of a complete run of the coarse scenes with both kinematics."""
+    there = Project(tmp_path_factory.mktemp("finite"))
+    run = project.snakemake("all", "--directory", there.folder, "--config", f"scenes={both_scenes}")
     assert run.status == 0, run.text
     return there
 
