@@ -34,6 +34,11 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "workflow: runs Snakemake on a copy of the project")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests that run Snakemake first: they are the longest, and no core should wait for them at the end."""
+    items.sort(key=lambda item: item.get_closest_marker("workflow") is None)
+
+
 @dataclass(frozen=True)
 class Job:
     """A job as Snakemake announces it."""
