@@ -34,6 +34,11 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "workflow: runs Snakemake on a copy of the project")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Tests that run Snakemake first: they are the longest, and no core should wait for them at the end."""
+    items.sort(key=lambda item: item.get_closest_marker("workflow") is None)
+
+
 @dataclass(frozen=True)
 class Job:
     """A job as Snakemake announces it."""
@@ -116,6 +121,12 @@ class Project:
         path.write_text(after, encoding="utf-8")
 
 
+def with_small_kinematics(project: Project) -> Project:
+    """The project with small kinematics alone: a sixth of the run time. `finite_run` is for the others."""
+    project.edit("config/config.yaml", lambda text: text.replace("{value: both", "{value: small"))
+    return project
+
+
 @pytest.fixture(scope="session")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The project as a fresh checkout would have it: its files, tracked or about to be, and no results."""
@@ -125,12 +136,12 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
         listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     except (OSError, subprocess.CalledProcessError):  # an unpacked archive, or no git
         shutil.copytree(ROOT, folder, ignore=shutil.ignore_patterns(*NOT_SOURCE))
-        return Project(folder)
+        return with_small_kinematics(Project(folder))
     for name in filter(None, listed.split("\0")):
         if (ROOT / name).is_file():  # not one that is deleted, but still tracked
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, folder / name)
-    return Project(folder)
+    return with_small_kinematics(Project(folder))
 
 
 @pytest.fixture(scope="session")
@@ -164,6 +175,24 @@ def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) ->
         )
     (folder / "config.yaml").write_text(text, encoding="utf-8")
     return folder
+
+
+@pytest.fixture(scope="session")
+def both_scenes(coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The coarse scenes with both kinematics."""
+    scenes = tmp_path_factory.mktemp("both") / "scenes"
+    shutil.copytree(coarse_scenes, scenes)
+    Project(scenes).edit("config.yaml", lambda text: text.replace("{value: small", "{value: both", 1))
+    return scenes
+
+
+@pytest.fixture(scope="session")
+def finite_run(project: Project, both_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """Results of a complete run of the coarse scenes with both kinematics."""
+    there = Project(tmp_path_factory.mktemp("finite"))
+    run = project.snakemake("all", "--directory", there.folder, "--config", f"scenes={both_scenes}")
+    assert run.status == 0, run.text
+    return there
 
 
 def coarse_run(scenes: Path, there: Path) -> tuple[str | Path, ...]:

@@ -11,6 +11,7 @@ from fingerpad.accuracy import true_errors, with_errors
 
 def row(condition: str, score: float | str | None, interface: str = "shear") -> dict[str, Any]:
     return {
+        "kinematics": "small",
         "device": "d",
         "condition": condition,
         "interface": interface,
@@ -25,7 +26,8 @@ def test_error_is_the_difference_and_no_less_than_the_median() -> None:
     scores = [row("a", "1.0"), row("b", "2.0"), row("c", "4.0")]
     found = with_errors(scores, [row("a", "1.01"), row("b", "1.96"), row("c", "4.24")])
     assert [each["score_error"] for each in found] == pytest.approx([0.02, 0.04, 0.24])
-    assert list(found[0]) == ["device", "condition", "interface", "readout", "score", "score_error", "unit"]
+    columns = ["kinematics", "device", "condition", "interface", "readout", "score", "score_error", "unit"]
+    assert list(found[0]) == columns
 
 
 def test_a_stimulus_that_is_none_has_no_error() -> None:

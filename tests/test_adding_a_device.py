@@ -96,7 +96,7 @@ def assert_recording_matters(project: Project) -> None:
     stale = project.snakemake("-n", "all").jobs
     assert {job.device for job in stale} == {None, "measured"}
     solved = {output for job in stale if job.rule == "solve" for output in job.outputs}
-    assert "results/measured/swipe/shear/solution.npz" in solved
+    assert "results/small/measured/swipe/shear/solution.npz" in solved
     assert all(name in inputs(job, project) for job in stale if job.rule == "solve")
     project.edit(name, lambda text: before)
 
@@ -109,7 +109,7 @@ def inputs(job: Job, project: Project) -> set[str]:
 @pytest.mark.workflow
 def test_the_page_does_what_it_says(changeable: Project, tmp_path: Path) -> None:
     reader = Reader(changeable, tmp_path)
-    shipped = changeable.files("results/device2")
+    shipped = changeable.files("results/small/device2")
     printed: dict[str, str] = {}
     for block in blocks():
         said = reader.follow(block)
@@ -144,5 +144,5 @@ def test_the_page_does_what_it_says(changeable: Project, tmp_path: Path) -> None
     assert (reader.folder / "mydevice.png").stat().st_size > 0
     assert "swipe" in printed["fingerpad predict config/devices/measured.yaml\n"]
     assert (reader.folder / "results" / "decks" / "single_actuator_1.inp").stat().st_size > 0
-    now = changeable.files("results/device2")
+    now = changeable.files("results/small/device2")
     assert {name: now[name] for name in shipped} == shipped  # nothing of another device was computed again

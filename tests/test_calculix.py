@@ -1,4 +1,4 @@
-"""CalculiX beside fingerpad: what it prints is read, and where it is installed, both agree on a small case."""
+"""CalculiX beside fingerpad: what it prints is read, and where it is installed, both agree on small cases."""
 
 from __future__ import annotations
 
@@ -8,21 +8,29 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from skfem import MeshTri, MeshTri2
 
 from fingerpad import calculix
 from fingerpad.calculix import read_printed, run
 from fingerpad.condensation import condense_section
 from fingerpad.crosscheck import (
-    Law,
+    ContactModel,
+    calculix_outcome,
     coarsened,
     differences,
     fingerpad_outcome,
     printed_outcome,
     sharpened,
 )
+from fingerpad.deformation import elements_of, internal_force
+from fingerpad.deformed_crosscheck import deformed_outcome
 from fingerpad.edges import mesh_device
-from fingerpad.errors import CalculixError
-from fingerpad.export import DeckSettings, input_deck
+from fingerpad.elasticity import displacement_basis, node_dofs
+from fingerpad.errors import CalculixError, ContactError
+from fingerpad.export import DeckSettings, input_deck, material_lines, triangles
+from fingerpad.hyperelasticity import tissue_of
+from fingerpad.mesh import mesh_section, nominal_edges
+from fingerpad.scene import Kinematics, Law, Material, Scene, TissueLaw
 from scenes import CONFIG, scene
 from scripts.calculix import main
 
@@ -98,8 +106,84 @@ def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
     path, seconds = run(input_deck(small, section, condition, SETTINGS), tmp_path, 300.0)
     assert seconds > 0.0
     reference = printed_outcome(small, section, read_printed(path, 4, 2, SETTINGS))
-    found = fingerpad_outcome(small, condense_section(section, small), None, condition, SETTINGS, Law.PENALTIES)
+    found = fingerpad_outcome(
+        small, condense_section(section, small), None, condition, SETTINGS, ContactModel.PENALTIES
+    )
     apart = differences(found, reference)
     assert apart["pressing_indented"] < 0.01
     assert apart["strain_indented"] < 0.02
     assert np.allclose(reference.force[0, :, 0].sum(), 0.0, atol=1e-6 * reference.force[0, :, 1].sum())
+
+
+def finite(a_scene: Scene, law: Law) -> Scene:
+    tissue = replace(a_scene.model.tissue, kinematics=Kinematics.FINITE, law=law)
+    return replace(a_scene, model=replace(a_scene.model, tissue=tissue))
+
+
+@needs_calculix
+@pytest.mark.parametrize("law", [Law.GREEN, Law.NEO_HOOKEAN, Law.OGDEN])
+def test_calculix_has_the_same_laws(law: Law, tmp_path: Path) -> None:
+    """Nodal forces of four elements that are sheared, pressed by a third and bent, up to the digits printed."""
+    mesh = MeshTri2.from_mesh(MeshTri.init_symmetric())
+    basis, place = displacement_basis(mesh), mesh.doflocs
+    bent = 0.05 * np.array([place[1] ** 2, place[0] * place[1]])
+    moved = np.array([[0.3, 0.25], [-0.1, -0.3]]) @ place + bent
+    material = Material(0.08, 0.48)
+    tissue = TissueLaw(Kinematics.FINITE, (Kinematics.FINITE,), law, 9.0)
+    numbers = range(1, place.shape[1] + 1)
+    deck = [
+        "*NODE, NSET=ALL",
+        *(f"{n}, {x:.12e}, {y:.12e}" for n, (x, y) in zip(numbers, place.T, strict=True)),
+        "*ELEMENT, TYPE=CPE6, ELSET=PATCH",
+        *(", ".join(map(str, [k, *nodes])) for k, nodes in enumerate((triangles(mesh) + 1).tolist(), start=1)),
+        *("*MATERIAL, NAME=TISSUE", *material_lines(material, tissue)),
+        *("*SOLID SECTION, ELSET=PATCH, MATERIAL=TISSUE", "1.0", "*STEP, NLGEOM", "*STATIC", "1.0, 1.0", "*BOUNDARY"),
+        *(f"{n}, {axis}, {axis}, {moved[axis - 1, n - 1]:.9e}" for n in numbers for axis in (1, 2)),
+        *("*NODE PRINT, NSET=ALL", "RF", "*END STEP", ""),
+    ]
+    path, _ = run("\n".join(deck), tmp_path, 60.0)
+    rows = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
+    reaction = np.array([row for row in rows if len(row) == 4], dtype=float)[:, 1:3].T  # node and three components
+
+    points = tissue_of(law, tissue.ogden_exponent, [material], np.zeros((mesh.nelements, 1), dtype=int))
+    displacement, dofs = np.empty(basis.N), node_dofs(basis)
+    displacement[dofs] = moved
+    force = internal_force(elements_of(basis, points, np.arange(basis.N)), displacement)[dofs]
+    assert np.allclose(force, reaction, rtol=0.0, atol=1e-6 * np.abs(force).max())
+
+
+def test_a_law_that_calculix_does_not_have_is_refused(tmp_path: Path) -> None:
+    hencky = finite(scene("device2"), Law.HENCKY)
+    section = mesh_section(scene("device2").coarsened(4.0), nominal_edges(hencky.device.actuators))
+    with pytest.raises(CalculixError, match="no law in logarithmic strain"):
+        calculix_outcome(hencky, section, hencky.device.conditions[0], SETTINGS, tmp_path, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("contact", "friction", "said"),
+    [
+        (ContactModel.TURNING, 0.0, "for small kinematics"),
+        (ContactModel.PENALTIES, 0.6, "frictionless pre-indentation"),
+    ],
+)
+def test_contact_that_is_not_for_large_strains_is_refused(contact: ContactModel, friction: float, said: str) -> None:
+    hencky = finite(scene("device2"), Law.HENCKY)
+    section = mesh_section(scene("device2").coarsened(4.0), nominal_edges(hencky.device.actuators))
+    settings = replace(SETTINGS, friction_indenting=friction, friction_acting=friction)
+    with pytest.raises(ContactError, match=said):
+        deformed_outcome(hencky, section, None, hencky.device.conditions[0], settings, contact)
+
+
+@needs_calculix
+def test_calculix_agrees_on_a_small_case_of_large_strains(tmp_path: Path) -> None:
+    """Nodes are half as far apart as in the case of small strains, so half of its differences are allowed."""
+    small = finite(coarsened(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
+    numerics = replace(small.model.numerics, growth=1.2, receptor_size=0.6, largest_size=3.0)
+    small = replace(small, model=replace(small.model, numerics=numerics))
+    condition = small.device.condition("alternate_000")
+    section = mesh_section(small, nominal_edges(small.device.actuators))
+    settings = replace(SETTINGS, indentation=0.8)
+    reference, _ = calculix_outcome(small, section, condition, settings, tmp_path, 300.0)
+    apart = differences(deformed_outcome(small, section, None, condition, settings, ContactModel.PENALTIES), reference)
+    assert apart["pressing_indented"] < 0.005
+    assert apart["strain_indented"] < 0.01

@@ -42,9 +42,9 @@ def make_scores(change: dict[tuple[str, str, str], list[float]] | None = None) -
         for name, value in zip(CONDITIONS[device], values, strict=True):
             dispersion, phase = name.split("_")
             note = "no prediction" if math.isnan(value) else ""
-            rows.append((device, name, dispersion, float(phase), interface, readout, float(value), "mm", note))
-    columns = ["device", "condition", "dispersion", "phase_deg", "interface", "readout", "score", "unit", "note"]
-    return pd.DataFrame(rows, columns=columns)
+            rows.append(("small", device, name, dispersion, float(phase), interface, readout, float(value), "mm", note))
+    conditions = ["kinematics", "device", "condition", "dispersion", "phase_deg", "interface", "readout"]
+    return pd.DataFrame(rows, columns=[*conditions, "score", "unit", "note"])
 
 
 def correlate(scores: pd.DataFrame) -> pd.DataFrame:

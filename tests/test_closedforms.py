@@ -7,12 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.closedforms import layers, patch, punch, spence
+from fingerpad.closedforms import bending, layers, patch, punch, spence
 from fingerpad.closedforms.blocks import pressed
-from fingerpad.closedforms.comparison import ORDER_OF
+from fingerpad.closedforms.comparison import ORDER_OF, root_mean_square
+from fingerpad.closedforms.energy import first_stress
 from fingerpad.closedforms.table import CASES
 from fingerpad.contact import Status
-from fingerpad.scene import Layer, Material
+from fingerpad.hyperelasticity import tissue_of
+from fingerpad.scene import FloatArray, Law, Layer, Material
 from scenes import scene
 
 PAD = scene("device2").model.finger.pad
@@ -42,6 +44,44 @@ def test_pressures_do_not_swing_near_incompressibility() -> None:
     """Linear tractions are stable: nodal pressure is as good at 0.4999 as at 0.3, to a quarter of its error."""
     common, limit = (punch.flat_punch(punch.SPACINGS[-1], poisson)[0].error for poisson in (0.3, 0.4999))
     assert limit == pytest.approx(common, rel=0.25)
+
+
+@pytest.mark.parametrize("poisson", bending.RATIOS)
+def test_stress_swings_within_elements_but_not_between_them(poisson: float) -> None:
+    """Near incompressibility the points of an element disagree; their mean, which bears the load, is good to 0.2 %.
+
+    The bent block says how large the swing is: less than 0.2 % at the tissue's 0.48, a fifth of the stress at 0.4999.
+    """
+    found = bending.bend(poisson, bending.DIVISIONS[-1])
+    exact = bending.Sector(found.material, bending.STRAIN).mean_stress(found.place)
+    of_points, of_elements = (
+        root_mean_square(own - wanted) / root_mean_square(wanted)
+        for own, wanted in ((found.mean_stress, exact), (found.mean_stress.mean(axis=1), exact.mean(axis=1)))
+    )
+    assert of_elements < 0.002
+    assert of_points < {0.48: 0.002, 0.499: 0.03, 0.4999: 0.25}[poisson]
+
+
+def test_the_sector_is_in_equilibrium() -> None:
+    """The closed form itself: free faces, and no divergence of the stress that the law's energy has; at any nu."""
+    x, y, step = np.linspace(0.1, 0.9, 5), np.full(5, 0.7), 1e-4
+    for poisson in (0.0, 0.3, 0.4999):
+        sector = bending.Sector(Material(1.0, poisson), bending.STRAIN)
+        tissue = tissue_of(Law.HENCKY, 1.0, [sector.material], np.zeros(1, dtype=int))
+
+        def stress(x: FloatArray, y: FloatArray, sector=sector, tissue=tissue) -> FloatArray:
+            return first_stress(tissue, sector.gradient(x, y))
+
+        faces = stress(np.array([0.0, bending.HEIGHT]), np.array([0.3, 0.3]))
+        inside = np.abs(stress(x, y)).max()
+        assert np.abs(faces[:, 0]).max() < 1e-9 * inside
+        across = (stress(x + step, y) - stress(x - step, y))[:, 0]
+        along = (stress(x, y + step) - stress(x, y - step))[:, 1]
+        assert np.abs(across + along).max() / (2.0 * step) < 1e-6 * inside
+        moved = [sector.displacement(x + step, y), sector.displacement(x - step, y)]
+        assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(sector.gradient(x, y)[:, 0], abs=1e-7)
+        moved = [sector.displacement(x, y + step), sector.displacement(x, y - step)]
+        assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(sector.gradient(x, y)[:, 1], abs=1e-7)
 
 
 @pytest.mark.parametrize(("poisson", "friction"), spence.CASES)

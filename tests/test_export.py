@@ -14,7 +14,7 @@ from fingerpad.crosscheck import sharpened
 from fingerpad.edges import mesh_device
 from fingerpad.export import READ_NODES, DeckSettings, input_deck, read_nodes
 from fingerpad.profile import profile
-from fingerpad.scene import FloatArray, Interface, Scene
+from fingerpad.scene import FloatArray, Interface, Kinematics, Law, Scene
 from scenes import CONFIG, scene, section
 
 SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"
@@ -32,7 +32,8 @@ def deck(device: str) -> list[Block]:
 
 def parsed(a_scene: Scene, settings: DeckSettings) -> list[Block]:
     """Keywords of a deck in their order, each with parameters and data."""
-    mesh = section(a_scene.device.name) if a_scene is scene(a_scene.device.name) else mesh_device(a_scene)
+    shipped = scene(a_scene.device.name)
+    mesh = section(shipped.device.name) if a_scene.device is shipped.device else mesh_device(a_scene)
     text = input_deck(a_scene, mesh, a_scene.device.conditions[-1], settings)
     blocks: list[Block] = []
     for line in text.splitlines():
@@ -109,6 +110,47 @@ def test_every_layer_has_its_material() -> None:
     for index, layer in enumerate((*finger.pad, *finger.dorsal)):
         found = [float(value) for value in constants[sections[f"LAYER_{index + 1}_{layer.name.upper()}"]]]
         assert found == [layer.material.modulus, layer.material.poisson]
+
+
+@cache
+def finite_deck(law: Law) -> list[Block]:
+    base = scene("device3")
+    tissue = replace(base.model.tissue, kinematics=Kinematics.FINITE, law=law, ogden_exponent=9.0)
+    return parsed(replace(base, model=replace(base.model, tissue=tissue)), SETTINGS)
+
+
+@pytest.mark.parametrize("law", list(Law))
+def test_finite_kinematics_are_nlgeom_in_every_step(law: Law) -> None:
+    steps = of_kind(finite_deck(law), "STEP")
+    assert len(steps) == 4
+    assert all("NLGEOM" in given for _, given, _ in steps)
+    assert not any("NLGEOM" in given for _, given, _ in of_kind(deck("device3"), "STEP"))
+
+
+@pytest.mark.parametrize("law", list(Law))
+def test_skin_has_the_law_and_the_stiffness_that_it_starts_with(law: Law) -> None:
+    """Shear modulus 2 C10 or mu, bulk modulus 2/D1; nail, nail bed and actuators stay as they are."""
+    finger = scene("device3").model.finger
+    blocks = finite_deck(law)
+    start = next(k for k, block in enumerate(blocks) if block[0] == "MATERIAL")
+    found = [block for block in blocks[start:] if block[0] in ("ELASTIC", "HYPERELASTIC")]
+    others = 1 + len(finger.dorsal)
+    assert all(keyword == "ELASTIC" for keyword, _, _ in found[-others:])
+    for layer, (keyword, given, rows) in zip(finger.pad, found[:-others], strict=True):
+        values = [float(value) for value in rows[0]]
+        if law in (Law.GREEN, Law.HENCKY):
+            assert (keyword, values) == ("ELASTIC", [layer.material.modulus, layer.material.poisson])
+            continue
+        shear, bulk = layer.material.modulus / np.array(
+            [2.0 * (1.0 + layer.material.poisson), 3.0 * (1.0 - 2.0 * layer.material.poisson)]
+        )
+        assert keyword == "HYPERELASTIC"
+        if law is Law.NEO_HOOKEAN:
+            assert "NEO HOOKE" in given
+            assert values == pytest.approx([shear / 2.0, 2.0 / bulk])
+        else:
+            assert (given["OGDEN"], given["N"]) == ("", "1")
+            assert values == pytest.approx([shear, 9.0, 2.0 / bulk])
 
 
 @pytest.mark.parametrize("device", ["device2", "device3"])

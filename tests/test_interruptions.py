@@ -112,7 +112,7 @@ def test_a_full_disk_is_said_and_nothing_is_lost(
 ) -> None:
     """The error names the disk; what was whole before stays whole, no half a file remains, and with room again the
     run goes on to the same bytes."""
-    first = ("results/device2/mesh.npz", *coarse_run(coarse_scenes, small_disk)[len(TABLE_AND_FIGURE) :])
+    first = ("results/small/device2/mesh.npz", *coarse_run(coarse_scenes, small_disk)[len(TABLE_AND_FIGURE) :])
     run = project.snakemake(*first)
     assert run.status == 0, run.text
     before = results(small_disk)

@@ -296,6 +296,7 @@ def test_a_bound_on_the_ratio_of_ratings_does_not_narrow_the_range() -> None:
 def make_scores(device: str, values: list[float], interface: str = "shear", note: object = "") -> pd.DataFrame:
     return pd.DataFrame(
         {
+            "kinematics": "small",
             "device": device,
             "condition": CONDITIONS[device] if device in CONDITIONS else [f"c{i}" for i in range(len(values))],
             "interface": interface,

@@ -25,9 +25,8 @@ def test_principal_strain_equals_the_largest_eigenvalue() -> None:
 
 def test_readout_of_a_cycle_is_taken_at_its_peak() -> None:
     """Of several times, the one with the largest change."""
-    strain_map = np.array([[1.0, 0.0], [0.0, 0.0], [0.0, 0.0]])
-    forces = np.array([[[0.1, 0.0]], [[0.3, 0.0]], [[0.2, 0.0]]])
-    found = receptor_readouts(strain_map, np.array([[0.1, 0.0]]), forces)
+    before, *along = np.array([0.1, 0.1, 0.3, 0.2])[:, None] * np.array([1.0, 0.0, 0.0])
+    found = receptor_readouts(np.array([before, *along]))
     assert found[Readout.STRAIN] == pytest.approx([0.3])
     assert found[Readout.CHANGE_OF_STRAIN] == pytest.approx([0.2])
 

@@ -12,9 +12,33 @@ import pytest
 from conftest import Project
 
 EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
-KEY = ["device", "condition", "interface", "readout"]
+KEY = ["kinematics", "device", "condition", "interface", "readout"]
 # Another processor rounds differently; that may move the end of pre-indentation by its resolution of 1e-4 mm in 1.6 mm
 TOLERANCE = 1e-3
+BOTH = {"figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear"}  # drawn for both kinematics
+
+
+@pytest.mark.workflow
+def test_both_kinematics_stand_side_by_side(finite_run: Project) -> None:
+    """On a coarse mesh: every case has a score with both, figures come twice, the order with shear is the same, and
+    tissue that deforms much is stiffer, as its stiff skin is stretched."""
+    scores = pd.read_csv(finite_run.folder / "results" / "scores.csv")
+    small, finite = (scores[scores["kinematics"] == each].set_index(KEY[1:]) for each in ("small", "finite"))
+    assert list(small.index) == list(finite.index)
+    assert finite["score"].notna().all()
+    assert (finite["score_error"] > 0.0).all()
+    for table in (small, finite):
+        change = table.xs(("shear", "change_of_strain"), level=("interface", "readout"))["score"]
+        assert list(change.sort_values().index.get_level_values("condition")) == [
+            "alternate_000",
+            "alternate_090",
+            "alternate_180",
+        ]
+    stems = {path.stem for path in (finite_run.folder / "results" / "figures").iterdir()}
+    assert BOTH | {f"{stem}_finite" for stem in BOTH} | {"kinematics"} <= stems
+    curves = pd.read_csv(finite_run.folder / "results" / "indentation.csv").groupby(["kinematics", "interface"])
+    ends = curves.last()["force_N_per_mm"].unstack("kinematics")
+    assert (ends["finite"] > 1.3 * ends["small"]).all()
 
 
 @pytest.mark.workflow
@@ -41,7 +65,7 @@ def test_figures_are_complete_and_byte_stable(finished: Project) -> None:
     """All figures exist as PNG and PDF, and drawing one anew gives the same bytes."""
     figures = finished.folder / "results" / "figures"
     stems = {path.stem for path in figures.iterdir()}
-    wanted = {"figure_3_workflow", "figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear"}
+    wanted = {"figure_3_workflow", *BOTH}
     maps = {f"map_device1_{dispersion}" for dispersion in ("low", "medium", "high")}
     assert wanted | maps | {"section", "map_device2_alternate", "map_device3_alternate"} == stems
     assert {path.suffix for path in figures.iterdir()} == {".png", ".pdf"}

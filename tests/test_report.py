@@ -38,7 +38,13 @@ def score(device: str, phase: int, interface: Interface, readout: Readout, value
     said = {"score": value, "score_error": "0.0012" if value else "", "unit": "mm2"}
     name = f"alternate_{phase:03}"
     note = "" if value else "no prediction"
-    where = {"device": device, "condition": name, "dispersion": "alternate", "phase_deg": str(float(phase))}
+    where = {
+        "kinematics": "small",
+        "device": device,
+        "condition": name,
+        "dispersion": "alternate",
+        "phase_deg": str(float(phase)),
+    }
     return where | {"interface": str(interface), "readout": str(readout)} | said | {"note": note}
 
 
@@ -53,7 +59,13 @@ def correlation(device: str, interface: Interface, readout: Readout, r2: str) ->
         "p": "0.03",
     }
     numbers = found if r2 else dict.fromkeys(found, "")
-    where = {"device": device, "interface": str(interface), "readout": str(readout), "n": "3" if r2 else "0"}
+    where = {
+        "kinematics": "small",
+        "device": device,
+        "interface": str(interface),
+        "readout": str(readout),
+        "n": "3" if r2 else "0",
+    }
     last = {"rating_kind": "ordinal surrogate", "note": "" if r2 else "no prediction"}
     return where | numbers | {"published_r2": "", "published_words": TRICK} | last
 
@@ -87,8 +99,8 @@ def built(results: Results, folder: Path) -> str:
     for stem in FIGURES:
         (folder / f"{stem}.png").write_bytes(PIXEL)
     claims = [
-        {"claim": "It rises.", "source": "paper: Results", "holds": "True", "evidence": TRICK},
-        {"claim": "It falls.", "source": "paper: Results", "holds": "False", "evidence": "no"},
+        {"kinematics": "small", "claim": "It rises.", "source": "paper: Results", "holds": "True", "evidence": TRICK},
+        {"kinematics": "finite", "claim": "It falls.", "source": "paper: Results", "holds": "False", "evidence": "no"},
     ]
     return report(
         TEMPLATE.read_text(encoding="utf-8"),

@@ -16,7 +16,7 @@ from conftest import ROOT, TABLE_AND_FIGURE, Project, coarse_run, results
 pytestmark = pytest.mark.workflow
 
 SCRIPT = ROOT / "tests" / "slurm" / "cluster.sh"
-SCORE = "results/device2/alternate_180/shear/score.csv"
+SCORE = "results/small/device2/alternate_180/shear/score.csv"
 SUBMISSIONS = 3  # mesh; condense; solve, filter and score together
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "munged")  # of Debian's packages slurm-wlm and munge
 

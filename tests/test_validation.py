@@ -83,7 +83,12 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "misspelled section": (
         {"finger": DELETED, "fingr": {}},
         "fingr",
-        ["an unknown key", "finger, contact, readout, filter, numerics", "did you mean finger?", "(transverse section"],
+        [
+            "an unknown key",
+            "finger, tissue, contact, readout, filter, numerics",
+            "did you mean finger?",
+            "(transverse section",
+        ],
     ),
     "missing section": (
         {"filter": DELETED},

@@ -62,7 +62,7 @@ def test_material_is_that_of_the_side() -> None:
 
 def variant(condition: str, measure: Measure, score: float) -> dict[str, Any]:
     """A row of the table."""
-    key = {"device": "d", "condition": condition, "interface": "shear", "readout": "strain"}
+    key = {"kinematics": "small", "device": "d", "condition": condition, "interface": "shear", "readout": "strain"}
     return key | {"measure": str(measure), "side": "dermis", "wavelength_factor": 1.0, "score": score}
 
 

@@ -178,14 +178,14 @@ def test_every_output_can_be_a_target(project: Project, plan: Run, nothing: Path
     assert shown(run.jobs) == shown(job for job in plan.jobs if job.rule != "all")
 
 
-def test_every_rule_is_planned_by_a_target(project: Project, plan: Run, nothing: Path) -> None:
+def test_every_rule_is_planned_by_a_target(project: Project, nothing: Path, both_scenes: Path) -> None:
     targets = set(project.snakemake("--list-target-rules").text.splitlines()) & set(RULES) - {"all"}
     assert targets >= TABLES
-    run = project.snakemake("-n", *sorted(targets), "--directory", nothing)
+    run = project.snakemake("-n", "all", *sorted(targets), "--directory", nothing, "--config", f"scenes={both_scenes}")
     assert run.status == 0, run.text
     planned = {job.rule for job in run.jobs}
     assert targets <= planned
-    assert planned | {job.rule for job in plan.jobs} == set(RULES)
+    assert set(RULES) - planned <= {"condense_body"}  # Device 2 is rigid
 
 
 # What reruns
@@ -241,7 +241,7 @@ def test_edited_filter_reruns_filter_and_what_follows(changeable: Project, plan:
 
 def test_new_mesh_that_equals_the_old_one_hides_no_edited_tissue(changeable: Project) -> None:
     changeable.edit(CONFIG, lambda text: text.replace("modulus: {value: 0.08,", "modulus: {value: 0.09,"))
-    mesh, condensed = "results/device2/mesh.npz", "results/device2/condensed.npz"
+    mesh, condensed = "results/small/device2/mesh.npz", "results/small/device2/condensed.npz"
     run = changeable.snakemake(mesh)  # as if the run of everything had been interrupted here
     assert run.status == 0, run.text
     assert condensed in changeable.snakemake("-n", condensed).outputs
@@ -268,7 +268,7 @@ def test_fourth_device_runs_only_its_own_jobs_and_the_tables(changeable: Project
     kept = before.keys() - {"results/scores.csv", "results/logs/scores.log"}
     assert {name: after[name] for name in kept} == {name: before[name] for name in kept}
     rows = (changeable.folder / "results/scores.csv").read_text(encoding="utf-8").splitlines()
-    assert sum(row.startswith("device4,") for row in rows) == sum(row.startswith("device2,") for row in rows) > 0
+    assert sum(",device4," in row for row in rows) == sum(",device2," in row for row in rows) > 0
 
 
 def test_report_is_one_page_and_the_same_every_time(changeable: Project) -> None:
@@ -315,7 +315,7 @@ def elsewhere(finished: Project, plan: Run, tmp_path_factory: pytest.TempPathFac
         )
         end = time.monotonic() + LONGEST_RUN
         try:
-            while len(list(there.folder.glob("results/*/*/*/score.csv"))) < 3:
+            while len(list(there.folder.glob("results/*/*/*/*/score.csv"))) < 3:
                 assert process.poll() is None, (there.folder / "killed.log").read_text(encoding="utf-8")
                 assert time.monotonic() < end, "no scores in time"
                 time.sleep(0.05)
@@ -367,12 +367,12 @@ def assert_refused(project: Project, target: str, *said: str) -> None:
 
 def test_unknown_device_is_refused(finished: Project) -> None:
     known = "device1, device2, device3"
-    assert_refused(finished, "results/devise2/mesh.npz", "'devise2'", known, "did you mean 'device2'?")
+    assert_refused(finished, "results/small/devise2/mesh.npz", "'devise2'", known, "did you mean 'device2'?")
 
 
 def test_unknown_condition_is_refused(finished: Project) -> None:
     known = "alternate_000, alternate_090, alternate_180"
-    assert_refused(finished, "results/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
+    assert_refused(finished, "results/small/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
 
 
 @pytest.mark.parametrize(

@@ -15,8 +15,8 @@ from typing import Any
 
 COARSENING = 1.5  # [1]; source: the cheapest mesh whose errors still fall regularly (measured)
 REFINEMENT = 4.5  # of a reference [1]: 20 times the unknowns; source: errors are then a twentieth at second order
-CASE = ("device", "condition", "interface", "readout")
-GROUP = ("device", "readout")
+CASE = ("kinematics", "device", "condition", "interface", "readout")
+GROUP = ("kinematics", "device", "readout")
 
 
 def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:

@@ -16,7 +16,7 @@ import pandas as pd
 from .roughness import CONSTANT, KEY, NO_PREDICTION
 from .scene import Interface, Readout
 
-COLUMNS = ["claim", "source", "holds", "evidence"]
+COLUMNS = ["kinematics", "claim", "source", "holds", "evidence"]
 DISPERSIONS = ("low", "medium", "high")
 PHASES = (0.0, 90.0, 180.0)
 
@@ -73,27 +73,28 @@ class _Claim:
 def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFrame:
     """Which of the paper's statements hold.
 
-    scores: columns device, condition, dispersion, phase_deg, interface, readout, score [in `unit`, NaN without a
-    prediction], unit, note. correlations: from `perception.correlation_table`, or its CSV read back.
+    scores: columns kinematics, device, condition, dispersion, phase_deg, interface, readout, score [in `unit`, NaN
+    without a prediction], unit, note. correlations: from `perception.correlation_table`, or its CSV read back.
 
-    Returns the columns claim, source, holds (True or False) and evidence (a sentence with the numbers). To rise
-    means by more than the solver's tolerance. A claim which needs a score or a rating that is not there has no row:
-    it is neither confirmed nor refuted.
+    Returns the columns kinematics, claim, source, holds (True or False) and evidence (a sentence with the numbers). To
+    rise means by more than the solver's tolerance. A claim which needs a score or a rating that is not there has no
+    row: it is neither confirmed nor refuted.
     """
-    tables = _tables(scores, correlations)
     rows = []
-    for claim in _CLAIMS:
-        try:
-            holds, evidence = claim.check(tables)
-        except _AbsentError:
-            continue
-        rows.append((claim.text, claim.source, holds, evidence))
+    for kinematics in scores["kinematics"].unique():
+        tables = _tables(*(table[table["kinematics"] == kinematics] for table in (scores, correlations)))
+        for claim in _CLAIMS:
+            try:
+                holds, evidence = claim.check(tables)
+            except _AbsentError:
+                continue
+            rows.append((kinematics, claim.text, claim.source, holds, evidence))
     return pd.DataFrame(rows, columns=COLUMNS).astype({"holds": bool})
 
 
 def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:
     by_key = {}
-    for (device, interface, readout), group in scores.groupby(KEY, sort=False):
+    for (device, interface, readout), group in scores.groupby(KEY[1:], sort=False):
         rows = group[["dispersion", "phase_deg", "score"]].itertuples(index=False)
         by_key[device, interface, readout] = _Scores(
             {(dispersion, float(phase)): float(score) for dispersion, phase, score in rows},

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from .scene import FloatArray
 
 VOIGT = 3  # strain components [1]: exx, eyy, gxy = 2 exy
+GRADIENT = 4  # components of a displacement gradient [1]: du_x/dx, du_x/dy, du_y/dx, du_y/dy
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,10 @@ class CondensedSection:
     arc: FloatArray
     strain: FloatArray
     residual: float
+
+    def receptor_strain(self, forces: FloatArray) -> FloatArray:
+        """Strain (k, 3m) [1] at the receptors under contact forces (k, n, 2) [N/mm]."""
+        return np.asarray(forces.reshape(forces.shape[0], -1) @ self.strain.T)
 
 
 @dataclass(frozen=True)

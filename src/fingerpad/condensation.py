@@ -11,18 +11,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix, csr_matrix, diags_array
 from scipy.sparse.linalg import SuperLU, splu
 from threadpoolctl import threadpool_limits
 
-from .compliance import VOIGT, CondensedBody, CondensedSection
-from .elasticity import displacement_basis, facet_strain, node_dofs, stiffness
+from .compliance import GRADIENT, VOIGT, CondensedBody, CondensedSection
+from .elasticity import displacement_basis, facet_gradient, node_dofs, stiffness, strain_of_gradient
 from .errors import CondensationError, MeshError
 from .mesh import SectionMesh, mesh_strip
 from .scene import FloatArray, Scene, Side
 from .traction import Tractions, linear_tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
+TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
 MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte
@@ -36,10 +38,11 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     row = scene.device.actuators
     stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
     points = section.mesh.doflocs[:, section.skin]
-    x, y = points[:, 1::2]
+    x, y = points
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
-    near = distance <= row.width / 2.0 + stroke + CONTACT_MARGIN
-    near &= y < scene.model.finger.height / 2.0
+    within = (distance <= row.width / 2.0 + stroke + CONTACT_MARGIN) & (y < scene.model.finger.height / 2.0)
+    out_of_reach = (x == 0.0) & ~within  # without such a node both halves are alike, and one is enough
+    near = within[1::2] & ~out_of_reach[:-1:2] & ~out_of_reach[2::2]
     tractions = linear_tractions(section.skin, points, near | near[::-1])
     if tractions.weight.size > MAX_CONTACT:
         raise MeshError(
@@ -77,22 +80,22 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     matrix, dofs = section_stiffness(section, scene, elements)
     points, strain = receptor_strain(section, scene)
     tractions = contact_tractions(section, scene)
-    columns = _unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
-    rows = _unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
+    columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
+    rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
     first, read = 2 * np.count_nonzero(columns.side < 0), strain[VOIGT * np.count_nonzero(rows.side < 0) :]
     still = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0])
     axis = dofs[:, x == 0.0]
     parts = [
         condense(matrix, dofs, np.union1d(still, axis[sideways]), loads[:, first:], read)
-        for sideways, loads in enumerate(_folded_loads(section, tractions, dofs, matrix.shape[0]))
+        for sideways, loads in enumerate(folded_loads(section, tractions, dofs, matrix.shape[0]))
     ]
     return CondensedSection(
         tractions.position,
         tractions.weight,
-        _unfold(parts[0][0], parts[1][0], columns, columns),
+        unfold(parts[0][0], parts[1][0], columns, columns),
         points,
         arc_length(points),
-        _unfold(parts[0][1], parts[1][1], rows, columns),
+        unfold(parts[0][1], parts[1][1], rows, columns),
         max(part[2] for part in parts),
     )
 
@@ -109,7 +112,7 @@ def _condense_whole(section: SectionMesh, scene: Scene) -> CondensedSection:
 
 
 @dataclass(frozen=True)
-class _Unfolding:
+class Unfolding:
     """How points of the whole section lie on its right half: place (n,) there, side (n,) +-1, mirror signs (c,)."""
 
     place: np.ndarray
@@ -126,15 +129,15 @@ class _Unfolding:
         return np.asarray(np.where(self.side[:, None] > 0, 1.0, self.mirror).ravel())
 
 
-def _unfolding(count: int, mirror: FloatArray) -> _Unfolding:
+def unfolding(count: int, mirror: FloatArray) -> Unfolding:
     """Unfolding of `count` points on a line that mirrors end to end; a point in the middle lies on the right."""
     line = np.arange(count)
     left = count // 2
     on_right = line >= left
-    return _Unfolding(np.where(on_right, line, line[::-1]) - left, np.where(on_right, 1, -1), mirror)
+    return Unfolding(np.where(on_right, line, line[::-1]) - left, np.where(on_right, 1, -1), mirror)
 
 
-def _folded_loads(
+def folded_loads(
     section: SectionMesh, tractions: Tractions, dofs: np.ndarray, size: int
 ) -> tuple[csc_matrix, csc_matrix]:
     """Nodal forces (size, 2m) on the right half from unit resultants that act together with their mirror image, and
@@ -153,7 +156,7 @@ def _folded_loads(
     return csc_matrix(sides[0] + sides[1]), csc_matrix(sides[0] - sides[1])
 
 
-def _unfold(symmetric: FloatArray, antisymmetric: FloatArray, rows: _Unfolding, columns: _Unfolding) -> FloatArray:
+def unfold(symmetric: FloatArray, antisymmetric: FloatArray, rows: Unfolding, columns: Unfolding) -> FloatArray:
     """Map of the whole section from those of its half under mirrored and counter-mirrored loads."""
     block = np.ix_(rows.unknowns(), columns.unknowns())
     together = np.outer(np.repeat(rows.side, rows.mirror.size), np.repeat(columns.side, columns.mirror.size))
@@ -203,17 +206,19 @@ def condense(
     """
     free = np.ones(matrix.shape[0], dtype=bool)
     free[fixed] = False
-    order = _fill_reducing(matrix, dofs, free)
+    order = fill_reducing_order(matrix, dofs, free)
     permuted, right, read = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order]
-    factors = _factorise(permuted, "NATURAL")
-    pivots = np.abs(factors.U.diagonal())
-    if pivots.min() < PIVOT_LIMIT * pivots.max():
-        raise CondensationError("the stiffness is singular: nothing holds some of the tissue")
+    return condense_ordered(permuted, factorise(permuted), right, read)
 
+
+def condense_ordered(
+    permuted: csc_matrix, factors: SuperLU, right: csc_matrix, read: csr_matrix
+) -> tuple[FloatArray, FloatArray, float]:
+    """`condense` of a stiffness already in a fill-reducing order, with its factors. Raises CondensationError."""
     count = right.shape[1]
-    compliance, strain_map = np.zeros((count, count)), np.zeros((strain.shape[0], count))
+    compliance, strain_map = np.zeros((count, count)), np.zeros((read.shape[0], count))
     mix = np.random.default_rng(0).standard_normal(count)
-    mixed = np.zeros(order.size)
+    mixed = np.zeros(permuted.shape[0])
     with threadpool_limits(1):  # the factors' blocks are small: more threads take longer, and round otherwise
         for start in range(0, count, AT_ONCE):
             block = slice(start, start + AT_ONCE)
@@ -227,17 +232,58 @@ def condense(
     return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
 
 
+def contact_last(order: np.ndarray, loads: csc_matrix) -> np.ndarray:
+    """A fill-reducing order (n_free,) with the unknowns that loads (n_unknowns, k) act on moved to its end."""
+    loaded = np.isin(order, loads.indices)
+    return np.concatenate([order[~loaded], order[loaded]])
+
+
+def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matrix) -> tuple[FloatArray, float]:
+    """Compliance (k, k) of loads (n_free, k) on the last unknowns of a stiffness, and relative residual.
+
+    The trailing block of the factors K = L D L^T is that of the stiffness condensed to the last unknowns, so that
+    C = Y^T D^-1 Y with L Y = W on that block: nothing is solved on the whole. Raises CondensationError.
+    """
+    size = permuted.shape[0] - int(loads.indices.min())
+    place = factors.perm_c[-size:] - (permuted.shape[0] - size)
+    if place.min() < 0:
+        raise CondensationError("some of the tissue hangs together with nothing that actuators can touch")
+    upper = np.asarray(factors.U[-size:, -size:].toarray())
+    pivots = np.diag(upper)[:, None]
+    last = np.empty((size, loads.shape[1]))
+    last[place] = loads[-size:].toarray()
+    carried = solve_triangular((upper / pivots).T, last, lower=True, unit_diagonal=True)
+    compliance = carried.T @ (carried / pivots)
+
+    mix = np.random.default_rng(0).standard_normal(loads.shape[1])
+    load = loads @ mix
+    field = factors.solve(load)
+    residual = _residual(permuted, field, load)
+    residual = max(residual, float(np.abs(loads.T @ field - compliance @ mix).max() / np.abs(field).max()))
+    if not residual <= TRAILING_TOLERANCE:
+        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {TRAILING_TOLERANCE:.0e}")
+    return (compliance + compliance.T) / 2.0, residual
+
+
 def receptor_strain(section: SectionMesh, scene: Scene) -> tuple[FloatArray, csr_matrix]:
     """Receptor points (m, 2) [mm] and their strain (3m, n_unknowns), read from the side that the scene asks for."""
+    points, gradient = receptor_gradient(section, scene)
+    return points, strain_of_gradient(gradient)
+
+
+def receptor_gradient(section: SectionMesh, scene: Scene) -> tuple[FloatArray, csr_matrix]:
+    """Receptor points (m, 2) [mm] and their displacement gradient (4m, n_unknowns), read from the side that the scene
+    asks for.
+    """
     above = [layer.name for layer in scene.model.finger.pad].index(scene.model.readout.layer_above)
     wanted = above + 1 if scene.model.readout.side is Side.DERMIS else above
     adjacent = section.mesh.f2t[:, section.receptor_facets]
     element = np.where(section.layer[adjacent[0]] == wanted, adjacent[0], adjacent[1])
-    points, strain = facet_strain(section.mesh, section.receptor_facets, element)
+    points, gradient = facet_gradient(section.mesh, section.receptor_facets, element)
     # around the section's centre the angle ascends along the line, also where the line turns back in x
     order = np.argsort(np.arctan2(points[0], scene.model.finger.height / 2.0 - points[1]))
-    rows = (VOIGT * order[:, None] + np.arange(VOIGT)).ravel()
-    return points[:, order].T, strain[rows]
+    rows = (GRADIENT * order[:, None] + np.arange(GRADIENT)).ravel()
+    return points[:, order].T, gradient[rows]
 
 
 def arc_length(points: FloatArray) -> FloatArray:
@@ -248,7 +294,7 @@ def arc_length(points: FloatArray) -> FloatArray:
     return arc - float(np.interp(0.0, points[around, 0], arc[around]))
 
 
-def _fill_reducing(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) -> np.ndarray:
+def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) -> np.ndarray:
     """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work)."""
     nodes = np.flatnonzero(free[dofs].any(axis=0))
     first = dofs[0, nodes]
@@ -262,8 +308,20 @@ def _fill_reducing(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) -> np
     return np.asarray(ordered[free[ordered]])
 
 
+def factorise(permuted: csc_matrix) -> SuperLU:
+    """LU factors of a symmetric stiffness already in a fill-reducing order.
+
+    Raises CondensationError if it is singular.
+    """
+    factors = _factorise(permuted, "NATURAL")
+    pivots = np.abs(factors.U.diagonal())
+    if pivots.min() < PIVOT_LIMIT * pivots.max():
+        raise CondensationError("the stiffness is singular: nothing holds some of the tissue")
+    return factors
+
+
 def _factorise(matrix: csc_matrix, ordering: str) -> SuperLU:
-    """LU factors without pivoting: the matrix is symmetric and positive definite."""
+    """LU factors without pivoting, which a symmetric matrix far from singular does not need."""
     return splu(matrix, permc_spec=ordering, diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 

@@ -42,7 +42,8 @@ class ContactProblem:
     position: (n, 2) undeformed contact nodes [mm]. compliance: (2n, 2n) [mm per N/mm], ordered x0, y0, ...
     row: the actuators. body: condensed body of a deformable actuator, or None. friction: coefficient [1].
     tolerance: relative, on forces and gaps. max_cuts: halvings of an increment. patches: whether an increment takes
-    only nodes in contact or about to be, or all.
+    only nodes in contact or about to be, or all. free: (n, 2) displacement of the nodes without contact forces [mm],
+    of tissue linearised about a deformed state; None is zero.
     """
 
     position: FloatArray
@@ -53,6 +54,7 @@ class ContactProblem:
     tolerance: float
     max_cuts: int
     patches: bool = True
+    free: FloatArray | None = None
 
     @cached_property
     def by_component(self) -> FloatArray:
@@ -118,7 +120,8 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
 def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     """Undeformed nodes (n, 2) [mm] in the frame of their actuator, which stands at `actuator` (n_actuators, 2)."""
     centre = np.stack([np.asarray(problem.row.positions), np.zeros(len(problem.row.positions))], axis=1)
-    return np.asarray(problem.position - (actuator + centre)[problem.actuator_of])
+    position = problem.position if problem.free is None else problem.position + problem.free
+    return np.asarray(position - (actuator + centre)[problem.actuator_of])
 
 
 def switch_friction(state: ContactState) -> ContactState:

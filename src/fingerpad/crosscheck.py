@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
@@ -12,19 +12,22 @@ import numpy as np
 
 from .calculix import Printed, read_printed, run
 from .compliance import CondensedBody, CondensedSection
-from .condensation import arc_length, body_of, condense_section, receptor_strain
+from .condensation import arc_length, receptor_gradient
 from .contact import ContactProblem, rest, switch_friction, touching_height
+from .deformed_solution import receptor_logarithmic_strain
 from .edges import mesh_device
-from .elasticity import displacement_basis, node_dofs
+from .elasticity import displacement_basis, node_dofs, strain_of_gradient
+from .errors import CalculixError
 from .export import DeckSettings, input_deck
 from .gabor import filtered_readouts
 from .mesh import SectionMesh
 from .path import follow
 from .penalty import PenaltyLaw, PenaltyState, press, untouched
+from .pressing import indented_height
 from .resampling import resampling_to_grid
 from .roughness import roughness_score, score_span
-from .scene import Condition, FloatArray, Interface, Readout, Scene
-from .solution import contact_problem, indented_state
+from .scene import Condition, FloatArray, Interface, Kinematics, Law, Readout, Scene
+from .solution import contact_problem
 from .strain import maximum_principal
 
 # source: the change of strain no longer moves in its fourth digit (measured)
@@ -32,8 +35,8 @@ INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]
 STIMULUS_INCREMENTS = 32  # of fingerpad's side, a segment [1]
 
 
-class Law(StrEnum):
-    """Contact law of fingerpad's side: its own; with CalculiX's penalties; with its turning normal too."""
+class ContactModel(StrEnum):
+    """Contact on fingerpad's side: its own; with CalculiX's penalties; with its turning normal too."""
 
     OWN = "fingerpad"
     PENALTIES = "fingerpad with penalties"
@@ -71,17 +74,23 @@ def sharpened(scene: Scene) -> Scene:
 
 
 def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings]:
-    """The case's scene with the shipped mesh, and the settings of its deck: it indents as deep as fingerpad does.
+    """The case's scene with the shipped mesh, and the settings of its deck.
 
-    case: `edges` (rounded or sharp), `friction` (never, stimulus or always), and the deck's slopes and increments.
+    case: `kinematics`, and with finite ones the tissue's `law`; `indentation`, a height [mm], or full: as deep as
+    fingerpad indents; `edges` (rounded or sharp), `friction` (never, stimulus or always), and the deck's slopes and
+    increments.
     """
     scene = sharpened(scene) if case["edges"] == "sharp" else scene
+    scene = scene.with_kinematics(Kinematics(case["kinematics"]))
     friction = scene.model.contact.friction
     acting = 0.0 if case["friction"] == "never" else friction
     indenting = friction if case["friction"] == "always" else 0.0
-    interface = Interface.SHEAR if indenting else Interface.FRICTIONLESS
-    problem = contact_problem(scene, condense_section(mesh_device(scene), scene), body_of(scene), interface)
-    depth = float(indented_state(scene, problem).actuator[0, 1])
+    if scene.kinematics is Kinematics.FINITE:
+        tissue = replace(scene.model.tissue, law=Law(case["law"]))
+        scene = replace(scene, model=replace(scene.model, tissue=tissue))
+    depth = case["indentation"]
+    if depth == "full":
+        depth = indented_height(scene, mesh_device(scene), Interface.SHEAR if indenting else Interface.FRICTIONLESS)
     keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
     return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
 
@@ -89,9 +98,11 @@ def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings
 def calculix_outcome(
     scene: Scene, section: SectionMesh, condition: Condition, settings: DeckSettings, folder: Path, limit: float
 ) -> tuple[Outcome, float]:
-    """Outcome of a deck that CalculiX solves in a folder, and the seconds it took. Raises CalculixError if it fails or
-    takes longer than the limit [s].
+    """Outcome of a deck that CalculiX solves in a folder, and the seconds it took. Raises CalculixError if it fails,
+    takes longer than the limit [s] or does not have the tissue's law.
     """
+    if scene.kinematics is Kinematics.FINITE and scene.model.tissue.law is Law.HENCKY:
+        raise CalculixError("CalculiX has no law in logarithmic strain (hencky); try green, neo_hookean or ogden")
     table, seconds = run(input_deck(scene, section, condition, settings), folder, limit)
     printed = read_printed(table, len(scene.device.actuators.positions), 1 + condition.time.size, settings)
     return printed_outcome(scene, section, printed), seconds
@@ -99,12 +110,15 @@ def calculix_outcome(
 
 def printed_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Outcome:
     """Outcome of what CalculiX printed: strain by the same map from displacement as fingerpad's."""
-    points, strain = receptor_strain(section, scene)
+    points, gradient = receptor_gradient(section, scene)
     unknowns = node_dofs(displacement_basis(section.mesh))[:, printed.node]
-    field = np.zeros((printed.displacement.shape[0], strain.shape[1]))
+    field = np.zeros((printed.displacement.shape[0], gradient.shape[1]))
     field[:, unknowns] = printed.displacement.swapaxes(1, 2)
-    strains = np.array([maximum_principal(strain @ one) for one in field[[0, -1]]])
-    return _outcome(scene, arc_length(points), strains, printed.force[[0, -1]])
+    if scene.kinematics is Kinematics.FINITE:
+        strains = [receptor_logarithmic_strain(gradient, one) for one in field[[0, -1]]]
+    else:
+        strains = [strain_of_gradient(gradient) @ one for one in field[[0, -1]]]
+    return outcome_of(scene, arc_length(points), strains, printed.force[[0, -1]])
 
 
 def fingerpad_outcome(
@@ -113,19 +127,17 @@ def fingerpad_outcome(
     body: CondensedBody | None,
     condition: Condition,
     settings: DeckSettings,
-    law: Law,
+    contact: ContactModel,
 ) -> Outcome:
-    """Outcome of the same path on the condensed maps. Raises ContactError if it cannot be followed, or the
-    turning normal is asked of a deformable body."""
+    """Outcome of the same path on the condensed maps of undeformed tissue. Raises ContactError if it cannot be
+    followed, or the turning normal is asked of a deformable body."""
     problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
-    follow_path = _turning_forces if law is Law.TURNING else _own_forces
-    if law is Law.PENALTIES:
-        problem = replace(problem, compliance=problem.compliance + np.diag(_softness(section, settings)))
+    follow_path = _turning_forces if contact is ContactModel.TURNING else _own_forces
+    if contact is ContactModel.PENALTIES:
+        problem = replace(problem, compliance=problem.compliance + np.diag(softness(section, settings)))
     forces = follow_path(problem, section, condition, settings)
-    strains = np.array([maximum_principal(section.strain @ force.ravel()) for force in forces])
-    owner = problem.actuator_of
-    totals = [[force[owner == number].sum(axis=0) for number in range(len(problem.row.positions))] for force in forces]
-    return _outcome(scene, section.arc, strains, np.array(totals))
+    strains = [section.strain @ force.ravel() for force in forces]
+    return outcome_of(scene, section.arc, strains, actuator_forces(problem, forces))
 
 
 def differences(found: Outcome, reference: Outcome) -> dict[str, float]:
@@ -149,7 +161,7 @@ def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
     return [indented, *(indented + np.stack(move, axis=1) for move in moves)]
 
 
-def _softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
+def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
     """Compliance (2n,) [mm per N/mm] that the penalties add to each node: 1 / (slope times its length of skin)."""
     slopes = np.array([settings.stick_slope, settings.pressure_slope])
     return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())
@@ -180,8 +192,15 @@ def _turning_forces(
     return before.force, state.force
 
 
-def _outcome(scene: Scene, arc: FloatArray, strain: FloatArray, force: FloatArray) -> Outcome:
-    """Read-outs on the uniform grid, and scores."""
+def actuator_forces(problem: ContactProblem, forces: Sequence[FloatArray]) -> FloatArray:
+    """Forces (k, n_actuators, 2) [N/mm] of the actuators from those of the nodes, k times (n, 2)."""
+    owner, count = problem.actuator_of, len(problem.row.positions)
+    return np.array([[force[owner == number].sum(axis=0) for number in range(count)] for force in forces])
+
+
+def outcome_of(scene: Scene, arc: FloatArray, components: Sequence[FloatArray], force: FloatArray) -> Outcome:
+    """Read-outs on the uniform grid, and scores, of strains (3m,) [1] before and after the stimulus."""
+    strain = np.array([maximum_principal(each) for each in components])
     gabor, row = scene.model.gabor, scene.device.actuators
     resampling = resampling_to_grid(arc, gabor.spacing)
     grid = resampling.grid

@@ -6,13 +6,17 @@ up where undeformed skin lies over them. A coarse solution of all conditions fin
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from .condensation import body_of, condense_section
 from .contact import ContactProblem, ContactState
+from .deformed_solution import deformed_moves, pressed_finger
 from .errors import ContactError
 from .mesh import SectionMesh, mesh_section, nominal_edges
-from .scene import Condition, FloatArray, Scene
+from .pressing import press
+from .scene import Condition, FloatArray, Kinematics, Scene
 from .solution import contact_problem, follow_condition, indented_state
 
 COARSER = 5.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.002 mm (measured)
@@ -31,23 +35,39 @@ def edge_intervals(scene: Scene) -> FloatArray:
     """
     nominal = nominal_edges(scene.device.actuators)
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
-    coarse = scene.coarsened(COARSER)
-    section = condense_section(mesh_section(coarse, wide), coarse)
-    body = body_of(coarse)
-    found: list[FloatArray] = []
+    states = _small_states if scene.kinematics is Kinematics.SMALL else _finite_states
     try:
-        for interface in scene.device.interfaces():
-            problem = contact_problem(coarse, section, body, interface)
-            before = indented_state(coarse, problem)
-            found.append(_under_edges(problem, before))
-            for condition in _distinct(scene):
-                states = follow_condition(coarse, problem, before, condition)
-                found.extend(_under_edges(problem, state) for state in states)
+        found = [_under_edges(*each) for each in states(scene, wide)]
     except ContactError:
         return wide
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
     both = np.stack([start, stop], axis=1)
     return _joined(np.concatenate([both, -both[:, ::-1]]))
+
+
+def _small_states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState]]:
+    """States of all conditions on a coarse mesh. Raises ContactError."""
+    coarse = scene.coarsened(COARSER)
+    section, body = condense_section(mesh_section(coarse, edges), coarse), body_of(coarse)
+    for interface in scene.device.interfaces():
+        problem = contact_problem(coarse, section, body, interface)
+        before = indented_state(coarse, problem)
+        yield problem, before
+        for condition in _distinct(scene):
+            for state in follow_condition(coarse, problem, before, condition):
+                yield problem, state
+
+
+def _finite_states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState]]:
+    """The same of tissue that deforms much. Raises ContactError."""
+    coarse = scene.coarsened(COARSER)
+    section, body = mesh_section(coarse, edges), body_of(coarse)
+    for interface in scene.device.interfaces():
+        pressed = press(coarse, section, body, interface)
+        finger = pressed_finger(coarse, section, body, pressed, interface)
+        for condition in _distinct(scene):
+            for move in deformed_moves(coarse, finger, condition):
+                yield finger.problem, move.state
 
 
 def _distinct(scene: Scene) -> list[Condition]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix, identity, kron
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
 from skfem.helpers import ddot, eye, sym_grad, trace
 
-from .compliance import VOIGT
+from .compliance import GRADIENT
 from .scene import FloatArray, Material
 
 QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
@@ -62,14 +62,26 @@ def stiffness(basis: Basis, materials: Sequence[Material], element_material: np.
     return csc_matrix(_elastic_energy.assemble(basis, lam=lam, mu=mu))
 
 
-def facet_strain(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarray) -> tuple[FloatArray, csr_matrix]:
-    """Strain on facets, as a linear map of the displacement.
+def strain_of_gradient(gradient: csr_matrix) -> csr_matrix:
+    """Map (3n, ...) to exx, eyy and engineering shear gxy = 2 exy from one (4n, ...) to the displacement gradient."""
+    own = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 1.0, 0.0]])
+    return csr_matrix(kron(identity(gradient.shape[0] // GRADIENT), own) @ gradient)
 
-    The strain is read at the two Gauss points of every facet, in the given adjacent element (facets carry two: this
+
+def facet_strain(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarray) -> tuple[FloatArray, csr_matrix]:
+    """Strain on facets, as a linear map (3 n_points, n_unknowns) to exx, eyy, gxy [1]; see `facet_gradient`."""
+    points, gradient = facet_gradient(mesh, facets, element_of_facet)
+    return points, strain_of_gradient(gradient)
+
+
+def facet_gradient(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarray) -> tuple[FloatArray, csr_matrix]:
+    """Displacement gradient on facets, as a linear map of the displacement.
+
+    It is read at the two Gauss points of every facet, in the given adjacent element (facets carry two: this
     chooses the side). Gauss points are where the gradients of second-order elements are most accurate.
 
     Returns positions (2, n_points) [mm], n_points = 2 n_facets ordered by facet, and the map
-    (3 n_points, n_unknowns) to exx, eyy and engineering shear gxy = 2 exy [1], point by point.
+    (4 n_points, n_unknowns) to du_x/dx, du_x/dy, du_y/dx, du_y/dy [1], point by point.
     """
     rows, columns, entries = [], [], []
     positions = np.empty((2, facets.size, 2))
@@ -84,14 +96,14 @@ def facet_strain(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarra
         point = 2 * chosen[:, None] + np.arange(2)
         for function in range(basis.Nbfun):
             gradient = np.asarray(basis.basis[function][0].grad)
-            for component, value in enumerate((gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0])):
-                rows.append((VOIGT * point + component).ravel())
+            for component, value in enumerate(gradient.reshape(GRADIENT, *point.shape)):
+                rows.append((GRADIENT * point + component).ravel())
                 columns.append(np.broadcast_to(basis.element_dofs[function][:, None], point.shape).ravel())
                 entries.append(value.ravel())
-    size = VOIGT * 2 * facets.size
+    size = GRADIENT * 2 * facets.size
     unknowns = 2 * mesh.doflocs.shape[1]
-    strain = csr_matrix(
+    found = csr_matrix(
         (np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(size, unknowns)
     )
-    strain.eliminate_zeros()
-    return positions.reshape(2, -1), strain
+    found.eliminate_zeros()
+    return positions.reshape(2, -1), found

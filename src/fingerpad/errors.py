@@ -41,6 +41,10 @@ class UniquenessError(ContactError):
     """The laws of contact lost their unique solution: friction is too large, or skin hangs on a wall."""
 
 
+class InvertedError(ContactError):
+    """Tissue is turned inside out: an element would be pressed to nothing."""
+
+
 class CriterionError(ContactError):
     """Pre-indentation did not bring about the contact that was asked for."""
 

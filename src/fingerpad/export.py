@@ -16,11 +16,11 @@ import numpy as np
 from skfem import MeshTri2
 
 from .condensation import contact_tractions, receptor_strain
-from .elasticity import displacement_basis, node_dofs
+from .elasticity import displacement_basis, lame, node_dofs
 from .errors import SceneError
 from .mesh import SectionMesh, mesh_strip
 from .profile import SHARP_RADIUS, WALL_ANGLE, profile
-from .scene import ActuatorRow, Condition, FloatArray, Layer, Material, Numerics, Scene
+from .scene import ActuatorRow, Condition, FloatArray, Kinematics, Law, Layer, Material, Numerics, Scene, TissueLaw
 
 ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly
@@ -193,12 +193,23 @@ def _heading(scene: Scene, condition: Condition, settings: DeckSettings) -> list
     return [
         "*HEADING",
         f"{scene.device.title}; condition {condition.name}; made by fingerpad",
-        "** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. Small strains (no NLGEOM).",
+        f"** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. {_kinematics(scene.model.tissue)}",
         "** x runs along the row of actuators, y into the finger; the pad's lowest point is the origin.",
         f"** Friction: pre-indentation {settings.friction_indenting:g}, stimulus {settings.friction_acting:g}.",
         f"** Penalties: pressure over penetration {settings.pressure_slope:g} MPa/mm, shear over elastic slip"
         f" {settings.stick_slope:g} MPa/mm.",
     ]
+
+
+def _kinematics(tissue: TissueLaw) -> str:
+    """What the deck says of strains and of the law that a solver takes the finger's materials for."""
+    if tissue.kinematics is Kinematics.SMALL:
+        return "Small strains (no NLGEOM)."
+    if tissue.law is Law.HENCKY:
+        return "Large strains (NLGEOM), law hencky: Abaqus alone takes *ELASTIC in logarithmic strain."
+    if tissue.law is Law.GREEN:
+        return "Large strains (NLGEOM), law green: CalculiX alone takes *ELASTIC in Green's strain."
+    return f"Large strains (NLGEOM), law {tissue.law}."
 
 
 def _finger(scene: Scene, section: SectionMesh) -> list[str]:
@@ -242,11 +253,19 @@ def _actuator(part: _Part, first_node: int, first_element: int) -> list[str]:
 
 def _materials(scene: Scene, part: _Part) -> list[str]:
     finger, row = scene.model.finger, scene.device.actuators
-    lines = ["**", "** ---- materials: Young's modulus [MPa], Poisson's ratio [1]; sections: thickness [mm]"]
+    lines = [
+        "**",
+        "** ---- materials: *ELASTIC Young's modulus [MPa], Poisson's ratio [1]; NEO HOOKE C10 [MPa], D1 [1/MPa];",
+        "** OGDEN mu [MPa], alpha [1], D1 [1/MPa]; sections: thickness [mm]",
+    ]
     for index, layer in enumerate((*finger.pad, *finger.dorsal)):
         name = _layer_name(index, layer)
-        lines += [*_material(name, layer.material), f"*SOLID SECTION, ELSET={name}, MATERIAL={name}", "1.0"]
-    lines += _material("ACTUATOR", part.material)
+        # nail and nail bed hardly strain; CalculiX finds no equilibrium where such stiff tissue has the law of Ogden
+        soft = index < len(finger.pad)
+        lines += [f"*MATERIAL, NAME={name}"]
+        lines += material_lines(layer.material, scene.model.tissue) if soft else _elastic(layer.material)
+        lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL={name}", "1.0"]
+    lines += ["*MATERIAL, NAME=ACTUATOR", *_elastic(part.material)]
     for number in range(len(row.positions)):
         lines += [f"*SOLID SECTION, ELSET={actuator_name(number)}_BODY, MATERIAL=ACTUATOR", "1.0"]
     return lines
@@ -278,13 +297,14 @@ def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[s
         moves.append((f"stimulus at time {time:g}", moved))
     switched = settings.friction_acting != settings.friction_indenting
     switch = ["*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR", *_friction(settings.friction_acting, settings)]
+    step = f"*STEP{', NLGEOM' if scene.kinematics is Kinematics.FINITE else ''}, INC={LARGEST_COUNT}"
     lines = []
     for number, (title, move) in enumerate(moves):
         increments = settings.stimulus_increments if number else settings.indentation_increments
         change = switch if switched and number == 1 else []
-        lines += _step(title, move, increments, change)
+        lines += _step(title, step, move, increments, change)
         if settings.rest_increments:
-            lines += _step(f"at rest after {title}", move, settings.rest_increments, [])
+            lines += _step(f"at rest after {title}", step, move, settings.rest_increments, [])
     return lines
 
 
@@ -292,12 +312,14 @@ def _friction(coefficient: float, settings: DeckSettings) -> list[str]:
     return ["*FRICTION", f"{coefficient:.12g}, {settings.stick_slope:.12g}"]
 
 
-def _step(title: str, displacement: Sequence[tuple[float, float]], increments: int, before: list[str]) -> list[str]:
+def _step(
+    title: str, step: str, displacement: Sequence[tuple[float, float]], increments: int, before: list[str]
+) -> list[str]:
     """One static step in equal increments: displacement (x, y) [mm] of every actuator from its place in the row."""
     length = f"{1.0 / increments:.9g}"
     return [
         *("**", f"** ---- {title}: displacement [mm] of the actuators from their place in the row and y = 0"),
-        *(f"*STEP, INC={LARGEST_COUNT}", *before, "*STATIC", f"{length}, 1.0, {SMALLEST_INCREMENT:g}, {length}"),
+        *(step, *before, "*STATIC", f"{length}, 1.0, {SMALLEST_INCREMENT:g}, {length}"),
         "*BOUNDARY",
         *(
             f"{actuator_name(number)}, {axis}, {axis}, {value:.9e}"
@@ -325,8 +347,22 @@ def _output(actuators: int) -> list[str]:
     ]
 
 
-def _material(name: str, material: Material) -> list[str]:
-    return [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{material.modulus:.12g}, {material.poisson:.12g}"]
+def material_lines(material: Material, tissue: TissueLaw) -> list[str]:
+    """A material with the tissue's law. Abaqus and CalculiX take its constants in the stored energies
+    C10 (I1 - 3) + (J - 1)^2/D1,    2 mu/alpha^2 (sum of stretches^alpha - 3) + (J - 1)^2/D1,
+    the first terms of isochoric stretches.
+    """
+    if tissue.kinematics is Kinematics.SMALL or tissue.law in (Law.GREEN, Law.HENCKY):
+        return _elastic(material)
+    lam, mu = lame(material)
+    softness = 2.0 / (lam + 2.0 * mu / 3.0)  # D1, twice the bulk modulus's inverse
+    if tissue.law is Law.NEO_HOOKEAN:
+        return ["*HYPERELASTIC, NEO HOOKE", f"{mu / 2.0:.12g}, {softness:.12g}"]
+    return ["*HYPERELASTIC, OGDEN, N=1", f"{mu:.12g}, {tissue.ogden_exponent:.12g}, {softness:.12g}"]
+
+
+def _elastic(material: Material) -> list[str]:
+    return ["*ELASTIC", f"{material.modulus:.12g}, {material.poisson:.12g}"]
 
 
 def _layer_name(index: int, layer: Layer) -> str:

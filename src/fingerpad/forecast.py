@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 from .accuracy import COARSENING, with_error, with_errors
 from .caveats import score_caveats, solution_caveats
 from .edges import edge_intervals
-from .prediction import condense_scene, rows_of, solve_scene
+from .prediction import prepared, rows_of, solve_scene
 from .roughness import CONSTANT, KEY, unpredicted_rows
 from .scene import FloatArray, Scene
 
@@ -65,7 +65,7 @@ def _solved_rows(
     scene: Scene, edges: FloatArray, step: Callable[[], object]
 ) -> tuple[list[dict[str, Any]], list[list[str]]]:
     """Rows of the score table, and what is to be said of the solution of each."""
-    condensed = condense_scene(scene, edges)
+    condensed = prepared(scene, edges)
     step()
     rows: list[dict[str, Any]] = []
     caveats: list[list[str]] = []

@@ -43,12 +43,15 @@ SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 
 class NotConvergedError(Exception):
-    """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign."""
+    """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign.
+    inverted: where tissue was turned inside out, if it was.
+    """
 
-    def __init__(self, residual: float, turned: bool = False) -> None:
-        super().__init__(residual, turned)
+    def __init__(self, residual: float, turned: bool = False, inverted: str = "") -> None:
+        super().__init__(residual, turned, inverted)
         self.residual = residual
         self.turned = turned
+        self.inverted = inverted
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ import numpy as np
 
 from .contact import ContactProblem, ContactState, Status, rest, touching_height
 from .errors import CriterionError
-from .path import advance
+from .increment import solve_increment
+from .path import SolveIncrement, State, advance
 from .profile import profile
 from .scene import Criterion, FloatArray
 
@@ -18,17 +19,29 @@ LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns
 
 
 def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
+    """Raise all actuators together until the criterion holds, on linear tissue; see `raise_until`."""
+    start = rest(problem, touching_height(problem))
+    return raise_until(problem, criterion, increments, limit, start, solve_increment)
+
+
+def raise_until(
+    problem: ContactProblem,
+    criterion: Criterion,
+    increments: int,
+    limit: float,
+    state: State,
+    solve: SolveIncrement[State],
+) -> State:
     """Raise all actuators together until the criterion holds.
 
     FULL: contact reaches both ends of every flat face. TOUCH: every actuator carries some skin. increments: number for
     the way from first touch to where the undeformed skin over the outermost face would lie. limit: largest
-    indentation [mm].
+    indentation [mm]. state: at first touch. solve: an increment.
 
     Raises CriterionError if the criterion is not met within the limit.
     """
-    touch = touching_height(problem)
-    state = rest(problem, touch)
-    patch = None
+    touch = float(state.actuator[0, 1])
+    carried = None
     over_face = np.abs(state.place) <= problem.row.half_face
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
     stride = max(rise / increments, END_STEP)
@@ -44,7 +57,7 @@ def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit
             )
         target = state.actuator.copy()
         target[:, 1] = height
-        advanced, patch = advance(problem, state, target, 1, patch)
+        advanced, carried = advance(problem, state, target, 1, carried, solve)
         left = _missing(problem, advanced, criterion)
         if left < -END_TOLERANCE and step > END_STEP:
             weight = weight / 2.0 if beyond else 1.0

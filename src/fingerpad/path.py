@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from .contact import ContactProblem, ContactState
-from .errors import ConvergenceError, UniquenessError
+from .errors import ContactError, ConvergenceError, InvertedError, UniquenessError
 from .increment import NotConvergedError, Patch, solve_increment
 from .scene import FloatArray
 
+State = TypeVar("State", bound=ContactState)
+
 NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
 CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
+
+
+class SolveIncrement(Protocol[State]):
+    """Solves one increment: from a problem, a state, where the actuators go, and what the last increment left to use
+    again. Raises NotConvergedError.
+    """
+
+    def __call__(
+        self, problem: ContactProblem, start: State, actuator: FloatArray, carried: Any, /
+    ) -> tuple[State, Any]: ...
 
 
 def follow(
@@ -23,23 +36,30 @@ def follow(
     Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
     CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see increment).
     """
-    return advance(problem, state, target, increments, patch)[0]
+    return advance(problem, state, target, increments, patch, solve_increment)[0]
 
 
 def advance(
-    problem: ContactProblem, state: ContactState, target: FloatArray, increments: int, patch: Patch | None
-) -> tuple[ContactState, Patch | None]:
-    """`follow` that starts from a patch already condensed, if there is one, and gives the last one back."""
+    problem: ContactProblem,
+    state: State,
+    target: FloatArray,
+    increments: int,
+    carried: Any,
+    solve: SolveIncrement[State],
+) -> tuple[State, Any]:
+    """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
+    and giving the last of it back.
+    """
     start = state.actuator
     if np.abs(target - start).max() <= NEGLIGIBLE * max(np.abs(start).max(), np.abs(target).max()):
-        return state, patch
+        return state, carried
     done, step = 0.0, 1.0 / increments
     smallest = step / 2.0**problem.max_cuts
     cuts = 0
     while done < 1.0:
         goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
         try:
-            state, patch = solve_increment(problem, state, start + goal * (target - start), patch)
+            state, carried = solve(problem, state, start + goal * (target - start), carried)
             done = goal
             step = min(2.0 * step, 1.0 / increments)
         except NotConvergedError as failure:
@@ -47,18 +67,23 @@ def advance(
             cuts += 1
             state = replace(state, cuts=state.cuts + 1)
             if step < smallest or cuts > CRAWL * problem.max_cuts:
-                kind, advice = (
-                    (UniquenessError, "there the states of contact have no unique solution; try less friction")
-                    if failure.turned
-                    else (ConvergenceError, "try more increments")
-                )
+                kind, advice = _named(failure)
                 raise kind(
                     f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
                     f" increment {int(done * increments) + 1}/{increments} halved {cuts - 1} times, residual"
                     f" {failure.residual:.1e} > {problem.tolerance:.0e}; {advice} or a finer mesh at the"
                     " actuators' edges"
                 ) from failure
-    return state, patch
+    return state, carried
+
+
+def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
+    """Class and advice of the error that ends a path."""
+    if failure.inverted:
+        return InvertedError, f"{failure.inverted}; try less indentation"
+    if failure.turned:
+        return UniquenessError, "there the states of contact have no unique solution; try less friction"
+    return ConvergenceError, "try more increments"
 
 
 def _located(actuator: FloatArray) -> str:

@@ -148,9 +148,10 @@ def _uncorrelated(generators: FloatArray, covariance: FloatArray) -> FloatArray:
 def correlation_table(
     scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
 ) -> pd.DataFrame:
-    """How each score correlates with perceived roughness: a row for each device, interface and read-out.
+    """How each score correlates with perceived roughness: a row for each kinematics, device, interface and
+    read-out.
 
-    scores: columns device, condition, interface, readout, score [any unit, NaN without a prediction], note.
+    scores: columns kinematics, device, condition, interface, readout, score [any unit, NaN without a prediction], note.
     ratings, order, published: see `read_ratings`, `read_stated_order`, `read_published`.
 
     Returns the columns COLUMNS:
@@ -164,12 +165,13 @@ def correlation_table(
     Raises RatingError if scores and ratings of a device are not of the same conditions.
     """
     rows = [
-        {**dict(zip(KEY, key, strict=True)), **_correlate(group, *(t[t["device"] == key[0]] for t in (ratings, order)))}
+        {**dict(zip(KEY, key, strict=True)), **_correlate(group, *(t[t["device"] == key[1]] for t in (ratings, order)))}
         for key, group in scores.groupby(KEY, sort=False)
     ]
     said = published.rename(columns={"r2": "published_r2", "words": "published_words"})
     computed = pd.DataFrame(rows, columns=[c for c in COLUMNS if not c.startswith("published")])
-    table = computed.merge(said[[*KEY, "published_r2", "published_words"]], how="left", on=KEY, validate="m:1")
+    same = KEY[1:]  # the paper does not say with which kinematics
+    table = computed.merge(said[[*same, "published_r2", "published_words"]], how="left", on=same, validate="m:1")
     floats = dict.fromkeys(("r2", "r2_lowest", "r2_highest", "kendall_tau", "p", "published_r2"), "float64")
     table = table.astype({"n": "int64", "slope_sign": "Int64", **floats})
     return table[COLUMNS].fillna({"published_words": ""})

@@ -2,27 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from .compliance import CondensedBody, CondensedSection
-from .condensation import body_of, condense_section
+from .condensation import arc_length, body_of, condense_section, receptor_strain
+from .deformed_solution import pressed_finger, stimulate_deformed
 from .edges import edge_intervals
 from .gabor import filtered_readouts
-from .mesh import mesh_section
+from .mesh import SectionMesh, mesh_section
+from .pressing import press
 from .resampling import resampling_to_grid
 from .roughness import score_rows
-from .scene import Condition, FloatArray, Interface, Scene
+from .scene import Condition, FloatArray, Interface, Kinematics, Scene
 from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
 
 
 @dataclass(frozen=True)
 class Condensed:
-    """All that conditions of a scene share."""
+    """All that conditions of a scene with small kinematics share."""
 
     section: CondensedSection
+    body: CondensedBody | None
+    resampling: Resampling
+
+
+@dataclass(frozen=True)
+class Meshed:
+    """All that conditions of a scene with finite kinematics share: what is condensed depends on the interface."""
+
+    section: SectionMesh
     body: CondensedBody | None
     resampling: Resampling
 
@@ -36,44 +48,72 @@ class Solved:
     solution: Solution
 
 
+def prepared(scene: Scene, edges: FloatArray) -> Condensed | Meshed:
+    """Mesh, fine at the edges' intervals (k, 2) [mm], and condense as the kinematics ask.
+
+    Raises MeshError, CondensationError.
+    """
+    return mesh_scene(scene, edges) if scene.kinematics is Kinematics.FINITE else condense_scene(scene, edges)
+
+
 def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
-    """Mesh, fine at the edges' intervals (k, 2) [mm], and condense. Raises MeshError, CondensationError."""
+    """Mesh and condense the undeformed finger. Raises MeshError, CondensationError."""
     section = condense_section(mesh_section(scene, edges), scene)
     body = body_of(scene)
     return Condensed(section, body, resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 
+def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:
+    """Mesh alone, as the finger is condensed when it is pressed. Raises MeshError, CondensationError."""
+    section = mesh_section(scene, edges)
+    arc = arc_length(receptor_strain(section, scene)[0])
+    return Meshed(section, body_of(scene), resampling_to_grid(arc, scene.model.gabor.spacing))
+
+
 def rows_at(scene: Scene, coarsening: float) -> list[dict[str, Any]]:
     """Rows of the score table on sizes and increments `coarsening` times the scene's [1]; edges as for the scene."""
     other = scene.coarsened(coarsening)
-    return predicted_rows(other, condense_scene(other, edge_intervals(scene)))
+    return predicted_rows(other, prepared(other, edge_intervals(scene)))
 
 
-def predicted_rows(scene: Scene, condensed: Condensed) -> list[dict[str, Any]]:
+def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:
     """Rows of the score table for all conditions and interfaces. Raises ContactError."""
     return [row for solved in solve_scene(scene, condensed) for row in rows_of(scene, condensed, solved)]
 
 
-def solve_scene(scene: Scene, condensed: Condensed) -> Iterator[Solved]:
+def solve_scene(scene: Scene, condensed: Condensed | Meshed) -> Iterator[Solved]:
     """Solutions of all conditions and interfaces, one after the other; equal stimuli share one. Raises ContactError."""
     for interface in scene.device.interfaces():
         found: dict[str, Solution] = {}
-        indented = None
+        solve: Callable[[Condition], Solution] | None = None
         for condition in scene.device.conditions:
             solved_as = scene.solved_as(condition.name).name
             if solved_as not in found:
-                if indented is None or not scene.model.skips.shared_indentation:
-                    indented = indent_device(scene, condensed.section, condensed.body, interface)
-                found[solved_as] = stimulate(scene, condensed.section, indented, condition)
+                if solve is None or not scene.model.skips.shared_indentation:
+                    solve = pressed_device(scene, condensed, interface)
+                found[solved_as] = solve(condition)
             yield Solved(condition, interface, found[solved_as])
 
 
-def rows_of(scene: Scene, condensed: Condensed, solved: Solved) -> list[dict[str, Any]]:
+def pressed_device(
+    scene: Scene, condensed: Condensed | Meshed, interface: Interface
+) -> Callable[[Condition], Solution]:
+    """Press the device onto the finger: what solves the stimulus of a condition from there. Raises ContactError."""
+    if isinstance(condensed, Meshed):
+        pressed = press(scene, condensed.section, condensed.body, interface)
+        finger = pressed_finger(scene, condensed.section, condensed.body, pressed, interface)
+        return partial(stimulate_deformed, scene, finger)
+    return partial(
+        stimulate, scene, condensed.section, indent_device(scene, condensed.section, condensed.body, interface)
+    )
+
+
+def rows_of(scene: Scene, condensed: Condensed | Meshed, solved: Solved) -> list[dict[str, Any]]:
     """Rows of the score table for one solution."""
     return score_rows(scene, solved.condition, solved.interface, read_out(scene, condensed, solved.solution))
 
 
-def read_out(scene: Scene, condensed: Condensed, solution: Solution) -> FilteredReadouts:
+def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:
     """Filtered read-outs of a solution."""
     strains = solution.strain, solution.change_of_strain
     return filtered_readouts(condensed.resampling, *strains, scene.model.gabor)

@@ -25,6 +25,8 @@ from .scene import (
     Finger,
     FloatArray,
     GaborFilter,
+    Kinematics,
+    Law,
     Layer,
     Material,
     Model,
@@ -33,6 +35,7 @@ from .scene import (
     Scene,
     Side,
     Skips,
+    TissueLaw,
 )
 
 GROUP = 50  # scenes that share a finger [1]
@@ -131,6 +134,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     above = pad[int(rng.integers(count - 1))].name
     model = Model(
         finger,
+        TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
         ContactLaw(0.0, Criterion.TOUCH),
         GaborFilter(2.8, 1.15, 1.12, 0.02),
         ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),

@@ -10,7 +10,7 @@ from .scene import ActuatorRow, Condition, FloatArray, Interface, Readout, Scene
 from .strain import FilteredReadouts
 
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
-KEY = ["device", "interface", "readout"]  # columns of the score table: what has one score a condition
+KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table: what has one score a condition
 CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
 NO_PREDICTION = "no prediction"
 
@@ -62,6 +62,7 @@ def _row(
 ) -> dict[str, Any]:
     """One row of the score table."""
     return {
+        "kinematics": str(scene.kinematics),
         "device": scene.device.name,
         "condition": condition.name,
         "dispersion": condition.dispersion,

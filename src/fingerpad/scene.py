@@ -36,6 +36,26 @@ class Readout(StrEnum):
     CHANGE_OF_STRAIN = "change_of_strain"
 
 
+class Law(StrEnum):
+    """Stored energy of tissue that deforms much. HENCKY: the linear law in logarithmic strain. NEO_HOOKEAN, OGDEN:
+    2 mu/alpha^2 (sum of (J^-1/3 lambda)^alpha - 3) + kappa/2 (J - 1)^2, alpha = 2 for the first, as in Abaqus and
+    CalculiX. GREEN: the linear law in Green's strain (St. Venant-Kirchhoff), which is what CalculiX takes a linear
+    elastic material for.
+    """
+
+    HENCKY = "hencky"
+    NEO_HOOKEAN = "neo_hookean"
+    OGDEN = "ogden"
+    GREEN = "green"
+
+
+class Kinematics(StrEnum):
+    """SMALL: linear tissue, equilibrium on the undeformed finger. FINITE: large displacements and strains."""
+
+    SMALL = "small"
+    FINITE = "finite"
+
+
 class Control(StrEnum):
     """What the device prescribes. A force-controlled device has no displacements without friction."""
 
@@ -425,10 +445,31 @@ class Skips:
 
 
 @dataclass(frozen=True)
+class TissueLaw:
+    """How tissue deforms.
+
+    kinematics: of this scene, one of `computed`, those of the workflow. law: with finite kinematics. ogden_exponent: of
+    Ogden's law [1].
+    """
+
+    kinematics: Kinematics
+    computed: tuple[Kinematics, ...]
+    law: Law
+    ogden_exponent: float
+
+    def __post_init__(self) -> None:
+        _require(
+            math.isfinite(self.ogden_exponent) and self.ogden_exponent != 0.0,
+            f"tissue: ogden_exponent must be a number other than 0, found {self.ogden_exponent}",
+        )
+
+
+@dataclass(frozen=True)
 class Model:
-    """Everything but the device: finger, contact, filter, read-out, numerics and what is skipped."""
+    """Everything but the device: finger, tissue, contact, filter, read-out, numerics and what is skipped."""
 
     finger: Finger
+    tissue: TissueLaw
     contact: ContactLaw
     gabor: GaborFilter
     readout: ReadoutRule
@@ -465,6 +506,16 @@ class Scene:
         if not self.model.skips.equal_stimuli:
             return self.device.condition(name)
         return self.device.first_with_stimulus_of(name)
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """Of the tissue."""
+        return self.model.tissue.kinematics
+
+    def with_kinematics(self, kinematics: Kinematics) -> Scene:
+        """The scene with other kinematics."""
+        tissue = replace(self.model.tissue, kinematics=kinematics)
+        return replace(self, model=replace(self.model, tissue=tissue))
 
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""

@@ -22,6 +22,8 @@ from .scene import (
     Device,
     Finger,
     GaborFilter,
+    Kinematics,
+    Law,
     Layer,
     Material,
     Model,
@@ -30,6 +32,7 @@ from .scene import (
     Scene,
     Side,
     Skips,
+    TissueLaw,
 )
 from .stimuli import KINDS
 
@@ -113,8 +116,8 @@ def _written_out(node: yaml.Node, known: dict[int, int]) -> int:
     return known[id(node)]
 
 
-def load_scene(config: Path, device: Path) -> Scene:
-    """The scene of a config file and a device file (both already validated). Raises SceneError.
+def load_scene(config: Path, device: Path, kinematics: Kinematics = Kinematics.SMALL) -> Scene:
+    """The scene of a config file and a device file (both already validated), with those kinematics. Raises SceneError.
 
     >>> scene = load_scene(Path("config/config.yaml"), Path("config/devices/device2.yaml"))
     >>> [condition.name for condition in scene.device.conditions]
@@ -122,14 +125,15 @@ def load_scene(config: Path, device: Path) -> Scene:
     """
     model = build_model(read_yaml(config))
     try:
-        return Scene(model, build_device(device, read_yaml(device)))
+        return Scene(model, build_device(device, read_yaml(device))).with_kinematics(kinematics)
     except SceneError as error:
         raise SceneError(f"{device}: {error}") from error
 
 
 def build_model(config: dict[str, Any]) -> Model:
     """The model of a validated config mapping. Raises SceneError."""
-    finger, contact, readout = (_values(config[key]) for key in ("finger", "contact", "readout"))
+    finger, tissue, contact, readout = (_values(config[key]) for key in ("finger", "tissue", "contact", "readout"))
+    computed = tuple(Kinematics) if tissue["kinematics"] == "both" else (Kinematics.SMALL,)
     return Model(
         Finger(
             finger["width"],
@@ -139,6 +143,7 @@ def build_model(config: dict[str, Any]) -> Model:
             tuple(_layer(entry) for entry in finger["pad"]),
             tuple(_layer(entry) for entry in finger["dorsal"]),
         ),
+        TissueLaw(Kinematics.SMALL, computed, Law(tissue["law"]), tissue["ogden_exponent"]),
         ContactLaw(contact["friction"], Criterion(contact["criterion"])),
         GaborFilter(**_values(config["filter"])),
         ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from .errors import CertificateError, ContactError, MeshError, ReachError
 from .indentation import indent
 from .path import follow
 from .profile import profile
-from .scene import Condition, FloatArray, Interface, Readout, Scene
+from .scene import Condition, FloatArray, Interface, Kinematics, Readout, Scene
 from .strain import receptor_readouts
 from .symmetry import indent_by_halves
 
@@ -109,7 +109,8 @@ def contact_problem(
 def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
     """Load increments of pre-indentation and of each segment of a stimulus."""
     numerics, share = scene.model.numerics, 1
-    if scene.model.skips.frictionless_path and problem.friction == 0.0:
+    linear = scene.kinematics is Kinematics.SMALL  # much less than all at once is too far for Newton's method
+    if scene.model.skips.frictionless_path and problem.friction == 0.0 and linear:
         share = FRICTIONLESS_SHARE
     return -(-numerics.indentation_increments // share), -(-numerics.stimulus_increments // share)
 
@@ -141,7 +142,7 @@ def indent_device(
     cannot be followed.
     """
     problem = contact_problem(scene, section, body, interface)
-    with _named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
+    with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
         return Indented(interface, problem, indented_state(scene, problem))
 
 
@@ -152,16 +153,25 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
     exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
     problem, before = indented.problem, indented.state
-    with _named(f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"):
+    with named(f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"):
         states = [before, *follow_condition(scene, problem, before, condition)]
-        last = states[-1]
-        certificate = certify(problem, section, last)
-    forces = np.array([state.force for state in states[1:]])
-    readouts = receptor_readouts(section.strain, before.force, forces)
+        certificate = certify(problem, section, states[-1])
+    strains = section.receptor_strain(np.array([state.force for state in states]))
+    return solution(section, states, receptor_readouts(strains), certificate)
+
+
+def solution(
+    section: CondensedSection,
+    states: Sequence[ContactState],
+    readouts: Mapping[Readout, FloatArray],
+    certificate: Certificate,
+) -> Solution:
+    """Gather a solution from the pre-indented state and those at the stimulus's times."""
+    before, last = states[0], states[-1]
     return Solution(
         float(before.actuator[0, 1]),
         before.force,
-        forces,
+        np.array([state.force for state in states[1:]]),
         last.force[:, 1] / section.weight,
         last.force[:, 0] / section.weight,
         last.place,
@@ -188,7 +198,7 @@ def solve_condition(
 
 
 @contextmanager
-def _named(what: str) -> Iterator[None]:
+def named(what: str) -> Iterator[None]:
     """Name in every ContactError what was being solved."""
     try:
         yield

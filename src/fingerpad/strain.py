@@ -25,20 +25,15 @@ def maximum_principal(components: FloatArray) -> FloatArray:
 
 
 def receptor_readouts(
-    strain_map: FloatArray,
-    indented: FloatArray,
-    actuated: FloatArray,
-    measure: Callable[[FloatArray], FloatArray] = maximum_principal,
+    components: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
 ) -> dict[Readout, FloatArray]:
     """Both read-outs (m,) at the receptors, in the unit of the measure: of maximum principal strain [1].
 
-    strain_map: (3m, 2n) from contact forces. indented: (n, 2) forces after pre-indentation [N/mm]. actuated:
-    (n_times, n, 2) forces along the stimulus. Of several times the one is read at which the measure has changed most
-    (largest root mean square): the reference actuator's peak for a snapshot, the peak of the cycle otherwise. measure:
-    of strains (3m,).
+    components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. Of several times the one is
+    read at which the measure has changed most (largest root mean square): the reference actuator's peak for a snapshot,
+    the peak of the cycle otherwise. measure: of strains (3m,).
     """
-    forces = np.stack([indented, *actuated]).reshape(1 + len(actuated), -1)
-    before, *strains = (measure(components) for components in forces @ strain_map.T)
+    before, *strains = (measure(each) for each in components)
     changes = [strain - before for strain in strains]
     peak = int(np.argmax(np.linalg.norm(changes, axis=1)))
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}

@@ -23,7 +23,7 @@ def indent_by_halves(problem: ContactProblem, criterion: Criterion, increments: 
     """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
     if not mirrors(problem):
         return indent(problem, criterion, increments, limit)
-    return _unfolded(indent(_folded(problem), criterion, increments, limit))
+    return unfolded(indent(fold(problem), criterion, increments, limit))
 
 
 def mirrors(problem: ContactProblem) -> bool:
@@ -38,8 +38,8 @@ def mirrors(problem: ContactProblem) -> bool:
     )
 
 
-def _folded(problem: ContactProblem) -> ContactProblem:
-    """The right half's problem."""
+def fold(problem: ContactProblem) -> ContactProblem:
+    """The right half's problem, its compliance under loads that mirror."""
     count = problem.position.shape[0]
     half = count // 2
     right = np.arange(2 * half, 2 * count)
@@ -49,16 +49,17 @@ def _folded(problem: ContactProblem) -> ContactProblem:
     compliance = problem.compliance[np.ix_(right, right)] + problem.compliance[np.ix_(right, left)] * np.tile(
         MIRROR, half
     )
+    return replace(right_half(problem), compliance=compliance)
+
+
+def right_half(problem: ContactProblem) -> ContactProblem:
+    """The problem with the right half's nodes and actuators, whatever its compliance."""
     positions = tuple(x for x in problem.row.positions if x > 0.0)
-    return replace(
-        problem,
-        position=problem.position[half:],
-        compliance=compliance,
-        row=replace(problem.row, positions=positions),
-    )
+    half = problem.position.shape[0] // 2
+    return replace(problem, position=problem.position[half:], row=replace(problem.row, positions=positions))
 
 
-def _unfolded(state: ContactState) -> ContactState:
+def unfolded(state: ContactState) -> ContactState:
     """The whole state of the right half's."""
     return replace(
         state,

@@ -49,7 +49,8 @@ def variant_rows(
         for measure in Measure:
             of_strain = partial(measured, measure, material=material_at(scene, side))
             for (name, interface), solution in solutions.items():
-                read = receptor_readouts(section.strain, solution.indented_force, solution.force, of_strain)
+                forces = np.stack([solution.indented_force, *solution.force])
+                read = receptor_readouts(section.receptor_strain(forces), of_strain)
                 for factor in WAVELENGTH_FACTORS:
                     variant = _with_wavelengths(scene, factor)
                     filtered = filtered_readouts(

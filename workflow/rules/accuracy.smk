@@ -16,7 +16,7 @@ rule accuracy:
 rule honesty:
     input:
         scores="results/scores.csv",
-        references=expand("results/{device}/reference.csv", device=DEVICES),
+        references=expand("results/small/{device}/reference.csv", device=DEVICES),
         code=code("honesty.py"),
     output:
         table="results/accuracy/scores.csv",
@@ -35,11 +35,11 @@ rule reference:
         recordings=ancient(recordings_of),
         code=code("reference.py"),
     output:
-        scores="results/{device}/reference.csv",
+        scores="results/small/{device}/reference.csv",
     log:
-        "results/logs/{device}/reference.log",
+        "results/logs/small/{device}/reference.log",
     benchmark:
-        "results/benchmarks/{device}/reference.tsv"
+        "results/benchmarks/small/{device}/reference.tsv"
     conda:
         ENVIRONMENT
     resources:

@@ -3,6 +3,9 @@
 # REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/calculix.csv, results/calculix/{case}/ (decks and results)
 
 CALCULIX_CASE = {
+    "kinematics": "small",
+    "law": "linear",
+    "indentation": "full",
     "edges": "rounded",
     "friction": "stimulus",
     "coarsening": 4.0,
@@ -12,6 +15,7 @@ CALCULIX_CASE = {
     "pressure_slope": 500.0,
     "stick_slope": 100.0,
 }
+CALCULIX_FINITE_CASE = CALCULIX_CASE | {"kinematics": "finite", "law": "neo_hookean", "indentation": 1.4}
 
 
 rule calculix:
@@ -43,6 +47,12 @@ rule calculix:
             "rubbing": CALCULIX_CASE | {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8},
             "rubbing_smaller_increments": CALCULIX_CASE
             | {"friction": "always", "indentation_increments": 40, "stimulus_increments": 16},
+            "finite_neo_hookean": CALCULIX_FINITE_CASE,
+            "finite_finer_mesh": CALCULIX_FINITE_CASE | {"coarsening": 2.0},
+            "finite_sharp": CALCULIX_FINITE_CASE | {"edges": "sharp", "coarsening": 2.0},
+            "finite_ogden": CALCULIX_FINITE_CASE | {"law": "ogden"},
+            # deeper down this law turns tissue inside out
+            "finite_green": CALCULIX_FINITE_CASE | {"law": "green", "indentation": 0.8},
         },
     script:
         "../scripts/calculix.py"

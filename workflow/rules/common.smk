@@ -5,7 +5,7 @@ from difflib import get_close_matches
 
 from fingerpad.errors import FingerpadError
 from fingerpad.ratings import read_ratings, read_stated_order
-from fingerpad.scene import Interface
+from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene, recordings
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
@@ -40,6 +40,8 @@ except FingerpadError as error:
 
 
 ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
+KINEMATICS = [str(each) for each in SCENE[DEVICES[0]].model.tissue.computed]
+MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
 
@@ -71,10 +73,25 @@ def recordings_of(wildcards):
     return RECORDINGS[scene_of(wildcards).device.name]
 
 
+def kinematics_of(wildcards):
+    """The wildcard kinematics; without one small."""
+    return wildcards.get("kinematics", str(Kinematics.SMALL))
+
+
+def mode_of(wildcards):
+    """The kinematics that a figure's ending names."""
+    return MODES[wildcards.mode]
+
+
+def tissue_of(wildcards):
+    """What finite kinematics know of the tissue besides its layers; with small ones nothing."""
+    return scene_of(wildcards).model.tissue if kinematics_of(wildcards) == Kinematics.FINITE else None
+
+
 def solution_of(wildcards):
     """The solution that holds for the wildcard condition: equal stimuli are solved once."""
     solved = scene_of(wildcards).solved_as(condition_of(wildcards).name)
-    return f"results/{wildcards.device}/{solved.name}/{wildcards.interface}/solution.npz"
+    return f"results/{kinematics_of(wildcards)}/{wildcards.device}/{solved.name}/{wildcards.interface}/solution.npz"
 
 
 def code(script):
@@ -83,9 +100,10 @@ def code(script):
 
 
 def cases(pattern, devices=DEVICES):
-    """The pattern for every device, condition and interface that can be predicted."""
+    """The pattern for all kinematics, and every device, condition and interface that can be predicted."""
     return [
-        pattern.format(device=name, condition=condition.name, interface=interface)
+        pattern.format(kinematics=kinematics, device=name, condition=condition.name, interface=interface)
+        for kinematics in (KINEMATICS if "{kinematics}" in pattern else [None])
         for name in devices
         for condition in SCENE[name].device.conditions
         for interface in SCENE[name].device.interfaces()
@@ -98,6 +116,8 @@ def body_of(wildcards):
 
 
 wildcard_constraints:
+    kinematics="|".join(Kinematics),
+    mode="|".join(MODES),
     device="[a-z][a-z0-9_]*",
     condition="[a-z][a-z0-9_]*",
     interface="|".join(Interface),

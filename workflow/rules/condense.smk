@@ -1,6 +1,6 @@
-# What every condition of a device shares: compliance of contact nodes, strain map of receptors and their resampling to
-# a uniform grid, and the compliance of its actuators' bodies.
-# REQUIRED INPUTS: results/{device}/mesh.npz. OUTPUTS: condensed.npz, resampling.npz and body.npz in results/{device}/
+# What every condition of a device shares with small kinematics: compliance of contact nodes and strain map of receptors;
+# and with any, the compliance of its actuators' bodies.
+# REQUIRED INPUTS: results/small/{device}/mesh.npz. OUTPUTS: results/small/{device}/condensed.npz, results/{device}/body.npz
 
 
 rule condense:
@@ -8,15 +8,14 @@ rule condense:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        mesh="results/{device}/mesh.npz",
+        mesh="results/small/{device}/mesh.npz",
         code=code("condense.py"),
     output:
-        condensed="results/{device}/condensed.npz",
-        resampling="results/{device}/resampling.npz",
+        condensed="results/small/{device}/condensed.npz",
     log:
-        "results/logs/{device}/condense.log",
+        "results/logs/small/{device}/condense.log",
     benchmark:
-        "results/benchmarks/{device}/condense.tsv"
+        "results/benchmarks/small/{device}/condense.tsv"
     priority: 2
     conda:
         ENVIRONMENT
@@ -24,7 +23,6 @@ rule condense:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             scene_of(w).model.readout,
-            scene_of(w).model.gabor.spacing,
             scene_of(w).device.actuators,
             support.stroke(scene_of(w)),
         ),

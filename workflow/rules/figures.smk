@@ -16,10 +16,19 @@ LATERAL = min(
 FIGURES = [
     f"results/figures/{stem}.{suffix}"
     for stem in (
-        *(("figure_3_workflow", "figure_6_shear") if LATERAL else ()),
-        "figure_4_receptors",
-        "figure_5_correlation",
-        "ablation_shear",
+        *(["figure_3_workflow"] if LATERAL else []),
+        *(
+            f"{stem}{mode}"
+            for stem in (
+                "figure_4_receptors",
+                "figure_5_correlation",
+                *(["figure_6_shear"] if LATERAL else []),
+                "ablation_shear",
+            )
+            for mode, kinematics in MODES.items()
+            if kinematics in KINEMATICS
+        ),
+        *(["kinematics"] if Kinematics.FINITE in KINEMATICS else []),
         "section",
         *(f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]),
     )
@@ -32,19 +41,19 @@ rule fields:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        mesh="results/{device}/mesh.npz",
+        mesh="results/small/{device}/mesh.npz",
         solutions=lambda w: [
-            f"results/{w.device}/{condition.name}/shear/solution.npz"
+            f"results/small/{w.device}/{condition.name}/shear/solution.npz"
             for condition in scene_of(w).device.conditions
             if scene_of(w).device.first_with_stimulus_of(condition.name) is condition
         ],
         code=code("fields.py"),
     output:
-        fields="results/{device}/fields.npz",
+        fields="results/small/{device}/fields.npz",
     log:
-        "results/logs/{device}/fields.log",
+        "results/logs/small/{device}/fields.log",
     benchmark:
-        "results/benchmarks/{device}/fields.tsv"
+        "results/benchmarks/small/{device}/fields.tsv"
     priority: 1
     conda:
         ENVIRONMENT
@@ -61,21 +70,22 @@ rule figure_receptors:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
-        condensed=expand("results/{device}/condensed.npz", device=DEVICES),
-        filtered=[
-            f"results/{name}/{condition.name}/shear/filtered.npz"
+        condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
+        filtered=lambda w: [
+            f"results/{mode_of(w)}/{name}/{condition.name}/shear/filtered.npz"
             for name in DEVICES
             for condition in SCENE[name].device.conditions
         ],
         code=code("figure_receptors.py"),
     output:
-        png="results/figures/figure_4_receptors.png",
-        pdf="results/figures/figure_4_receptors.pdf",
+        png="results/figures/figure_4_receptors{mode}.png",
+        pdf="results/figures/figure_4_receptors{mode}.pdf",
     log:
-        "results/logs/figures/figure_4_receptors.log",
+        "results/logs/figures/figure_4_receptors{mode}.log",
     conda:
         ENVIRONMENT
     params:
+        kinematics=mode_of,
         scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_receptors.py"
@@ -91,13 +101,14 @@ rule figure_correlation:
         correlations="results/correlations.csv",
         code=code("figure_correlation.py"),
     output:
-        png="results/figures/figure_5_correlation.png",
-        pdf="results/figures/figure_5_correlation.pdf",
+        png="results/figures/figure_5_correlation{mode}.png",
+        pdf="results/figures/figure_5_correlation{mode}.pdf",
     log:
-        "results/logs/figures/figure_5_correlation.log",
+        "results/logs/figures/figure_5_correlation{mode}.log",
     conda:
         ENVIRONMENT
     params:
+        kinematics=mode_of,
         titles=[SCENE[name].device.title for name in DEVICES],
         conditions=support.fingerprint(KNOWN),
     script:
@@ -113,16 +124,38 @@ rule figure_ablation:
         correlations="results/correlations.csv",
         code=code("figure_ablation.py"),
     output:
-        png="results/figures/ablation_shear.png",
-        pdf="results/figures/ablation_shear.pdf",
+        png="results/figures/ablation_shear{mode}.png",
+        pdf="results/figures/ablation_shear{mode}.pdf",
     log:
-        "results/logs/figures/ablation_shear.log",
+        "results/logs/figures/ablation_shear{mode}.log",
+    conda:
+        ENVIRONMENT
+    params:
+        kinematics=mode_of,
+        titles=[SCENE[name].device.title for name in DEVICES],
+    script:
+        "../scripts/figure_ablation.py"
+
+
+rule figure_kinematics:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+        scores="results/scores.csv",
+        curves="results/indentation.csv",
+        code=code("figure_kinematics.py"),
+    output:
+        png="results/figures/kinematics.png",
+        pdf="results/figures/kinematics.pdf",
+    log:
+        "results/logs/figures/kinematics.log",
     conda:
         ENVIRONMENT
     params:
         titles=[SCENE[name].device.title for name in DEVICES],
     script:
-        "../scripts/figure_ablation.py"
+        "../scripts/figure_kinematics.py"
 
 
 rule figure_section:
@@ -130,7 +163,7 @@ rule figure_section:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
-        mesh=f"results/{DEVICES[0]}/mesh.npz",
+        mesh=f"results/small/{DEVICES[0]}/mesh.npz",
         code=code("figure_section.py"),
     output:
         png="results/figures/section.png",
@@ -150,10 +183,10 @@ rule figure_map:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        condensed="results/{device}/condensed.npz",
-        fields="results/{device}/fields.npz",
+        condensed="results/small/{device}/condensed.npz",
+        fields="results/small/{device}/fields.npz",
         solutions=lambda w: [
-            f"results/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
+            f"results/small/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
             for condition in scene_of(w).device.conditions
             if condition.dispersion == w.dispersion
         ],
@@ -181,9 +214,9 @@ if LATERAL:
             config=ancient(CONFIG),
             device=ancient(SCENES / "devices" / f"{LATERAL}.yaml"),
             recordings=ancient(RECORDINGS[LATERAL]),
-            condensed=f"results/{LATERAL}/condensed.npz",
+            condensed=f"results/small/{LATERAL}/condensed.npz",
             filtered=[
-                f"results/{LATERAL}/{condition.name}/shear/filtered.npz"
+                f"results/small/{LATERAL}/{condition.name}/shear/filtered.npz"
                 for condition in SCENE[LATERAL].device.conditions
             ],
             scores="results/scores.csv",
@@ -210,13 +243,14 @@ if LATERAL:
             correlations="results/correlations.csv",
             code=code("figure_shear.py"),
         output:
-            png="results/figures/figure_6_shear.png",
-            pdf="results/figures/figure_6_shear.pdf",
+            png="results/figures/figure_6_shear{mode}.png",
+            pdf="results/figures/figure_6_shear{mode}.pdf",
         log:
-            "results/logs/figures/figure_6_shear.log",
+            "results/logs/figures/figure_6_shear{mode}.log",
         conda:
             ENVIRONMENT
         params:
+            kinematics=mode_of,
             title=SCENE[LATERAL].device.title,
             conditions=support.fingerprint(KNOWN),
         script:

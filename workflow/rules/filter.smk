@@ -1,5 +1,5 @@
 # Gabor-filtered read-outs of one device, condition and interface. Equal stimuli share one solution.
-# REQUIRED INPUTS: results/{device}/resampling.npz, results/{device}/{condition}/{interface}/solution.npz.
+# REQUIRED INPUTS: results/{kinematics}/{device}/resampling.npz, results/{kinematics}/{device}/{condition}/{interface}/solution.npz.
 # OUTPUTS: filtered.npz beside the solution
 
 
@@ -8,13 +8,13 @@ rule filter:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        resampling="results/{device}/resampling.npz",
+        resampling="results/{kinematics}/{device}/resampling.npz",
         solution=solution_of,
         code=code("filter.py"),
     output:
-        filtered="results/{device}/{condition}/{interface}/filtered.npz",
+        filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
     log:
-        "results/logs/{device}/{condition}/{interface}/filter.log",
+        "results/logs/{kinematics}/{device}/{condition}/{interface}/filter.log",
     priority: 2
     conda:
         ENVIRONMENT

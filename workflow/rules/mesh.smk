@@ -1,5 +1,5 @@
-# Mesh of the finger's section, graded for one device.
-# REQUIRED INPUTS: scene files. OUTPUTS: results/{device}/mesh.npz
+# Mesh of the finger's section, graded for one device, and the resampling of its receptors to a uniform grid.
+# REQUIRED INPUTS: scene files. OUTPUTS: mesh.npz and resampling.npz in results/{kinematics}/{device}/
 
 
 rule mesh:
@@ -9,18 +9,21 @@ rule mesh:
         recordings=ancient(recordings_of),
         code=code("mesh.py"),
     output:
-        mesh="results/{device}/mesh.npz",
+        mesh="results/{kinematics}/{device}/mesh.npz",
+        resampling="results/{kinematics}/{device}/resampling.npz",
     log:
-        "results/logs/{device}/mesh.log",
+        "results/logs/{kinematics}/{device}/mesh.log",
     benchmark:
-        "results/benchmarks/{device}/mesh.tsv"
+        "results/benchmarks/{kinematics}/{device}/mesh.tsv"
     priority: 2
     conda:
         ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
-            scene_of(w).model.readout.layer_above,
+            tissue_of(w),
+            scene_of(w).model.readout,
+            scene_of(w).model.gabor.spacing,
             scene_of(w).model.contact,
             scene_of(w).model.numerics,
             scene_of(w).device.control,

@@ -1,13 +1,13 @@
 # Notebooks, executed on the results and rendered to pages. `all` has the walkthrough; `snakemake notebooks` renders all.
 # REQUIRED INPUTS: notebooks/{notebook}.ipynb, the results that it reads. OUTPUTS: results/notebooks/{notebook}.html
 
-CASE = "results/device2/alternate_180/shear"  # the condition that notebooks look into
+CASE = "results/small/device2/alternate_180/shear"  # the condition that notebooks look into
 # What each notebook cannot do without. Tables of accuracy and run time take long: that page shows those there are.
 READ_BY = {
     "walkthrough": [
         "results/scores.csv",
-        "results/device2/mesh.npz",
-        "results/device2/condensed.npz",
+        "results/small/device2/mesh.npz",
+        "results/small/device2/condensed.npz",
         f"{CASE}/solution.npz",
         f"{CASE}/filtered.npz",
     ],

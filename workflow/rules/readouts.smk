@@ -1,6 +1,6 @@
 # Scores under other read-outs: measure, side of the interface, wavelength; and how they agree with those as configured.
 # Not part of `all`: ask for them with `snakemake readouts`.
-# REQUIRED INPUTS: results/{device}/mesh.npz, condensed.npz, results/{device}/{condition}/{interface}/solution.npz.
+# REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz, results/small/{device}/{condition}/{interface}/solution.npz.
 # OUTPUTS: results/ablation_readout.csv, results/ablation_agreement.csv
 
 
@@ -9,10 +9,10 @@ rule readouts:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
-        meshes=expand("results/{device}/mesh.npz", device=DEVICES),
-        condensed=expand("results/{device}/condensed.npz", device=DEVICES),
+        meshes=expand("results/small/{device}/mesh.npz", device=DEVICES),
+        condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
         solutions=[
-            f"results/{name}/{SCENE[name].solved_as(condition.name).name}/{interface}/solution.npz"
+            f"results/small/{name}/{SCENE[name].solved_as(condition.name).name}/{interface}/solution.npz"
             for name in DEVICES
             for condition in SCENE[name].device.conditions
             for interface in SCENE[name].device.interfaces()

@@ -1,6 +1,6 @@
 # Roughness scores: of one device, condition and interface, the same from a coarser mesh, and the tidy table of all.
-# REQUIRED INPUTS: results/{device}/{condition}/{interface}/filtered.npz.
-# OUTPUTS: score.csv beside it, results/{device}/check.csv, results/scores.csv
+# REQUIRED INPUTS: results/{kinematics}/{device}/{condition}/{interface}/filtered.npz.
+# OUTPUTS: score.csv beside it, results/{kinematics}/{device}/check.csv, results/scores.csv
 
 
 rule score:
@@ -8,12 +8,12 @@ rule score:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        filtered="results/{device}/{condition}/{interface}/filtered.npz",
+        filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
         code=code("score.py"),
     output:
-        score="results/{device}/{condition}/{interface}/score.csv",
+        score="results/{kinematics}/{device}/{condition}/{interface}/score.csv",
     log:
-        "results/logs/{device}/{condition}/{interface}/score.log",
+        "results/logs/{kinematics}/{device}/{condition}/{interface}/score.log",
     priority: 2
     conda:
         ENVIRONMENT
@@ -35,11 +35,11 @@ rule check:
         recordings=ancient(recordings_of),
         code=code("check.py"),
     output:
-        scores="results/{device}/check.csv",
+        scores="results/{kinematics}/{device}/check.csv",
     log:
-        "results/logs/{device}/check.log",
+        "results/logs/{kinematics}/{device}/check.log",
     benchmark:
-        "results/benchmarks/{device}/check.tsv"
+        "results/benchmarks/{kinematics}/{device}/check.tsv"
     conda:
         ENVIRONMENT
     params:
@@ -53,8 +53,8 @@ rule scores:
         config=ancient(CONFIG),
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
-        scores=cases("results/{device}/{condition}/{interface}/score.csv"),
-        checks=expand("results/{device}/check.csv", device=DEVICES),
+        scores=cases("results/{kinematics}/{device}/{condition}/{interface}/score.csv"),
+        checks=expand("results/{kinematics}/{device}/check.csv", kinematics=KINEMATICS, device=DEVICES),
         code=code("scores.py"),
     output:
         scores="results/scores.csv",
@@ -65,5 +65,6 @@ rule scores:
         ENVIRONMENT
     params:
         devices=DEVICES,
+        kinematics=KINEMATICS,
     script:
         "../scripts/scores.py"

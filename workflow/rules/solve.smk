@@ -1,6 +1,6 @@
-# Frictional contact path of one device, condition and interface, with its certificate and receptor strains.
-# REQUIRED INPUTS: results/{device}/condensed.npz, body.npz for deformable actuators.
-# OUTPUTS: results/{device}/{condition}/{interface}/solution.npz
+# With small kinematics: frictional contact path of one device, condition and interface, with its certificate and receptor strains.
+# REQUIRED INPUTS: results/small/{device}/condensed.npz, body.npz for deformable actuators.
+# OUTPUTS: results/small/{device}/{condition}/{interface}/solution.npz
 
 
 rule solve:
@@ -8,15 +8,15 @@ rule solve:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        condensed="results/{device}/condensed.npz",
+        condensed="results/small/{device}/condensed.npz",
         body=body_of,
         code=code("solve.py"),
     output:
-        solution="results/{device}/{condition}/{interface}/solution.npz",
+        solution="results/small/{device}/{condition}/{interface}/solution.npz",
     log:
-        "results/logs/{device}/{condition}/{interface}/solve.log",
+        "results/logs/small/{device}/{condition}/{interface}/solve.log",
     benchmark:
-        "results/benchmarks/{device}/{condition}/{interface}/solve.tsv"
+        "results/benchmarks/small/{device}/{condition}/{interface}/solve.tsv"
     priority: 2
     conda:
         ENVIRONMENT

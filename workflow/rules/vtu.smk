@@ -1,13 +1,13 @@
 # Full fields of a condition for ParaView: displacement, strain, stress, layer, contact tractions.
 # fields.vtu is the end of the stimulus; fields.pvd is the path there: pre-indented and at each time of the stimulus.
 # Not part of `all`: ask for one file, or for all with `snakemake vtu` (20 MB a condition and interface).
-# REQUIRED INPUTS: results/{device}/mesh.npz, results/{device}/{condition}/{interface}/solution.npz.
+# REQUIRED INPUTS: results/small/{device}/mesh.npz, results/small/{device}/{condition}/{interface}/solution.npz.
 # OUTPUTS: fields.vtu, fields.pvd and states/ beside the solution
 
 
 rule vtu:
     input:
-        cases("results/{device}/{condition}/{interface}/fields.vtu"),
+        cases("results/small/{device}/{condition}/{interface}/fields.vtu"),
 
 
 rule field_output:
@@ -15,17 +15,17 @@ rule field_output:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        mesh="results/{device}/mesh.npz",
+        mesh="results/small/{device}/mesh.npz",
         solution=solution_of,
         code=code("field_output.py"),
     output:
-        vtu="results/{device}/{condition}/{interface}/fields.vtu",
-        pvd="results/{device}/{condition}/{interface}/fields.pvd",
-        states=directory("results/{device}/{condition}/{interface}/states"),
+        vtu="results/small/{device}/{condition}/{interface}/fields.vtu",
+        pvd="results/small/{device}/{condition}/{interface}/fields.pvd",
+        states=directory("results/small/{device}/{condition}/{interface}/states"),
     log:
-        "results/logs/{device}/{condition}/{interface}/field_output.log",
+        "results/logs/small/{device}/{condition}/{interface}/field_output.log",
     benchmark:
-        "results/benchmarks/{device}/{condition}/{interface}/field_output.tsv"
+        "results/benchmarks/small/{device}/{condition}/{interface}/field_output.tsv"
     conda:
         ENVIRONMENT
     params:

@@ -1,12 +1,14 @@
 """Solve cases with CalculiX and with fingerpad, and write how far they are apart, or that CalculiX is not installed."""
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from fingerpad.calculix import installed
 from fingerpad.condensation import body_of, condense_section
 from fingerpad.crosscheck import (
-    Law,
+    ContactModel,
     Outcome,
     calculix_outcome,
     coarsened,
@@ -14,13 +16,14 @@ from fingerpad.crosscheck import (
     fingerpad_outcome,
     prepared,
 )
+from fingerpad.deformed_crosscheck import deformed_outcome
 from fingerpad.edges import mesh_device
 from fingerpad.errors import CalculixError, ContactError
-from fingerpad.scene import Scene
+from fingerpad.scene import Kinematics, Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
 
-SHARED = ("edges", "friction")  # what two cases must share for CalculiX to be compared with itself
+SHARED = ("kinematics", "law", "edges", "friction")  # what two cases must share for CalculiX to be compared with itself
 
 
 def row(name: str, case: dict[str, Any], against: str, apart: dict[str, float]) -> dict[str, Any]:
@@ -38,15 +41,19 @@ def compared(
     section = mesh_device(scene)
     stimulus = scene.device.condition(condition)
     reference, seconds = calculix_outcome(scene, section, stimulus, settings, folder, limit)
-    condensed, body = condense_section(section, scene), body_of(scene)
+    body = body_of(scene)
+    solve: Callable[[ContactModel], Outcome]
+    if scene.kinematics is Kinematics.FINITE:
+        solve = partial(deformed_outcome, scene, section, body, stimulus, settings)
+    else:
+        solve = partial(fingerpad_outcome, scene, condense_section(section, scene), body, stimulus, settings)
     cost = {"unknowns": 2 * section.mesh.doflocs.shape[1], "calculix_s": round(seconds, 1)}
     rows = []
-    for law in Law:
+    for model in ContactModel:
         try:
-            apart = differences(fingerpad_outcome(scene, condensed, body, stimulus, settings, law), reference)
-            rows.append(row(name, case, law, apart) | cost)
+            rows.append(row(name, case, model, differences(solve(model), reference)) | cost)
         except ContactError as error:
-            rows.append(row(name, case, law, {}) | cost | {"note": str(error)})
+            rows.append(row(name, case, model, {}) | cost | {"note": str(error)})
     return rows, reference
 
 
@@ -75,7 +82,7 @@ def main(
             rows.append(row(name, case, "", {}) | {"note": str(error)})
             continue
         rows += found
-        # the first case with the same edges and friction: what differs beside it moves CalculiX by so much
+        # the first case with the same law, edges and friction: what differs beside it moves CalculiX by so much
         first = next((other for other in outcomes if all(cases[other][key] == case[key] for key in SHARED)), None)
         if first is not None:
             rows.append(row(name, case, f"CalculiX in {first}", differences(outcome, outcomes[first])))

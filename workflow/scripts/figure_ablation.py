@@ -5,14 +5,16 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.figures.ablation import ablation_figure
-from fingerpad.figures.style import device_titles, save
+from fingerpad.figures.style import device_titles, rows_with, save
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 
 
-def main(config: Path, devices: list[Path], scores: Path, correlations: Path, stem: Path) -> None:
+def main(config: Path, devices: list[Path], scores: Path, correlations: Path, kinematics: str, stem: Path) -> None:
     """Read the tables, draw, write PNG and PDF."""
     titles = device_titles(load_scene(config, path).device for path in devices)
-    save(ablation_figure(pd.read_csv(scores), pd.read_csv(correlations), titles), stem)
+    scored, correlated = (rows_with(pd.read_csv(table), kinematics) for table in (scores, correlations))
+    save(ablation_figure(scored, correlated, titles, Kinematics(kinematics)), stem)
 
 
 if __name__ == "__main__":
@@ -22,5 +24,6 @@ if __name__ == "__main__":
         [Path(path) for path in job.input.devices],
         Path(job.input.scores),
         Path(job.input.correlations),
+        job.params.kinematics,
         Path(job.output.png).with_suffix(""),
     )

@@ -6,8 +6,9 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.figures.correlation import correlation_figure
-from fingerpad.figures.style import device_titles, save
+from fingerpad.figures.style import device_titles, rows_with, save
 from fingerpad.ratings import read_ratings
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 
 
@@ -18,12 +19,14 @@ def main(
     ratings: Path,
     correlations: Path,
     conditions: dict[str, list[str]],
+    kinematics: str,
     stem: Path,
 ) -> None:
     """Read the tables, draw, write PNG and PDF. conditions: of every known device."""
     titles = device_titles(load_scene(config, path).device for path in devices)
     rated = read_ratings(ratings, conditions)
-    save(correlation_figure(pd.read_csv(scores), rated, pd.read_csv(correlations), titles), stem)
+    scored, correlated = (rows_with(pd.read_csv(table), kinematics) for table in (scores, correlations))
+    save(correlation_figure(scored, rated, correlated, titles, Kinematics(kinematics)), stem)
 
 
 if __name__ == "__main__":
@@ -35,5 +38,6 @@ if __name__ == "__main__":
         Path(job.input.ratings),
         Path(job.input.correlations),
         json.loads(job.params.conditions)[0],
+        job.params.kinematics,
         Path(job.output.png).with_suffix(""),
     )

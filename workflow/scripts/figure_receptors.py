@@ -5,12 +5,15 @@ from pathlib import Path
 from fingerpad.compliance import CondensedSection
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.style import save
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load
 from fingerpad.strain import FilteredReadouts
 
 
-def main(config: Path, devices: list[Path], condensed: list[Path], filtered: list[Path], stem: Path) -> None:
+def main(
+    config: Path, devices: list[Path], condensed: list[Path], filtered: list[Path], kinematics: str, stem: Path
+) -> None:
     """Read every device's read-outs (in the order of devices and their conditions), draw, write PNG and PDF."""
     waiting = iter(filtered)
     entries = []
@@ -18,7 +21,7 @@ def main(config: Path, devices: list[Path], condensed: list[Path], filtered: lis
         device = load_scene(config, path).device
         readouts = {condition.name: load(next(waiting), FilteredReadouts) for condition in device.conditions}
         entries.append(DeviceReadouts(device, readouts, face_arcs(device, load(section, CondensedSection))))
-    save(receptor_figure(entries), stem)
+    save(receptor_figure(entries, Kinematics(kinematics)), stem)
 
 
 if __name__ == "__main__":
@@ -28,5 +31,6 @@ if __name__ == "__main__":
         [Path(path) for path in job.input.devices],
         [Path(path) for path in job.input.condensed],
         [Path(path) for path in job.input.filtered],
+        job.params.kinematics,
         Path(job.output.png).with_suffix(""),
     )

@@ -6,8 +6,9 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.figures.shear import shear_figure
-from fingerpad.figures.style import save
+from fingerpad.figures.style import rows_with, save
 from fingerpad.ratings import read_ratings
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 
 
@@ -18,12 +19,14 @@ def main(
     ratings: Path,
     correlations: Path,
     conditions: dict[str, list[str]],
+    kinematics: str,
     stem: Path,
 ) -> None:
     """Read the tables, draw the device's rows, write PNG and PDF. conditions: of every known device."""
     shown = load_scene(config, device).device
     rated = read_ratings(ratings, conditions)
-    save(shear_figure(shown.name, shown.title, pd.read_csv(scores), rated, pd.read_csv(correlations)), stem)
+    scored, correlated = (rows_with(pd.read_csv(table), kinematics) for table in (scores, correlations))
+    save(shear_figure(shown.name, shown.title, scored, rated, correlated, Kinematics(kinematics)), stem)
 
 
 if __name__ == "__main__":
@@ -35,5 +38,6 @@ if __name__ == "__main__":
         Path(job.input.ratings),
         Path(job.input.correlations),
         json.loads(job.params.conditions)[0],
+        job.params.kinematics,
         Path(job.output.png).with_suffix(""),
     )

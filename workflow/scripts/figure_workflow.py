@@ -6,9 +6,9 @@ import pandas as pd
 
 from fingerpad.compliance import CondensedSection
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs
-from fingerpad.figures.style import save
+from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
-from fingerpad.scene import Interface
+from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load
 from fingerpad.strain import FilteredReadouts
@@ -20,7 +20,7 @@ def main(config: Path, device: Path, condensed: Path, filtered: list[Path], scor
     names = [condition.name for condition in scene.device.conditions]
     readouts = {name: load(path, FilteredReadouts) for name, path in zip(names, filtered, strict=True)}
     entry = DeviceReadouts(scene.device, readouts, face_arcs(scene.device, load(condensed, CondensedSection)))
-    table = pd.read_csv(scores)
+    table = rows_with(pd.read_csv(scores), Kinematics.SMALL)
     own = table[(table["device"] == scene.device.name) & (table["interface"] == Interface.SHEAR)]
     save(workflow_figure(entry, scene.model.gabor, scene.model.readout, own), stem)
 

@@ -3,15 +3,17 @@
 from pathlib import Path
 
 from fingerpad.roughness import score_rows
-from fingerpad.scene import Interface
+from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.strain import FilteredReadouts
 
 
-def main(config: Path, device: Path, filtered: Path, condition: str, interface: str, score: Path) -> None:
+def main(
+    config: Path, device: Path, filtered: Path, kinematics: str, condition: str, interface: str, score: Path
+) -> None:
     """Read the filtered read-outs, integrate them, write one row a read-out."""
-    scene = load_scene(config, device)
+    scene = load_scene(config, device, Kinematics(kinematics))
     rows = score_rows(scene, scene.device.condition(condition), Interface(interface), load(filtered, FilteredReadouts))
     write_rows(score, rows)
 
@@ -22,6 +24,7 @@ if __name__ == "__main__":
         Path(job.input.config),
         Path(job.input.device),
         Path(job.input.filtered),
+        job.wildcards.kinematics,
         job.wildcards.condition,
         job.wildcards.interface,
         Path(job.output.score),

@@ -4,15 +4,23 @@ from pathlib import Path
 
 from fingerpad.accuracy import with_errors
 from fingerpad.roughness import unpredicted_rows
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
 
 
-def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Path], table: Path) -> None:
+def main(
+    config: Path, devices: list[Path], kinematics: list[str], scores: list[Path], checks: list[Path], table: Path
+) -> None:
     """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table."""
     found = [row for path in scores for row in read_rows(path)]
     coarser = [row for path in checks for row in read_rows(path)]
-    missing = [row for device in devices for row in unpredicted_rows(load_scene(config, device))]
+    missing = [
+        row
+        for each in kinematics
+        for device in devices
+        for row in unpredicted_rows(load_scene(config, device, Kinematics(each)))
+    ]
     write_rows(table, with_errors([*found, *missing], coarser))
 
 
@@ -21,6 +29,7 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         [Path(path) for path in job.input.devices],
+        job.params.kinematics,
         [Path(path) for path in job.input.scores],
         [Path(path) for path in job.input.checks],
         Path(job.output.scores),

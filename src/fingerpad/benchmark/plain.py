@@ -15,6 +15,7 @@ from ..compliance import CondensedSection
 from ..condensation import condense_section
 from ..contact import ContactState, rest, touching_height
 from ..gabor import filtered_readouts
+from ..increment import solve_increment
 from ..mesh import SectionMesh
 from ..path import advance
 from ..resampling import resampling_to_grid
@@ -46,10 +47,10 @@ def plain_scores(
         for step in range(1, count + 1):
             condensed = condense_section(section, scene)
             problem = replace(problem, compliance=condensed.compliance)
-            state, _ = advance(problem, state, start + step / count * (target - start), 1, None)
+            state, _ = advance(problem, state, start + step / count * (target - start), 1, None, solve_increment)
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
-    readouts = receptor_readouts(condensed.strain, forces[0], forces[1:])
+    readouts = receptor_readouts(condensed.receptor_strain(forces))
     resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
     strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
     read = filtered_readouts(resampling, *strains, scene.model.gabor)

@@ -7,6 +7,8 @@ from dataclasses import fields, replace
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from ..accuracy import CASE
 from ..edges import edge_intervals
 from ..mesh import SectionMesh, mesh_section
@@ -56,8 +58,8 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     condition = scene.device.conditions[-1]
     solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
     _, recovering = fewest(repeats, partial(recover_fields, section, scene, solution.force[-1:]))
-    reading = partial(receptor_readouts, condensed.section.strain, solution.indented_force, solution.force)
-    _, reading_both = fewest(repeats, reading)
+    forces = np.stack([solution.indented_force, *solution.force])
+    _, reading_both = fewest(repeats, lambda: receptor_readouts(condensed.section.receptor_strain(forces)))
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
         yield {
             "device": scene.device.name,

@@ -49,6 +49,24 @@ def compare(
     return Comparison(case, quantity, *mesh, *values, error, tolerance)
 
 
+def orders(
+    coarse: Iterable[Comparison], fine: Iterable[Comparison], finer: float, wanted: dict[str, float], tolerance: float
+) -> list[Comparison]:
+    """Orders with which the errors of some quantities fall from a mesh to one whose elements are `finer` times smaller.
+
+    wanted: order [1] by quantity. tolerance: largest shortfall of an order, relative [1].
+    """
+    before = {row.quantity: row.error for row in coarse}
+    found = []
+    for row in (row for row in fine if row.quantity in wanted):
+        order = float(np.log(before[row.quantity] / row.error) / np.log(finer))
+        exact = wanted[row.quantity]
+        shortfall = max(1.0 - order / exact, 0.0)  # what falls faster is no error
+        name = ORDER_OF + row.quantity
+        found.append(replace(row, quantity=name, computed=order, exact=exact, error=shortfall, tolerance=tolerance))
+    return found
+
+
 def root_mean_square(values: FloatArray) -> float:
     """Root mean square of a field (n,)."""
     return float(np.sqrt(np.mean(np.square(values))))

@@ -16,7 +16,7 @@ from ..condensation import section_stiffness
 from ..elasticity import lame
 from ..mesh import mesh_section, nominal_edges
 from ..scene import FloatArray, Scene
-from .comparison import ORDER_OF, Comparison, compare
+from .comparison import Comparison, compare, orders
 from .patch import solved
 
 WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is two thirds of the section's width
@@ -32,42 +32,38 @@ def displacement(x: FloatArray, y: FloatArray) -> FloatArray:
     return AMPLITUDE * np.array([np.sin(WAVE * x) * np.cos(WAVE * y / 2.0), np.exp(WAVE * x / 4.0) * np.sin(WAVE * y)])
 
 
-def strain(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Exact strain tensor (2, 2, ...) [1]."""
-    exx = WAVE * np.cos(WAVE * x) * np.cos(WAVE * y / 2.0)
-    eyy = WAVE * np.exp(WAVE * x / 4.0) * np.cos(WAVE * y)
-    twice = -WAVE / 2.0 * np.sin(WAVE * x) * np.sin(WAVE * y / 2.0)
-    twice += WAVE / 4.0 * np.exp(WAVE * x / 4.0) * np.sin(WAVE * y)
-    return AMPLITUDE * np.array([[exx, twice / 2.0], [twice / 2.0, eyy]])
+def gradient(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Exact displacement gradient (2, 2, ...) [1]."""
+    sin, cos, growth = np.sin(WAVE * x), np.cos(WAVE * x), np.exp(WAVE * x / 4.0)
+    first = [cos * np.cos(WAVE * y / 2.0), -sin * np.sin(WAVE * y / 2.0) / 2.0]
+    second = [growth * np.sin(WAVE * y) / 4.0, growth * np.cos(WAVE * y)]
+    return AMPLITUDE * WAVE * np.array([first, second])
 
 
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
     found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    orders = []
-    for coarse, fine in zip(found[-2], found[-1], strict=True):
-        ratio = np.sqrt(fine.unknowns / coarse.unknowns)  # of element sizes, on the whole
-        order = float(np.log(coarse.error / fine.error) / np.log(ratio))
-        wanted = ORDERS[fine.quantity]
-        shortfall = max(1.0 - order / wanted, 0.0)  # what falls faster is no error
-        quantity = ORDER_OF + fine.quantity
-        orders.append(
-            replace(fine, quantity=quantity, computed=order, exact=wanted, error=shortfall, tolerance=SHORTFALL)
-        )
-    return [row for mesh in found for row in mesh] + orders
+    coarse, fine = found[-2:]
+    return [row for mesh in found for row in mesh] + orders(coarse, fine, finer(coarse, fine), ORDERS, SHORTFALL)
+
+
+def finer(coarse: list[Comparison], fine: list[Comparison]) -> float:
+    """How many times smaller elements are [1], on the whole."""
+    return float(np.sqrt(fine[0].unknowns / coarse[0].unknowns))
 
 
 def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     """Errors in L2 and in energy on elements of at most that size [mm]."""
-    uniform = _uniform(scene, spacing)
-    section = mesh_section(uniform, nominal_edges(uniform.device.actuators))
+    same = uniform(scene, spacing)
+    section = mesh_section(same, nominal_edges(same.device.actuators))
     matrix, dofs = section_stiffness(section, scene)
     basis = Basis(section.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
     finger = scene.model.finger
     layers = np.array([lame(layer.material) for layer in (*finger.pad, *finger.dorsal)])
     lam, mu = layers[section.layer].T[..., None]
     x, y = np.asarray(basis.global_coordinates())
-    exact = strain(x, y)
+    exact = gradient(x, y)
+    exact = (exact + np.swapaxes(exact, 0, 1)) / 2.0
 
     @LinearForm
     def work(v, w):  # type: ignore[no-untyped-def]  # skfem's forms are untyped
@@ -92,7 +88,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     ]
 
 
-def _uniform(scene: Scene, size: float) -> Scene:
+def uniform(scene: Scene, size: float) -> Scene:
     """The scene, meshed with elements of one size [mm]."""
     numerics = replace(scene.model.numerics, edge_size=size, face_size=size, receptor_size=size, largest_size=size)
     return replace(scene, model=replace(scene.model, numerics=numerics))

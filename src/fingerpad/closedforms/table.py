@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..scene import Scene
-from . import cattaneo, hertz, incompressible, layers, manufactured, patch, punch, spence
+from . import (
+    bending,
+    cattaneo,
+    finite_manufactured,
+    finite_patch,
+    hertz,
+    incompressible,
+    layers,
+    manufactured,
+    patch,
+    punch,
+    spence,
+)
 from .comparison import Comparison
 
 CASES: dict[str, Callable[[Scene], list[Comparison]]] = {
@@ -17,4 +29,7 @@ CASES: dict[str, Callable[[Scene], list[Comparison]]] = {
     "spence": lambda scene: spence.rows(),
     "layers": lambda scene: layers.rows(scene.model),
     "incompressible": lambda scene: incompressible.rows(scene.model),
+    "finite_patch": lambda scene: finite_patch.rows(),
+    "finite_manufactured": finite_manufactured.rows,
+    "bending": lambda scene: bending.rows(),
 }

@@ -7,17 +7,16 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from ..condensation import body_of, condense_section
 from ..csvrows import listed
 from ..edges import mesh_device
 from ..errors import UsageError
 from ..export import DeckSettings, input_deck
 from ..files import write_text
-from ..scene import Interface
-from ..solution import contact_problem, indented_state
+from ..pressing import indented_height
+from ..scene import Interface, Kinematics
 from .options import add_scene_options, checked_scene
 
-STEPS = 3  # of the progress: mesh, condensation, pre-indentation
+STEPS = 2  # of the progress: mesh, pre-indentation
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
 as deep as fingerpad's own.
@@ -36,6 +35,12 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--condition", required=True, metavar="NAME", help="condition of the device")
     parser.add_argument(
         "--interface", required=True, choices=[each.value for each in Interface], help="friction or none"
+    )
+    parser.add_argument(
+        "--kinematics",
+        choices=[each.value for each in Kinematics],
+        default=Kinematics.SMALL.value,
+        help="small strains, or large ones (NLGEOM) with the config's tissue law (default: %(default)s)",
     )
     parser.add_argument("-o", "--output", required=True, type=Path, metavar="FILE", help="deck to write")
     add_scene_options(parser)
@@ -62,7 +67,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Mesh the scene, find how deep it is indented, and write the deck."""
-    scene = checked_scene(options.device, options)
+    scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
     condition = scene.device.condition(options.condition)
     if Interface(options.interface) not in scene.device.interfaces():
         allowed = f"{listed(scene.device.interfaces())} (a device that controls force moves nothing without friction)"
@@ -73,11 +78,8 @@ def run(options: argparse.Namespace) -> None:
     with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
         section = mesh_device(scene)
         bar.update()
-        body = body_of(scene)
-        problem = contact_problem(scene, condense_section(section, scene), body, interface)
-        bar.update()
         settings = DeckSettings(
-            float(indented_state(scene, problem).actuator[0, 1]),
+            indented_height(scene, section, interface),
             indenting,
             acting,
             options.pressure_slope,

@@ -15,7 +15,7 @@ from tqdm import tqdm
 
 from ..forecast import forecast, steps
 from ..roughness import KEY
-from ..scene import Scene
+from ..scene import Kinematics, Scene
 from .options import add_scene_options, checked_scene
 
 DESCRIPTION = """\
@@ -26,6 +26,7 @@ read-out. Below the table stands what to know before believing it.
 examples:
   fingerpad predict config/devices/device2.yaml
   fingerpad predict --no-error config/devices/*.yaml
+  fingerpad predict --kinematics finite config/devices/device2.yaml
   fingerpad predict --json config/devices/device2.yaml > device2.json
 """
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
@@ -42,12 +43,19 @@ def add(parser: argparse.ArgumentParser) -> None:
     how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
     how.add_argument("--csv", action="store_true", help="print the columns of results/scores.csv, rank and caveats")
     parser.add_argument("--no-error", action="store_true", help="skip the second solution and the errors")
+    parser.add_argument(
+        "--kinematics",
+        choices=[str(each) for each in Kinematics],
+        default=str(Kinematics.SMALL),
+        help="of the tissue: small displacements and strains (default), or finite ones, which take half a minute",
+    )
     add_scene_options(parser)
 
 
 def run(options: argparse.Namespace) -> None:
     """Solve every device, and print all scores once they are there."""
-    scenes = [checked_scene(device, options) for device in options.devices]
+    kinematics = Kinematics(options.kinematics)
+    scenes = [checked_scene(device, options).with_kinematics(kinematics) for device in options.devices]
     error = not options.no_error
     tables = []
     with tqdm(total=sum(steps(scene, error) for scene in scenes), leave=False, disable=None) as bar:

@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..scene import Interface, Readout
+from ..scene import Interface, Kinematics, Readout
 from .style import (
     BLUE,
     GREY,
     INTERFACE_NAME,
+    KINEMATICS_NAME,
     ORANGE,
     SCORE_SCALE,
     WIDE,
@@ -38,7 +39,12 @@ LOOK: dict[Interface, dict[str, Any]] = {
 
 
 @styled
-def ablation_figure(scores: pd.DataFrame, correlations: pd.DataFrame, titles: Mapping[str, str]) -> Figure:
+def ablation_figure(
+    scores: pd.DataFrame,
+    correlations: pd.DataFrame,
+    titles: Mapping[str, str],
+    kinematics: Kinematics = Kinematics.SMALL,
+) -> Figure:
     """Strain (A) and change-of-strain scores (B) of every condition with and without shear, one row a device.
 
     scores, correlations: the tables of that name. titles: by device.
@@ -55,7 +61,8 @@ def ablation_figure(scores: pd.DataFrame, correlations: pd.DataFrame, titles: Ma
         )  # fmt: skip
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text, (-30.0, 26.0))
-    legend_below(figure, [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface])
+    handles = [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface]
+    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.")
     return figure
 
 
@@ -81,12 +88,12 @@ def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.
                 )  # fmt: skip
     axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
     axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
-    _name_conditions(axes, conditions)
+    name_conditions(axes, conditions)
     lines = [_statistics(correlations, interface) for interface in Interface]
     axes.set_title("\n".join(lines), loc="left", fontsize="medium", fontweight="normal")
 
 
-def _name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
+def name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
     """Phases under the bars, and under them the dispersions; or the conditions' names where these say too little."""
     places = np.arange(len(conditions))
     if conditions.duplicated(["dispersion", "phase_deg"]).any():

@@ -12,9 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..ratings import NO_RATINGS
-from ..scene import Interface, Readout
+from ..scene import Interface, Kinematics, Readout
 from .style import (
     GREY,
+    KINEMATICS_NAME,
     MINUS,
     PERCENT,
     SCORE_SCALE,
@@ -50,7 +51,11 @@ UNRATED = " Devices without ratings: an order of scores is a prediction, and no 
 
 @styled
 def correlation_figure(
-    scores: pd.DataFrame, ratings: pd.DataFrame, correlations: pd.DataFrame, titles: Mapping[str, str]
+    scores: pd.DataFrame,
+    ratings: pd.DataFrame,
+    correlations: pd.DataFrame,
+    titles: Mapping[str, str],
+    kinematics: Kinematics = Kinematics.SMALL,
 ) -> Figure:
     """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row a device.
 
@@ -67,7 +72,9 @@ def correlation_figure(
         row[0].set_title(title, loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    legend_below(figure, as_points(styles.legend), caption(correlations, "With shear. "))
+    legend_below(
+        figure, as_points(styles.legend), caption(correlations, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
+    )
     return figure
 
 

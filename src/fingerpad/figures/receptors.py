@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..compliance import CondensedSection
-from ..scene import Device, FloatArray, Readout
+from ..scene import Device, FloatArray, Kinematics, Readout
 from ..strain import FilteredReadouts
 from .style import (
     GREY,
+    KINEMATICS_NAME,
     PERCENT,
     READOUT_NAME,
     SHADE,
@@ -34,7 +35,7 @@ ROW_HEIGHT, LEGEND_HEIGHT = 44.0, 18.0  # mm
 MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces
 MARKER_SPACING = 2.0  # mm between markers on a curve
 
-CAPTION = "With shear. Conditions with one and the same stimulus are drawn once."
+CAPTION = "With shear, {kinematics}. Conditions with one and the same stimulus are drawn once."
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def face_arcs(device: Device, section: CondensedSection) -> FloatArray:
 
 
 @styled
-def receptor_figure(devices: Sequence[DeviceReadouts]) -> Figure:
+def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = Kinematics.SMALL) -> Figure:
     """Strain (A) and change of strain (B) along the receptor line for all conditions of all devices, with shear."""
     figure = new_figure(WIDE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
     styles = condition_styles(conditions_of(entry.device for entry in devices))
@@ -78,7 +79,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts]) -> Figure:
         letter(axes, text)
     for axes in grid[-1]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
-    legend_below(figure, [*styles.legend, face_handle()], CAPTION)
+    legend_below(figure, [*styles.legend, face_handle()], CAPTION.format(kinematics=KINEMATICS_NAME[kinematics]))
     return figure
 
 

@@ -5,9 +5,19 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.figure import Figure
 
-from ..scene import Interface, Readout
+from ..scene import Interface, Kinematics, Readout
 from .correlation import caption, correlation_panel, shown_in
-from .style import INTERFACE_NAME, WIDE, as_points, condition_styles, legend_below, letter, new_figure, styled
+from .style import (
+    INTERFACE_NAME,
+    KINEMATICS_NAME,
+    WIDE,
+    as_points,
+    condition_styles,
+    legend_below,
+    letter,
+    new_figure,
+    styled,
+)
 
 HEIGHT = 108.0  # mm
 COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)
@@ -15,7 +25,12 @@ COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)
 
 @styled
 def shear_figure(
-    device: str, title: str, scores: pd.DataFrame, ratings: pd.DataFrame, correlations: pd.DataFrame
+    device: str,
+    title: str,
+    scores: pd.DataFrame,
+    ratings: pd.DataFrame,
+    correlations: pd.DataFrame,
+    kinematics: Kinematics = Kinematics.SMALL,
 ) -> Figure:
     """Strain (top) and change-of-strain score (bottom) against perceived roughness, without (A) and with shear (B).
 
@@ -31,5 +46,7 @@ def shear_figure(
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(f"{title}, {INTERFACE_NAME[interface]}", loc="left")
         letter(axes, text)
-    legend_below(figure, as_points(styles.legend), caption(correlations))
+    legend_below(
+        figure, as_points(styles.legend), caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ")
+    )
     return figure

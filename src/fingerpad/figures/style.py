@@ -15,13 +15,14 @@ from typing import Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..files import replacing
-from ..scene import Device, Interface, Readout
+from ..scene import Device, Interface, Kinematics, Readout
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
@@ -84,6 +85,7 @@ FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom")
 SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
 
+KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
 READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
 INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
 UNITS = {"mm2": "mm²"}
@@ -222,6 +224,11 @@ def condition_styles(conditions: Iterable[Shown]) -> Styles:
             )
         )
     return Styles(series, handles)
+
+
+def rows_with(table: pd.DataFrame, kinematics: str) -> pd.DataFrame:
+    """Rows of a table with those kinematics."""
+    return table[table["kinematics"] == kinematics]
 
 
 def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
-from ..figures.style import INTERFACE_NAME, MINUS, READOUT_NAME, SCORE_SCALE, UNITS, counted, plain
-from ..scene import Device, Interface, Readout, Scene
+from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, UNITS, counted, plain
+from ..scene import Device, Interface, Kinematics, Readout, Scene
 from .tables import SLOPES, Row, measured, p_value
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
@@ -44,14 +44,33 @@ def words(stems: Collection[str], results: Results) -> dict[str, Words]:
 
     Raises KeyError if nothing is written of one of them.
     """
-    writers = dict(_WRITERS)
+    small, finite = (_of(results, kinematics) for kinematics in Kinematics)
+    writers: dict[str, Callable[[], Words]] = {}
+    for stem, write in _WRITERS.items():
+        writers[stem] = partial(write, small)
+        writers[f"{stem}_finite"] = partial(_finite, write, finite)
+    writers["kinematics"] = partial(_kinematics, results)
     for scene in results.scenes:
         for condition in scene.device.conditions:
             stem = f"map_{scene.device.name}_{condition.dispersion}"
-            writers[stem] = partial(_map, device=scene.device, dispersion=condition.dispersion)
+            writers[stem] = partial(_map, small, device=scene.device, dispersion=condition.dispersion)
     if unknown := set(stems) - set(writers):
         raise KeyError(f"no caption for {', '.join(sorted(unknown))}")
-    return {stem: write(results) for stem, write in writers.items() if stem in stems}
+    return {stem: write() for stem, write in writers.items() if stem in stems}
+
+
+def _of(results: Results, kinematics: Kinematics) -> Results:
+    """Results with those kinematics alone."""
+    scores, correlations = (
+        tuple(row for row in rows if row["kinematics"] == kinematics) for rows in (results.scores, results.correlations)
+    )
+    return replace(results, scores=scores, correlations=correlations)
+
+
+def _finite(write: Callable[[Results], Words], results: Results) -> Words:
+    """What is said of the same figure with finite kinematics."""
+    said = write(results)
+    return replace(said, heading=f"{said.heading}, finite strain", caption=f"Finite kinematics. {said.caption}")
 
 
 def correlation_words(row: Row) -> str:
@@ -148,6 +167,26 @@ def _ablation(results: Results) -> Words:
         "Every score with and without shear",
         "Bars of strain scores (left) and change-of-strain scores (right) of every condition, with and without shear.",
         f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}. {ERROR_BARS}",
+    )
+
+
+def _kinematics(results: Results) -> Words:
+    parts = []
+    for scene in results.scenes:
+        shown = [
+            f"{KINEMATICS_NAME[kinematics]} {text}"
+            for kinematics in Kinematics
+            if (
+                text := _scores(
+                    _of(results, kinematics), scene.device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN
+                ).strip()
+            )
+        ]
+        parts.append(f"{scene.device.title} ({counted(scene.device.conditions)}): {'; '.join(shown)}")
+    return Words(
+        "Small and finite strain side by side",
+        "Force against indentation (left), bars of strain scores (middle) and change-of-strain scores (right).",
+        f"Scores of the change of strain with shear. {'. '.join(parts)}. {ERROR_BARS}",
     )
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from ..figures.style import INTERFACE_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
-from ..scene import Interface, Readout
+from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
+from ..scene import Interface, Kinematics, Readout
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition
@@ -72,13 +72,15 @@ def relative_error(row: Row) -> float:
 
 def accuracy_summary(scores: Sequence[Row]) -> str:
     """Median and largest relative error of all scores, in words."""
-    errors = {(row["device"], row["condition"], row["interface"], row["readout"]): relative_error(row)
-              for row in scores if row["score"]}  # fmt: skip
-    device, condition, interface, readout = max(errors, key=lambda case: errors[case])
-    largest = errors[device, condition, interface, readout]
+    errors = {(row["kinematics"], row["device"], row["condition"], row["interface"], row["readout"]):
+              relative_error(row) for row in scores if row["score"]}  # fmt: skip
+    case = max(errors, key=lambda case: errors[case])
+    kinematics, device, condition, interface, readout = case
+    largest = errors[case]
     return (
         f"Of n = {len(errors)} scores the median error is {PERCENT * median(errors.values()):.2f} %, the largest"
-        f" {PERCENT * largest:.2f} % ({device}, {condition}, {INTERFACE_NAME[Interface(interface)]},"
+        f" {PERCENT * largest:.2f} % ({KINEMATICS_NAME[Kinematics(kinematics)]}, {device}, {condition},"
+        f" {INTERFACE_NAME[Interface(interface)]},"
         f" {READOUT_NAME[Readout(readout)].lower()})."
     )
 
@@ -91,7 +93,7 @@ def correlation_rows(correlations: Sequence[Row], titles: Mapping[str, str]) -> 
         published = f"{float(row['published_r2']):g}" if row["published_r2"] else row["published_words"] or NOTHING
         rows.append(
             (
-                titles[row["device"]],
+                _titled(titles, row),
                 INTERFACE_NAME[Interface(row["interface"])],
                 READOUT_NAME[Readout(row["readout"])],
                 row["n"],
@@ -124,17 +126,25 @@ def p_value(text: str) -> str:
     return f"{p:.2g}" if p >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
 
 
+def _titled(titles: Mapping[str, str], row: Row) -> str:
+    """Title of a row's device, and its kinematics if they are finite."""
+    finite = f", {KINEMATICS_NAME[Kinematics.FINITE]}" if row["kinematics"] == Kinematics.FINITE else ""
+    return f"{titles[row['device']]}{finite}"
+
+
 def _grid(scores: Sequence[Row], titles: Mapping[str, str], columns: Sequence[str], cell: Callable[[Row], str]) -> Grid:
     """Grid of what `cell` says of each score; where there is none, its note."""
-    found: dict[str, dict[str, dict[tuple[str, str], str]]] = {}
+    found: dict[str, dict[str, dict[tuple[str, str], str]]] = {}  # by title, condition, interface and read-out
     for row in scores:
         text = cell(row) if row["score"] else row["note"]
-        found.setdefault(row["device"], {}).setdefault(row["condition"], {})[row["interface"], row["readout"]] = text
+        found.setdefault(_titled(titles, row), {}).setdefault(row["condition"], {})[
+            row["interface"], row["readout"]
+        ] = text
     bodies = tuple(
         Body(
-            titles[device],
+            title,
             tuple((name, tuple(cells.get(key, NOTHING) for key in COLUMNS)) for name, cells in conditions.items()),
         )
-        for device, conditions in found.items()
+        for title, conditions in found.items()
     )
     return Grid(tuple((INTERFACE_NAME[interface].capitalize(), tuple(columns)) for interface in Interface), bodies)

@@ -1,0 +1,51 @@
+"""Newton's method on deformed tissue without contact: a new tangent every step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import Basis
+
+from ..condensation import factorise, fill_reducing_order
+from ..deformation import elements_of, internal_force_and_tangent
+from ..elasticity import node_dofs
+from ..errors import ConvergenceError
+from ..hyperelasticity import Tissue
+from ..scene import FloatArray
+
+STEP = 1e-9  # last change of displacement over the largest of it [1]; source: its square is below rounding
+MAX_STEPS = 20  # of Newton's method [1]; source: 4-7 are usual
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """displacement: (size,) [mm]. force: (size,) that holds it [N/mm]. residuals: largest force out of balance before
+    every Newton step, and at the end [N/mm].
+    """
+
+    displacement: FloatArray
+    force: FloatArray
+    residuals: tuple[float, ...]
+
+
+def equilibrium(basis: Basis, tissue: Tissue, held: np.ndarray, start: FloatArray, load: FloatArray) -> Equilibrium:
+    """Equilibrium under a dead load (size,) [N/mm], found from a displacement `start` (size,) [mm].
+
+    held: unknowns (k,) that stay as they start. Raises ConvergenceError, CondensationError, InvertedError.
+    """
+    _, everywhere = internal_force_and_tangent(elements_of(basis, tissue, np.arange(basis.N)), start)
+    free = np.ones(basis.N, dtype=bool)
+    free[held] = False
+    elements = elements_of(basis, tissue, fill_reducing_order(everywhere, node_dofs(basis), free))
+    displacement, residuals, change = start.copy(), [], np.inf
+    for _ in range(MAX_STEPS):
+        force, tangent = internal_force_and_tangent(elements, displacement)
+        residual = (load - force)[elements.free]
+        residuals.append(float(np.abs(residual).max()))
+        if change <= STEP * np.abs(displacement).max():
+            return Equilibrium(displacement, force, tuple(residuals))
+        step = factorise(tangent).solve(residual)
+        displacement[elements.free] += step
+        change = float(np.abs(step).max())
+    raise ConvergenceError(f"Newton's method left {residuals[-1]:.1e} N/mm after {MAX_STEPS} steps")

@@ -1,0 +1,83 @@
+"""One condition solved on tissue that deforms much: stimulus, certificate and receptor read-outs.
+
+Receptors are read as maximum principal logarithmic strain, over their undeformed arc length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from .compliance import CondensedBody
+from .condensation import receptor_gradient
+from .contact import ContactProblem
+from .deformed_path import DeformedTissue, Move, deformed_tissue, move
+from .elasticity import displacement_basis, node_dofs
+from .finite_strain import logarithmic_strain
+from .mesh import SectionMesh
+from .pressing import Pressed, whole_span
+from .scene import Condition, FloatArray, Interface, Scene
+from .solution import Solution, certify, contact_problem, increments, named, solution
+from .strain import receptor_readouts
+
+
+@dataclass(frozen=True)
+class PressedFinger:
+    """A pressed device and the tissue about that state: the same for all conditions.
+
+    gradient: (4m, size) of displacement gradients at the receptors. dofs: (2, n_nodes) unknowns of the nodes.
+    """
+
+    interface: Interface
+    pressed: Pressed
+    problem: ContactProblem
+    tissue: DeformedTissue
+    gradient: csr_matrix
+    dofs: np.ndarray
+
+
+def pressed_finger(
+    scene: Scene, section: SectionMesh, body: CondensedBody | None, pressed: Pressed, interface: Interface
+) -> PressedFinger:
+    """What all conditions of a device and interface begin with. Raises CondensationError."""
+    dofs = node_dofs(displacement_basis(section.mesh))
+    displacement = np.empty(dofs.size)
+    displacement[dofs] = pressed.displacement
+    problem = replace(contact_problem(scene, pressed.section, body, interface), free=pressed.free)
+    tissue = deformed_tissue(whole_span(scene, section), displacement)
+    return PressedFinger(interface, pressed, problem, tissue, receptor_gradient(section, scene)[1], dofs)
+
+
+def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:
+    """Solve the stimulus of one condition on the pressed finger.
+
+    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if its certificate
+    exceeds a limit, or if contact reaches beyond the candidate nodes.
+    """
+    with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}"):
+        moves = deformed_moves(scene, finger, condition)
+        last = moves[-1]
+        section = replace(finger.pressed.section, residual=max(finger.pressed.section.residual, last.defect))
+        certificate = certify(replace(finger.problem, free=last.free), section, last.state)
+    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
+    return solution(section, [each.state for each in moves], receptor_readouts(strains), certificate)
+
+
+def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Move]:
+    """The pre-indented state, and the ends of all moves of a stimulus. Raises ContactError."""
+    before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
+    moves = [Move(before, finger.tissue.displacement, finger.pressed.free, 0, 0, 0.0)]
+    for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
+        target = before.actuator + np.stack([tangential, normal], axis=1)
+        moves.append(move(finger.tissue, finger.problem, moves[-1], target, count))
+    return moves
+
+
+def receptor_logarithmic_strain(gradient: csr_matrix, displacement: FloatArray) -> FloatArray:
+    """Logarithmic strain (3m,) [1] at the receptors, whose displacement gradient (4m, size) of a displacement (size,)
+    [mm] is given.
+    """
+    of_points = (gradient @ displacement).reshape(-1, 2, 2).transpose(1, 2, 0)
+    return np.asarray(logarithmic_strain(of_points).T.ravel())

@@ -1,0 +1,104 @@
+"""Small and finite kinematics side by side: force against indentation, and every score with shear."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..scene import Interface, Kinematics, Readout
+from .ablation import BAR, name_conditions
+from .style import (
+    BLUE,
+    INTERFACE_NAME,
+    KINEMATICS_NAME,
+    ORANGE,
+    SCORE_SCALE,
+    WIDE,
+    draw_errors,
+    legend_below,
+    letter,
+    new_figure,
+    rows_with,
+    score_label,
+    styled,
+)
+
+ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 16.0  # mm
+WIDTHS = (0.75, 1.0, 1.0)  # of the columns, relative
+COLOUR = {Kinematics.SMALL: BLUE, Kinematics.FINITE: ORANGE}
+LOOK: dict[Kinematics, dict[str, Any]] = {
+    Kinematics.SMALL: {"facecolor": BLUE, "edgecolor": BLUE},
+    Kinematics.FINITE: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
+}
+LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
+MANY = 6  # conditions beyond which their phases are written smaller
+SMALL_TEXT = 5.0  # pt
+END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
+CAPTION = (
+    "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin."
+    " Bars: scores with shear, and their stated errors."
+)
+
+
+@styled
+def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mapping[str, str]) -> Figure:
+    """Force against indentation (A), strain (B) and change-of-strain scores (C) with both kinematics, one row a device.
+
+    scores, curves: the tables scores.csv and indentation.csv. titles: by device.
+    """
+    figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
+    grid = figure.subplots(len(titles), len(WIDTHS), squeeze=False, width_ratios=WIDTHS)
+    for row, (device, title) in zip(grid, titles.items(), strict=True):
+        _curves(row[0], curves[curves["device"] == device])
+        row[0].set_title(title, loc="left")
+        own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
+        for axes, readout in zip(row[1:], Readout, strict=True):
+            _bars(axes, readout, own[own["readout"] == readout])
+    grid[-1][0].set_xlabel("Indentation from first touch (mm)")
+    for axes, text in zip(grid[0], "ABC", strict=True):
+        letter(axes, text)
+    handles: list[Any] = [Patch(label=KINEMATICS_NAME[each], **LOOK[each]) for each in Kinematics]
+    handles += [
+        Line2D([], [], color="black", linestyle=LINE[each], label=f"force {INTERFACE_NAME[each]}") for each in Interface
+    ]
+    legend_below(figure, handles, CAPTION)
+    return figure
+
+
+def _curves(axes: Axes, curves: pd.DataFrame) -> None:
+    """Force against indentation of one device."""
+    for kinematics in Kinematics:
+        for interface in Interface:
+            own = rows_with(curves, kinematics)
+            own = own[own["interface"] == interface]
+            if len(own):
+                height, force = own["indentation_mm"].to_numpy(), own["force_N_per_mm"].to_numpy()
+                axes.plot(height, force, color=COLOUR[kinematics], linestyle=LINE[interface])
+                axes.plot(height[-1:], force[-1:], color=COLOUR[kinematics], marker=END[kinematics], fillstyle="none")
+    axes.set_ylabel("Force (N/mm)")
+    axes.set_xlim(left=0.0)
+    axes.set_ylim(bottom=0.0)
+
+
+def _bars(axes: Axes, readout: Readout, scores: pd.DataFrame) -> None:
+    """Scores of one device and read-out, a pair for each condition."""
+    factor = SCORE_SCALE[readout][0]
+    conditions = scores.drop_duplicates("condition")
+    places = np.arange(len(conditions))
+    for kinematics, side in zip(Kinematics, (-0.5, 0.5), strict=True):
+        own = rows_with(scores, kinematics).set_index("condition").reindex(conditions["condition"])
+        heights = factor * own["score"].to_numpy(float)
+        axes.bar(places + side * BAR, heights, BAR, **LOOK[kinematics])
+        draw_errors(axes, places + side * BAR, heights, factor * own["score_error"].to_numpy(float), along="y")
+    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
+    axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
+    name_conditions(axes, conditions)
+    if len(places) > MANY:
+        axes.tick_params(axis="x", labelsize=SMALL_TEXT)

@@ -1,0 +1,184 @@
+"""A device pressed onto tissue that deforms much, and its contact nodes condensed about that state.
+
+Pre-indentation is solved by `deformed`, on the right half of the section where everything mirrors. About the state
+(u, f) in which it ends, with tangent K, contact forces f' move the contact nodes by
+    L^T u' = L^T u + C (f' - f),        C = L^T K^-1 L,
+so that all conditions run on a compliance that is condensed once, as on linear tissue (`deformed_path`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csc_matrix
+
+from .compliance import CondensedBody, CondensedSection
+from .condensation import (
+    arc_length,
+    body_of,
+    condense_section,
+    contact_last,
+    contact_tractions,
+    fill_reducing_order,
+    folded_loads,
+    receptor_strain,
+    section_stiffness,
+    unfold,
+    unfolding,
+    unit_loads,
+)
+from .contact import ContactState, rest, touching_height
+from .deformation import elements_of
+from .deformed import Span, deformed, solver_on, tangent_at, undeformed
+from .elasticity import displacement_basis
+from .force_curve import curve_of, recording
+from .hyperelasticity import tissue_of
+from .indentation import raise_until
+from .mesh import SectionMesh
+from .path import advance
+from .scene import FloatArray, Interface, Kinematics, Scene
+from .solution import contact_problem, increments, indent_device, named
+from .symmetry import MIRROR, mirrors, right_half, unfolded
+from .traction import Tractions
+
+NONE = np.empty((0, 0))  # the compliance that contact on undeformed tissue would have: nobody asks for it
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """A device pressed onto the finger.
+
+    section: condensed about that state; without a strain map, as strain follows from displacements. free: (n, 2)
+    displacement that contact nodes would have without contact forces, had the tangent held all the way [mm]. state: of
+    all contact nodes. displacement: (2, n_nodes) of the section [mm]. curve: (k, 2) heights above first touch [mm] and
+    pressing forces [N/mm] on the way. tangents: condensed on the way.
+    """
+
+    section: CondensedSection
+    free: FloatArray
+    state: ContactState
+    displacement: FloatArray
+    curve: FloatArray
+    tangents: int
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """The tissue that is pressed: elements of the section, and for the section, or for its right half under loads that
+    mirror with and against it, the unknowns that are held and the nodal forces of unit contact forces.
+    """
+
+    elements: np.ndarray
+    matrix: csc_matrix
+    dofs: np.ndarray
+    held: Sequence[np.ndarray]
+    loads: Sequence[csc_matrix]
+
+
+def press(
+    scene: Scene,
+    section: SectionMesh,
+    body: CondensedBody | None,
+    interface: Interface,
+    height: float | None = None,
+) -> Pressed:
+    """Raise the actuators until the criterion holds, or to a given height of their faces above the undeformed pad's
+    lowest point [mm], and condense the contact nodes about that state.
+
+    Raises MeshError, CondensationError, and ContactError, naming device and interface, if the path cannot be followed.
+    """
+    tractions = contact_tractions(section, scene)
+    receptor, _ = receptor_strain(section, scene)
+    bare = CondensedSection(tractions.position, tractions.weight, NONE, receptor, arc_length(receptor), NONE, 0.0)
+    problem = contact_problem(scene, bare, body, interface)
+    mirrored = scene.model.skips.mirrored_half and mirrors(problem)
+    parts = _half(section, scene, tractions) if mirrored else _whole(section, scene, tractions)
+    spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
+    pressing = right_half(problem) if mirrored else problem
+    touch, states = touching_height(pressing), list[ContactState]()
+    with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
+        start, count = deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])), increments(scene, problem)[0]
+        solve = recording(solver_on(spans[0]), states.append)
+        if height is None:
+            criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
+            reached = raise_until(pressing, criterion, count, limit, start, solve)
+        else:
+            target = np.full_like(start.actuator, height) * [0.0, 1.0]
+            reached, _ = advance(pressing, start, target, count, None, solve)
+    tangents = [tangent_at(span, reached.displacement) for span in spans]
+    displacement = reached.displacement[parts.dofs]
+    state = undeformed(reached)
+    compliance = tangents[0].compliance
+    if mirrored:
+        columns = unfolding(tractions.position.shape[0], MIRROR)
+        compliance = unfold(tangents[0].compliance, tangents[1].compliance, columns, columns)
+        displacement, state = _mirrored(section, displacement), unfolded(state)
+    moved = tractions.loads.T @ displacement[:, tractions.nodes].T
+    free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
+    condensed = CondensedSection(
+        bare.position,
+        bare.weight,
+        compliance,
+        bare.receptor,
+        bare.arc,
+        np.empty((0, 2 * free.size)),
+        max(each.residual for each in tangents),
+    )
+    curve = curve_of(states, touch) * np.array([1.0, 2.0 if mirrored else 1.0])
+    return Pressed(condensed, free, state, displacement, curve, reached.tangents)
+
+
+def indented_height(scene: Scene, section: SectionMesh, interface: Interface) -> float:
+    """Height of the faces above the undeformed pad's lowest point [mm] at which pre-indentation ends.
+
+    Raises MeshError, CondensationError, ContactError.
+    """
+    body = body_of(scene)
+    if scene.kinematics is Kinematics.FINITE:
+        state = press(scene, section, body, interface).state
+    else:
+        state = indent_device(scene, condense_section(section, scene), body, interface).state
+    return float(state.actuator[0, 1])
+
+
+def whole_span(scene: Scene, section: SectionMesh) -> Span:
+    """The tissue of the whole section."""
+    return _span(scene, section, _whole(section, scene, contact_tractions(section, scene)), 0)
+
+
+def _whole(section: SectionMesh, scene: Scene, tractions: Tractions) -> _Parts:
+    matrix, dofs = section_stiffness(section, scene)
+    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
+    return _Parts(np.arange(section.mesh.t.shape[1]), matrix, dofs, [dofs[:, section.fixed].ravel()], [loads])
+
+
+def _half(section: SectionMesh, scene: Scene, tractions: Tractions) -> _Parts:
+    x = section.mesh.doflocs[0]
+    elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
+    matrix, dofs = section_stiffness(section, scene, elements)
+    still, axis = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0]), dofs[:, x == 0.0]
+    held = [np.union1d(still, axis[0]), np.union1d(still, axis[1])]
+    loads = folded_loads(section, tractions, dofs, matrix.shape[0])
+    return _Parts(elements, matrix, dofs, held, [each[:, each.shape[1] // 2 :] for each in loads])
+
+
+def _span(scene: Scene, section: SectionMesh, parts: _Parts, which: int) -> Span:
+    """The tissue with one choice of what is held."""
+    free = np.ones(parts.matrix.shape[0], dtype=bool)
+    free[parts.held[which]] = False
+    order = contact_last(fill_reducing_order(parts.matrix, parts.dofs, free), parts.loads[which])
+    finger, law = scene.model.finger, scene.model.tissue
+    materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
+    tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
+    basis = displacement_basis(section.mesh, parts.elements)
+    return Span(elements_of(basis, tissue, order), csc_matrix(parts.loads[which][order]))
+
+
+def _mirrored(section: SectionMesh, right: FloatArray) -> FloatArray:
+    """Displacement (2, n_nodes) of the whole section from that of its right half."""
+    x, y = section.mesh.doflocs
+    twin = np.empty(x.size, dtype=np.int64)
+    twin[np.lexsort((y, x))] = np.lexsort((y, -x))
+    return np.where(x < 0.0, right[:, twin] * MIRROR[:, None], right)

@@ -1,0 +1,87 @@
+# With finite kinematics: a device pressed onto the finger, and each of its stimuli from there.
+# REQUIRED INPUTS: results/finite/{device}/mesh.npz, results/{device}/body.npz for deformable actuators.
+# OUTPUTS: results/finite/{device}/{interface}/pressed.npz, results/finite/{device}/{condition}/{interface}/solution.npz;
+# force against indentation, of small kinematics too: results/indentation.csv
+
+
+rule press:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        recordings=ancient(recordings_of),
+        mesh="results/finite/{device}/mesh.npz",
+        body=body_of,
+        code=code("press.py"),
+    output:
+        pressed="results/finite/{device}/{interface}/pressed.npz",
+    log:
+        "results/logs/finite/{device}/{interface}/press.log",
+    benchmark:
+        "results/benchmarks/finite/{device}/{interface}/press.tsv"
+    priority: 3
+    conda:
+        ENVIRONMENT
+    params:
+        scene=lambda w: support.fingerprint(
+            scene_of(w).model.finger,
+            scene_of(w).model.tissue,
+            scene_of(w).model.readout,
+            scene_of(w).model.contact,
+            scene_of(w).model.numerics,
+            scene_of(w).model.skips,
+            scene_of(w).device.actuators,
+            support.stroke(scene_of(w)),
+        ),
+    script:
+        "../scripts/press.py"
+
+
+rule stimulate:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        recordings=ancient(recordings_of),
+        mesh="results/finite/{device}/mesh.npz",
+        body=body_of,
+        pressed="results/finite/{device}/{interface}/pressed.npz",
+        code=code("stimulate.py"),
+    output:
+        solution="results/finite/{device}/{condition}/{interface}/solution.npz",
+    log:
+        "results/logs/finite/{device}/{condition}/{interface}/stimulate.log",
+    benchmark:
+        "results/benchmarks/finite/{device}/{condition}/{interface}/stimulate.tsv"
+    priority: 2
+    conda:
+        ENVIRONMENT
+    params:
+        path=lambda w: support.fingerprint(support.path_of(condition_of(w))),
+    script:
+        "../scripts/stimulate.py"
+
+
+rule indentation:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+        condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
+        bodies=[f"results/{name}/body.npz" for name in DEVICES if SCENE[name].device.actuators.body],
+        pressed=[
+            f"results/finite/{name}/{interface}/pressed.npz"
+            for name in (DEVICES if Kinematics.FINITE in KINEMATICS else [])
+            for interface in SCENE[name].device.interfaces()
+        ],
+        code=code("indentation.py"),
+    output:
+        table="results/indentation.csv",
+    log:
+        "results/logs/indentation.log",
+    conda:
+        ENVIRONMENT
+    params:
+        scenes=support.fingerprint(
+            [(SCENE[name].model.contact, SCENE[name].model.numerics, SCENE[name].device) for name in DEVICES]
+        ),
+    script:
+        "../scripts/indentation.py"

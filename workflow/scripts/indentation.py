@@ -1,0 +1,48 @@
+"""Force against indentation of all devices, interfaces and kinematics, as one table."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.force_curve import small_strain_curve
+from fingerpad.pressing import Pressed
+from fingerpad.scene import FloatArray, Interface, Kinematics
+from fingerpad.scenefile import load_scene
+from fingerpad.solution import contact_problem
+from fingerpad.store import load, write_rows
+
+
+def main(
+    config: Path, devices: list[Path], condensed: list[Path], bodies: list[Path], pressed: list[Path], table: Path
+) -> None:
+    """Follow the small-strain curves, read the others, write all. bodies, pressed: of the devices that have them, in
+    the devices' order, a device's interfaces one after the other.
+    """
+    rows = []
+    waiting, actuators = iter(pressed), {path.parent.name: path for path in bodies}
+    for path, section in zip(devices, condensed, strict=True):
+        scene = load_scene(config, path)
+        name = scene.device.name
+        body = load(actuators[name], CondensedBody) if name in actuators else None
+        for interface in scene.device.interfaces():
+            problem = contact_problem(scene, load(section, CondensedSection), body, interface)
+            rows += _rows(name, interface, Kinematics.SMALL, small_strain_curve(scene, problem))
+            if pressed:
+                rows += _rows(name, interface, Kinematics.FINITE, load(next(waiting), Pressed).curve)
+    write_rows(table, rows)
+
+
+def _rows(device: str, interface: Interface, kinematics: Kinematics, curve: FloatArray) -> list[dict[str, object]]:
+    case = {"kinematics": str(kinematics), "device": device, "interface": str(interface)}
+    return [case | {"indentation_mm": float(height), "force_N_per_mm": float(force)} for height, force in curve]
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        [Path(path) for path in job.input.condensed],
+        [Path(path) for path in job.input.bodies],
+        [Path(path) for path in job.input.pressed],
+        Path(job.output.table),
+    )

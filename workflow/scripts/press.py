@@ -1,0 +1,29 @@
+"""Press one device onto the finger, with finite kinematics, and condense the finger about that state."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody
+from fingerpad.mesh import load_section
+from fingerpad.pressing import press
+from fingerpad.scene import Interface, Kinematics
+from fingerpad.scenefile import load_scene
+from fingerpad.store import load, save
+
+
+def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: str, pressed: Path) -> None:
+    """Read scene and mesh, raise the actuators, write the state that they reach."""
+    scene = load_scene(config, device, Kinematics.FINITE)
+    actuators = load(body, CondensedBody) if body else None
+    save(pressed, press(scene, load_section(mesh), actuators, Interface(interface)))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.mesh),
+        Path(job.input.body) if job.input.body else None,
+        job.wildcards.interface,
+        Path(job.output.pressed),
+    )

@@ -1,0 +1,42 @@
+"""Solve the stimulus of one device, condition and interface, with finite kinematics."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody
+from fingerpad.deformed_solution import pressed_finger, stimulate_deformed
+from fingerpad.mesh import load_section
+from fingerpad.pressing import Pressed
+from fingerpad.scene import Interface, Kinematics
+from fingerpad.scenefile import load_scene
+from fingerpad.store import load, save
+
+
+def main(
+    config: Path,
+    device: Path,
+    mesh: Path,
+    body: Path | None,
+    pressed: Path,
+    condition: str,
+    interface: str,
+    solution: Path,
+) -> None:
+    """Read scene, mesh and pressed finger, follow the condition's stimulus, write the certified solution."""
+    scene = load_scene(config, device, Kinematics.FINITE)
+    actuators = load(body, CondensedBody) if body else None
+    finger = pressed_finger(scene, load_section(mesh), actuators, load(pressed, Pressed), Interface(interface))
+    save(solution, stimulate_deformed(scene, finger, scene.device.condition(condition)))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.mesh),
+        Path(job.input.body) if job.input.body else None,
+        Path(job.input.pressed),
+        job.wildcards.condition,
+        job.wildcards.interface,
+        Path(job.output.solution),
+    )
