@@ -122,7 +122,7 @@ class Project:
 
 
 def with_small_kinematics(project: Project) -> Project:
-    """The project with small kinematics alone: a sixth of the run time. `finite_run` is for the others."""
+    """The project with small kinematics alone, which take the least time. `finite_run` is for the others."""
     project.edit("config/config.yaml", lambda text: text.replace("{value: both", "{value: small"))
     return project
 

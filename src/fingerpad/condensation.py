@@ -8,6 +8,7 @@ K is factorised once, and a solution for every unit force gives a column of both
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,42 +74,59 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError if too many nodes
     may come into contact.
     """
-    if not scene.model.skips.halved_condensation:
-        return _condense_whole(section, scene)
-    x = section.mesh.doflocs[0]
-    elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
-    matrix, dofs = section_stiffness(section, scene, elements)
     points, strain = receptor_strain(section, scene)
     tractions = contact_tractions(section, scene)
     columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
     rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
-    first, read = 2 * np.count_nonzero(columns.side < 0), strain[VOIGT * np.count_nonzero(rows.side < 0) :]
-    still = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0])
-    axis = dofs[:, x == 0.0]
-    parts = [
-        condense(matrix, dofs, np.union1d(still, axis[sideways]), loads[:, first:], read)
-        for sideways, loads in enumerate(folded_loads(section, tractions, dofs, matrix.shape[0]))
+    halved = scene.model.skips.halved_condensation
+    parts = right_half(section, scene, tractions) if halved else whole(section, scene, tractions)
+    read = strain[VOIGT * np.count_nonzero(rows.side < 0) :] if halved else strain
+    maps = [
+        condense(parts.matrix, parts.dofs, held, loads, read)
+        for held, loads in zip(parts.held, parts.loads, strict=True)
     ]
-    return CondensedSection(
-        tractions.position,
-        tractions.weight,
-        unfold(parts[0][0], parts[1][0], columns, columns),
-        points,
-        arc_length(points),
-        unfold(parts[0][1], parts[1][1], rows, columns),
-        max(part[2] for part in parts),
-    )
-
-
-def _condense_whole(section: SectionMesh, scene: Scene) -> CondensedSection:
-    """`condense_section` of the whole section at once."""
-    matrix, dofs = section_stiffness(section, scene)
-    points, strain = receptor_strain(section, scene)
-    tractions = contact_tractions(section, scene)
-    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
-    compliance, strain_map, residual = condense(matrix, dofs, dofs[:, section.fixed].ravel(), loads, strain)
+    compliance, strain_map, _ = maps[0]
+    if halved:
+        compliance = unfold(maps[0][0], maps[1][0], columns, columns)
+        strain_map = unfold(maps[0][1], maps[1][1], rows, columns)
+    residual = max(each[2] for each in maps)
     arc = arc_length(points)
     return CondensedSection(tractions.position, tractions.weight, compliance, points, arc, strain_map, residual)
+
+
+@dataclass(frozen=True)
+class Parts:
+    """The tissue that is solved: the section, or its right half under loads that mirror, and that mirror with the
+    opposite sign.
+
+    elements: of the section. matrix: their stiffness. dofs: (2, n_nodes) unknowns of nodes. held, loads: for each kind
+    of loads the unknowns that do not move, and the nodal forces (n_unknowns, 2m) of unit contact forces.
+    """
+
+    elements: np.ndarray
+    matrix: csc_matrix
+    dofs: np.ndarray
+    held: Sequence[np.ndarray]
+    loads: Sequence[csc_matrix]
+
+
+def whole(section: SectionMesh, scene: Scene, tractions: Tractions) -> Parts:
+    """The whole section."""
+    matrix, dofs = section_stiffness(section, scene)
+    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
+    return Parts(np.arange(section.mesh.t.shape[1]), matrix, dofs, [dofs[:, section.fixed].ravel()], [loads])
+
+
+def right_half(section: SectionMesh, scene: Scene, tractions: Tractions) -> Parts:
+    """The right half of a section; of contact nodes in the middle the right half takes the one on the mid-line."""
+    x = section.mesh.doflocs[0]
+    elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
+    matrix, dofs = section_stiffness(section, scene, elements)
+    still, axis = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0]), dofs[:, x == 0.0]
+    held = [np.union1d(still, axis[sideways]) for sideways in (0, 1)]
+    first = 2 * (tractions.position.shape[0] // 2)
+    loads = [each[:, first:] for each in _folded_loads(section, tractions, dofs, matrix.shape[0])]
+    return Parts(elements, matrix, dofs, held, loads)
 
 
 @dataclass(frozen=True)
@@ -137,7 +155,7 @@ def unfolding(count: int, mirror: FloatArray) -> Unfolding:
     return Unfolding(np.where(on_right, line, line[::-1]) - left, np.where(on_right, 1, -1), mirror)
 
 
-def folded_loads(
+def _folded_loads(
     section: SectionMesh, tractions: Tractions, dofs: np.ndarray, size: int
 ) -> tuple[csc_matrix, csc_matrix]:
     """Nodal forces (size, 2m) on the right half from unit resultants that act together with their mirror image, and

@@ -60,6 +60,8 @@ def deformed_outcome(
     problem = replace(problem, friction=settings.friction_acting)
     for target in stimulus:
         reached = move(finger.tissue, problem, reached, target, STIMULUS_INCREMENTS)
+    if contact is ContactModel.PENALTIES and reached.tangents > 0:
+        raise ContactError("corrections do not settle, and new tangents would be without the penalties' springs")
     ends = before, reached
     strains = [receptor_logarithmic_strain(finger.gradient, each.displacement) for each in ends]
     return outcome_of(

@@ -26,13 +26,13 @@ from .scene import FloatArray
 MAX_CORRECTIONS = 20  # of one move [1] before new tangents are made on the way; source: usual count is 2-12 (measured)
 MEMORY = 12  # iterates [1] that are combined; source: fewest corrections of 6, 8, 12
 EQUILIBRIUM = (
-    1e-3  # change of displacement in a correction over the largest of the move [1]; source: 1e-3 of a score's error
+    1e-3  # change of displacement in a correction over that of the move [1]; source: scores then hold to 0.2 %
 )
 
 
 @dataclass(frozen=True)
 class DeformedTissue:
-    """The whole section about the pre-indented state: factors of its tangent, and compliance of the contact nodes."""
+    """The whole section about the pre-indented state: factors of its tangent, and displacement (size,) [mm]."""
 
     span: Span
     factors: SuperLU

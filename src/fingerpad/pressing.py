@@ -8,7 +8,6 @@ so that all conditions run on a compliance that is condensed once, as on linear 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,18 +15,18 @@ from scipy.sparse import csc_matrix
 
 from .compliance import CondensedBody, CondensedSection
 from .condensation import (
+    Parts,
     arc_length,
     body_of,
     condense_section,
     contact_last,
     contact_tractions,
     fill_reducing_order,
-    folded_loads,
     receptor_strain,
-    section_stiffness,
+    right_half,
     unfold,
     unfolding,
-    unit_loads,
+    whole,
 )
 from .contact import ContactState, rest, touching_height
 from .deformation import elements_of
@@ -40,8 +39,7 @@ from .mesh import SectionMesh
 from .path import advance
 from .scene import FloatArray, Interface, Kinematics, Scene
 from .solution import contact_problem, increments, indent_device, named
-from .symmetry import MIRROR, mirrors, right_half, unfolded
-from .traction import Tractions
+from .symmetry import MIRROR, half_of, mirrors, unfolded
 
 NONE = np.empty((0, 0))  # the compliance that contact on undeformed tissue would have: nobody asks for it
 
@@ -64,19 +62,6 @@ class Pressed:
     tangents: int
 
 
-@dataclass(frozen=True)
-class _Parts:
-    """The tissue that is pressed: elements of the section, and for the section, or for its right half under loads that
-    mirror with and against it, the unknowns that are held and the nodal forces of unit contact forces.
-    """
-
-    elements: np.ndarray
-    matrix: csc_matrix
-    dofs: np.ndarray
-    held: Sequence[np.ndarray]
-    loads: Sequence[csc_matrix]
-
-
 def press(
     scene: Scene,
     section: SectionMesh,
@@ -94,9 +79,9 @@ def press(
     bare = CondensedSection(tractions.position, tractions.weight, NONE, receptor, arc_length(receptor), NONE, 0.0)
     problem = contact_problem(scene, bare, body, interface)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
-    parts = _half(section, scene, tractions) if mirrored else _whole(section, scene, tractions)
+    parts = right_half(section, scene, tractions) if mirrored else whole(section, scene, tractions)
     spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
-    pressing = right_half(problem) if mirrored else problem
+    pressing = half_of(problem) if mirrored else problem
     touch, states = touching_height(pressing), list[ContactState]()
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
         start, count = deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])), increments(scene, problem)[0]
@@ -145,26 +130,10 @@ def indented_height(scene: Scene, section: SectionMesh, interface: Interface) ->
 
 def whole_span(scene: Scene, section: SectionMesh) -> Span:
     """The tissue of the whole section."""
-    return _span(scene, section, _whole(section, scene, contact_tractions(section, scene)), 0)
+    return _span(scene, section, whole(section, scene, contact_tractions(section, scene)), 0)
 
 
-def _whole(section: SectionMesh, scene: Scene, tractions: Tractions) -> _Parts:
-    matrix, dofs = section_stiffness(section, scene)
-    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
-    return _Parts(np.arange(section.mesh.t.shape[1]), matrix, dofs, [dofs[:, section.fixed].ravel()], [loads])
-
-
-def _half(section: SectionMesh, scene: Scene, tractions: Tractions) -> _Parts:
-    x = section.mesh.doflocs[0]
-    elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
-    matrix, dofs = section_stiffness(section, scene, elements)
-    still, axis = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0]), dofs[:, x == 0.0]
-    held = [np.union1d(still, axis[0]), np.union1d(still, axis[1])]
-    loads = folded_loads(section, tractions, dofs, matrix.shape[0])
-    return _Parts(elements, matrix, dofs, held, [each[:, each.shape[1] // 2 :] for each in loads])
-
-
-def _span(scene: Scene, section: SectionMesh, parts: _Parts, which: int) -> Span:
+def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int) -> Span:
     """The tissue with one choice of what is held."""
     free = np.ones(parts.matrix.shape[0], dtype=bool)
     free[parts.held[which]] = False

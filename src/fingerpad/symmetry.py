@@ -49,10 +49,10 @@ def fold(problem: ContactProblem) -> ContactProblem:
     compliance = problem.compliance[np.ix_(right, right)] + problem.compliance[np.ix_(right, left)] * np.tile(
         MIRROR, half
     )
-    return replace(right_half(problem), compliance=compliance)
+    return replace(half_of(problem), compliance=compliance)
 
 
-def right_half(problem: ContactProblem) -> ContactProblem:
+def half_of(problem: ContactProblem) -> ContactProblem:
     """The problem with the right half's nodes and actuators, whatever its compliance."""
     positions = tuple(x for x in problem.row.positions if x > 0.0)
     half = problem.position.shape[0] // 2

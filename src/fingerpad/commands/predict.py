@@ -47,7 +47,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--kinematics",
         choices=[str(each) for each in Kinematics],
         default=str(Kinematics.SMALL),
-        help="of the tissue: small displacements and strains (default), or finite ones, which take half a minute",
+        help="of the tissue: small displacements and strains (default), or finite ones, which take longer",
     )
     add_scene_options(parser)
 

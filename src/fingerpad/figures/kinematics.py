@@ -20,6 +20,7 @@ from .style import (
     KINEMATICS_NAME,
     ORANGE,
     SCORE_SCALE,
+    TEXT,
     WIDE,
     draw_errors,
     legend_below,
@@ -40,6 +41,7 @@ LOOK: dict[Kinematics, dict[str, Any]] = {
 LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
 MANY = 6  # conditions beyond which their phases are written smaller
 SMALL_TEXT = 5.0  # pt
+GROUP_GAP = 2.0  # between the dispersions' names and the axis' [pt]
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
 CAPTION = (
     "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin."
@@ -102,3 +104,4 @@ def _bars(axes: Axes, readout: Readout, scores: pd.DataFrame) -> None:
     name_conditions(axes, conditions)
     if len(places) > MANY:
         axes.tick_params(axis="x", labelsize=SMALL_TEXT)
+        axes.xaxis.labelpad += TEXT - SMALL_TEXT + GROUP_GAP
