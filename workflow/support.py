@@ -95,7 +95,9 @@ def _plain(part: Any) -> Any:
     if dataclasses.is_dataclass(part):
         return {field.name: _plain(getattr(part, field.name)) for field in dataclasses.fields(part)}
     if isinstance(part, np.ndarray):
-        return part.tolist()
+        return _plain(part.tolist())
     if isinstance(part, (list, tuple)):
         return [_plain(child) for child in part]
+    if isinstance(part, complex):
+        return [part.real, part.imag]
     return part

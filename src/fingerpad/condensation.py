@@ -74,12 +74,18 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError if too many nodes
     may come into contact.
     """
-    points, strain = receptor_strain(section, scene)
     tractions = contact_tractions(section, scene)
-    columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
-    rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
     halved = scene.model.skips.halved_condensation
     parts = right_half(section, scene, tractions) if halved else whole(section, scene, tractions)
+    return condense_parts(section, scene, tractions, parts)
+
+
+def condense_parts(section: SectionMesh, scene: Scene, tractions: Tractions, parts: Parts) -> CondensedSection:
+    """`condense_section` of tissue with any stiffness. Raises CondensationError."""
+    points, strain = receptor_strain(section, scene)
+    halved = len(parts.loads) > 1
+    columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
+    rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
     read = strain[VOIGT * np.count_nonzero(rows.side < 0) :] if halved else strain
     maps = [
         condense(parts.matrix, parts.dofs, held, loads, read)

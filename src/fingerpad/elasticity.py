@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity, kron
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
-from skfem.helpers import ddot, eye, sym_grad, trace
+from skfem.helpers import ddot, dot, eye, sym_grad, trace
 
 from .compliance import GRADIENT
 from .scene import FloatArray, Material
 
 QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
+MASS_ORDER = 4  # exact on straight second-order elements: phi (2) x phi (2); degree count
 FACET_ENDS = np.array([[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 0.0], [0.0, 1.0]]])  # of a triangle
 GAUSS_POINTS = (1.0 + np.array([-1.0, 1.0]) / np.sqrt(3.0)) / 2.0  # on a facet of length 1 [1]
 
@@ -60,6 +61,20 @@ def stiffness(basis: Basis, materials: Sequence[Material], element_material: np.
     points = basis.X.shape[-1]
     lam, mu = (np.repeat(constants[:, [k]], points, axis=1) for k in (0, 1))
     return csc_matrix(_elastic_energy.assemble(basis, lam=lam, mu=mu))
+
+
+@BilinearForm
+def _kinetic_energy(u, v, w):  # type: ignore[no-untyped-def]  # skfem's forms are untyped
+    return dot(u, v)
+
+
+def mass(mesh: MeshTri2, elements: np.ndarray | None, density: float) -> csc_matrix:
+    """Mass matrix (n_unknowns, n_unknowns) [t per mm of thickness] of tissue of that density [t/mm3].
+
+    M_ij = rho ∫ phi_i . phi_j dA.
+    """
+    basis = Basis(mesh, ElementVector(ElementTriP2()), intorder=MASS_ORDER, elements=elements)
+    return csc_matrix(density * _kinetic_energy.assemble(basis))
 
 
 def strain_of_gradient(gradient: csr_matrix) -> csr_matrix:

@@ -53,6 +53,14 @@ class CertificateError(ContactError):
     """A solution disobeys the laws it was solved for."""
 
 
+class CycleError(ContactError):
+    """Vibration did not come to a cycle that repeats itself."""
+
+
+class InertiaError(ContactError):
+    """The tissue's mass matters at a frequency, and the model has none."""
+
+
 class ReachError(ContactError):
     """Contact reaches beyond the skin nodes that were considered."""
 

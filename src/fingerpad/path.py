@@ -77,6 +77,24 @@ def advance(
     return state, carried
 
 
+def drifting_to(
+    last: FloatArray, begin: FloatArray, target: FloatArray, power: int = 1
+) -> SolveIncrement[ContactState]:
+    """What solves an increment of a line from `begin` to `target` (n_actuators, 2) [mm] along which contact nodes
+    without forces drift from the problem's place to `last` (n, 2) [mm], with a power of the way.
+    """
+    length = float(np.abs(target - begin).max())
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
+    ) -> tuple[ContactState, Patch]:
+        first = np.zeros_like(last) if problem.free is None else problem.free
+        way = float(np.abs(actuator - begin).max()) / length
+        return solve_increment(replace(problem, free=first + way**power * (last - first)), state, actuator, patch)
+
+    return solve
+
+
 def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     """Class and advice of the error that ends a path."""
     if failure.inverted:

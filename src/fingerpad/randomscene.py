@@ -32,10 +32,12 @@ from .scene import (
     Model,
     Numerics,
     ReadoutRule,
+    Relaxation,
     Scene,
     Side,
     Skips,
     TissueLaw,
+    VibrationRule,
 )
 
 GROUP = 50  # scenes that share a finger [1]
@@ -63,6 +65,7 @@ STIMULUS_INCREMENTS = (1, 3)  # [1]
 ROWS = (1, 8)  # of a stimulus's history [1]
 CYCLES = 10  # most in a stimulus [1]
 ROWS_A_CYCLE = 6  # [1]
+STILL = VibrationRule(Relaxation((), (), ()), 1e-9, 1.0, 8)  # nothing vibrates
 TOLERANCE, MAX_CUTS = 1e-9, 10  # of the shipped model (config/config.yaml)
 
 
@@ -138,6 +141,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
         ContactLaw(0.0, Criterion.TOUCH),
         GaborFilter(2.8, 1.15, 1.12, 0.02),
         ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
+        STILL,
         numerics,
         Skips(True, True, True, bool(rng.random() < 0.5), bool(rng.random() < 0.5), inactive_nodes=True),
     )

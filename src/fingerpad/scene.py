@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from .errors import SceneError
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
 
@@ -284,14 +285,34 @@ class Condition:
 
 
 @dataclass(frozen=True)
+class Cycle:
+    """A condition as vibration: actuator i moves by the real part of a_i exp(i omega t) from the pre-indented position.
+
+    name, dispersion, phase_deg: of the condition. normal, tangential: amplitudes a (n_actuators,), complex [mm].
+    """
+
+    name: str
+    dispersion: str
+    phase_deg: float
+    normal: ComplexArray
+    tangential: ComplexArray
+
+
+@dataclass(frozen=True)
 class Device:
-    """A device: its actuators, what it controls, and the conditions it is tried in."""
+    """A device: its actuators, what it controls, and the conditions it is tried in.
+
+    cycles: the conditions as vibrations, and frequencies: at which they are asked for [Hz]; none of both for a device
+    that is moved slowly.
+    """
 
     name: str
     title: str
     control: Control
     actuators: ActuatorRow
     conditions: tuple[Condition, ...]
+    cycles: tuple[Cycle, ...] = ()
+    frequencies: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         _require(len(self.conditions) >= 1, f"{self.name}: there must be at least one condition")
@@ -465,14 +486,57 @@ class TissueLaw:
 
 
 @dataclass(frozen=True)
+class Relaxation:
+    """How tissue relaxes (see `viscoelasticity`).
+
+    shares: of the instantaneous modulus that relax [1]. times: in which they do [s]. layers: names of those that relax.
+    """
+
+    shares: tuple[float, ...]
+    times: tuple[float, ...]
+    layers: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        _require(
+            len(self.shares) == len(self.times),
+            f"vibration: shares and times must be as many, found {len(self.shares)} and {len(self.times)}",
+        )
+        _require_positive("vibration", **{f"share {i + 1}": share for i, share in enumerate(self.shares)})
+        _require_positive("vibration", **{f"time {i + 1}": time for i, time in enumerate(self.times)})
+        _require(len(set(self.times)) == len(self.times), f"vibration: times must differ, found {list(self.times)}")
+        _require(
+            sum(self.shares) < 1.0,
+            f"vibration: shares must leave something that does not relax, found a sum of {sum(self.shares):g}",
+        )
+
+
+@dataclass(frozen=True)
+class VibrationRule:
+    """What vibration needs besides.
+
+    relaxation. density: of all tissue [t/mm3]. inertia_limit: change of receptor strain by inertia [1] beyond which
+    there is no prediction. steps: of a cycle [1].
+    """
+
+    relaxation: Relaxation
+    density: float
+    inertia_limit: float
+    steps: int
+
+    def __post_init__(self) -> None:
+        _require_positive("vibration", density=self.density, inertia_limit=self.inertia_limit, steps=self.steps)
+
+
+@dataclass(frozen=True)
 class Model:
-    """Everything but the device: finger, tissue, contact, filter, read-out, numerics and what is skipped."""
+    """Everything but the device: finger, tissue, contact, filter, read-out, vibration, numerics and what is skipped."""
 
     finger: Finger
     tissue: TissueLaw
     contact: ContactLaw
     gabor: GaborFilter
     readout: ReadoutRule
+    vibration: VibrationRule
     numerics: Numerics
     skips: Skips
 
@@ -482,6 +546,9 @@ class Model:
             self.readout.layer_above in names,
             f"readout: layer_above {self.readout.layer_above!r} must be one of {names}",
         )
+        every = [layer.name for layer in (*self.finger.pad, *self.finger.dorsal)]
+        for name in self.vibration.relaxation.layers:
+            _require(name in every, f"vibration: layers {name!r} must be among {every}")
 
     @property
     def receptor_depth(self) -> float:

@@ -29,12 +29,14 @@ from .scene import (
     Model,
     Numerics,
     ReadoutRule,
+    Relaxation,
     Scene,
     Side,
     Skips,
     TissueLaw,
+    VibrationRule,
 )
-from .stimuli import KINDS
+from .stimuli import CYCLES, KINDS
 
 MERGE = "tag:yaml.org,2002:merge"
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
@@ -132,7 +134,9 @@ def load_scene(config: Path, device: Path, kinematics: Kinematics = Kinematics.S
 
 def build_model(config: dict[str, Any]) -> Model:
     """The model of a validated config mapping. Raises SceneError."""
-    finger, tissue, contact, readout = (_values(config[key]) for key in ("finger", "tissue", "contact", "readout"))
+    finger, tissue, contact, readout, vibration = (
+        _values(config[key]) for key in ("finger", "tissue", "contact", "readout", "vibration")
+    )
     computed = tuple(Kinematics) if tissue["kinematics"] == "both" else (Kinematics.SMALL,)
     return Model(
         Finger(
@@ -147,6 +151,12 @@ def build_model(config: dict[str, Any]) -> Model:
         ContactLaw(contact["friction"], Criterion(contact["criterion"])),
         GaborFilter(**_values(config["filter"])),
         ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
+        VibrationRule(
+            Relaxation(*(tuple(vibration[key]) for key in ("shares", "times", "layers"))),
+            vibration["density"],
+            vibration["inertia_limit"],
+            vibration["steps"],
+        ),
         Numerics(**_values(config["numerics"])),
         Skips(**_values(config["skips"])),
     )
@@ -166,7 +176,11 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     positions = tuple((i - (count - 1) / 2.0) * row["pitch"] for i in range(count))
     actuators = ActuatorRow(positions, row["width"], row["edge_radius"], body)
     conditions = KINDS[stimulus["kind"]](stimulus, count, path.parent)
-    return Device(path.stem, plain["title"], Control(plain["control"]), actuators, tuple(conditions))
+    frequencies = tuple(stimulus.get("frequency_hz", ()))
+    cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if frequencies else ()
+    return Device(
+        path.stem, plain["title"], Control(plain["control"]), actuators, tuple(conditions), cycles, frequencies
+    )
 
 
 def recordings(device: Path) -> list[Path]:

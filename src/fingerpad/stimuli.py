@@ -8,18 +8,20 @@ rules depend on it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from .errors import SceneError
 from .recording import read_recording
-from .scene import Condition, FloatArray
+from .scene import ComplexArray, Condition, Cycle, FloatArray
 
 # The plain values under `stimulus`, the number of actuators and the device file's folder, to conditions
 Builder = Callable[[Mapping[str, Any], int, Path], list[Condition]]
+
+Displacement = TypeVar("Displacement", FloatArray, ComplexArray)
 
 CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; source: 16 per period, linear between
 
@@ -27,43 +29,66 @@ CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; 
 def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
     """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over one period (cycle)."""
     conditions = []
+    for dispersion, phase, lag in _lags(stimulus, count):
+        if stimulus["playback"] == "snapshot":
+            # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
+            displacement = stimulus["amplitude"] * np.round(np.cos(lag), 15)[None, :]
+            time = np.array([1.0])
+        else:
+            time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
+            displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + lag)
+        directed = _directed(stimulus["direction"], displacement)
+        conditions.append(Condition(f"{dispersion}_{phase:03g}", dispersion, float(phase), time, **directed))
+    return conditions
+
+
+def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
+    """Actuator i at A cos(w t + k_i p)."""
+    cycles = []
+    for dispersion, phase, lag in _lags(stimulus, count):
+        amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * lag)
+        directed = _directed(stimulus["direction"], amplitude)
+        cycles.append(Cycle(f"{dispersion}_{phase:03g}", dispersion, float(phase), **directed))
+    return cycles
+
+
+def _lags(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float, FloatArray]]:
+    """Dispersion, phase difference p [deg] and the actuators' lags k_i p (count,) [rad] of each condition."""
     for dispersion, groups in stimulus["dispersions"].items():
         if len(groups) != count:
             raise SceneError(f"stimulus.dispersions.{dispersion}: needs {count} group indices, found {len(groups)}")
         for phase in stimulus["phases"]:
-            lag = np.asarray(groups, dtype=float) * math.radians(phase)
-            if stimulus["playback"] == "snapshot":
-                # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
-                displacement = stimulus["amplitude"] * np.round(np.cos(lag), 15)[None, :]
-                time = np.array([1.0])
-            else:
-                time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
-                displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + lag)
-            conditions.append(
-                Condition(
-                    f"{dispersion}_{phase:03g}",
-                    dispersion,
-                    float(phase),
-                    time,
-                    **_directed(stimulus["direction"], displacement),
-                )
-            )
-    return conditions
+            yield dispersion, phase, np.asarray(groups, dtype=float) * math.radians(phase)
 
 
 def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
     """Actuator i at absolute + (-1)^i relative / 2 (paper, Table 1)."""
-    sign = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
     return [
         Condition(
             f"alternate_{row['phase']:03g}",
             "alternate",
             float(row["phase"]),
             np.array([1.0]),
-            **_directed(stimulus["direction"], row["absolute"] + sign[None, :] * row["relative"] / 2.0),
+            **_directed(stimulus["direction"], _alternating(row, count)[None, :]),
         )
         for row in stimulus["rows"]
     ]
+
+
+def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
+    """Actuator i at (absolute + (-1)^i relative / 2) cos(w t)."""
+    cycles = []
+    for row in stimulus["rows"]:
+        amplitude: ComplexArray = _alternating(row, count).astype(np.complex128)
+        directed = _directed(stimulus["direction"], amplitude)
+        cycles.append(Cycle(f"alternate_{row['phase']:03g}", "alternate", float(row["phase"]), **directed))
+    return cycles
+
+
+def _alternating(row: Mapping[str, Any], count: int) -> FloatArray:
+    """Displacements (count,) [mm] of a row of actuators whose neighbours differ."""
+    sign = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+    return np.asarray(row["absolute"] + sign * row["relative"] / 2.0)
 
 
 def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
@@ -109,9 +134,15 @@ KINDS: Mapping[str, Builder] = {
     "measured": measured,
 }
 
+# The kinds that may be asked for at a `frequency_hz`: the plain values under `stimulus` and the number of actuators
+CYCLES: Mapping[str, Callable[[Mapping[str, Any], int], list[Cycle]]] = {
+    "phased": phased_cycles,
+    "alternating": alternating_cycles,
+}
 
-def _directed(direction: str, displacement: FloatArray) -> dict[str, FloatArray]:
-    """Displacements (n_times, n_actuators) [mm] as normal and tangential histories; `both` is the same in both."""
+
+def _directed(direction: str, displacement: Displacement) -> dict[str, Displacement]:
+    """Displacements (..., n_actuators) [mm] as normal and tangential ones; `both` is the same in both."""
     still = np.zeros_like(displacement)
     return {
         "normal": still if direction == "lateral" else displacement,

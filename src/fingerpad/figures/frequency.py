@@ -1,0 +1,91 @@
+"""Scores against frequency, device by device."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..frequency import SLOWLY
+from ..scene import Device, Interface, Readout
+from .style import (
+    GREY,
+    INTERFACE_NAME,
+    SCORE_SCALE,
+    WIDE,
+    Styles,
+    condition_styles,
+    conditions_of,
+    legend_below,
+    letter,
+    new_figure,
+    note_in,
+    score_label,
+    styled,
+    subtitle,
+)
+
+ROW_HEIGHT, LEGEND_HEIGHT = 48.0, 22.0  # mm
+BELOW = 2.0  # slow cycles are drawn at this part of the lowest frequency [1]
+CAPTION = (
+    "Small strain, viscoelastic. Slow: tissue is always relaxed. Change of strain at phase zero from the cycle's mean."
+    " Missing points: inertia matters, no prediction."
+)
+
+
+@styled
+def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
+    """Change-of-strain score against frequency, with shear and without, one row a device.
+
+    table: results/frequency.csv.
+    """
+    styles = condition_styles(conditions_of(devices))
+    figure = new_figure(WIDE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
+    grid = figure.subplots(len(devices), len(Interface), squeeze=False, sharey="row")
+    frequencies = sorted(set(table["frequency_hz"]) - {SLOWLY})
+    for row, device in zip(grid, devices, strict=True):
+        own = table[(table["device"] == device.name) & (table["readout"] == Readout.CHANGE_OF_STRAIN)]
+        for axes, interface in zip(row, Interface, strict=True):
+            _curves(axes, own[own["interface"] == interface], styles, frequencies)
+        subtitle(row[0], device.title, INTERFACE_NAME[Interface.SHEAR])
+        subtitle(row[1], " ", INTERFACE_NAME[Interface.FRICTIONLESS])
+        row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0])).replace(" score", "\nscore"))
+        row[0].set_ylim(bottom=0.0)
+    for axes in grid[-1]:
+        axes.set_xlabel("Frequency (Hz)")
+    for axes, text in zip(grid[0], "AB", strict=True):
+        letter(axes, text)
+    legend_below(figure, styles.legend, CAPTION)
+    return figure
+
+
+def _curves(axes: Axes, rows: pd.DataFrame, styles: Styles, frequencies: Sequence[float]) -> None:
+    """One curve a condition, slow cycles to the left of a gap in the axis."""
+    slow = frequencies[0] / BELOW
+    axes.set_xscale("log")
+    axes.set_xlim(slow / np.sqrt(BELOW), frequencies[-1] * np.sqrt(BELOW))
+    axes.set_xticks([slow, *frequencies], ["slow", *(f"{each:g}" for each in frequencies)])
+    axes.minorticks_off()
+    if rows.empty:
+        note_in(axes, "no prediction")
+        return
+    axes.axvline(np.sqrt(slow * frequencies[0]), color=GREY, linewidth=0.5, linestyle=(0, (2.0, 2.0)))
+    scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
+    for (device, condition), own in rows.groupby(["device", "condition"], sort=False):
+        look = styles.series[device, condition]
+        places = own["frequency_hz"].replace(SLOWLY, slow).to_numpy(float)
+        scores = scale * own["score"].to_numpy(float)
+        for part in (slice(0, 1), slice(1, None)):
+            axes.plot(
+                places[part],
+                scores[part],
+                color=look.colour,
+                marker=look.marker,
+                linestyle=look.line,
+                fillstyle=look.fill,
+                markerfacecoloralt="white",
+                clip_on=False,
+            )

@@ -1,0 +1,160 @@
+"""Scores of a device's conditions as vibrations, at each frequency it is asked for.
+
+Receptors are read when the phase is zero, as in a snapshot. The RA-1 proxy is the change from the cycle's mean, as
+these afferents answer change, not what stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .compliance import CondensedBody, CondensedSection
+from .creep import Creep
+from .cycling import vibrate
+from .errors import ContactError, InertiaError
+from .gabor import filtered_readouts
+from .inertia import condense_vibrating, highest_frequency, inertia_effect
+from .mesh import SectionMesh
+from .resampling import resampling_to_grid
+from .roughness import NO_PREDICTION, SCORE_UNIT, roughness_score, score_span
+from .scene import Cycle, FloatArray, Interface, Readout, Scene
+from .solution import Indented, indent_device, named
+from .strain import maximum_principal
+
+SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed
+
+
+@dataclass(frozen=True)
+class Vibrating:
+    """The finger at one frequency. frequency: [Hz]. still, moving: condensed without its mass and with it."""
+
+    frequency: float
+    still: CondensedSection
+    moving: CondensedSection
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1]; note: why there is none."""
+
+    scores: dict[Readout, float]
+    inertia: float
+    note: str
+
+
+def condense_frequencies(section: SectionMesh, scene: Scene) -> Iterator[Vibrating]:
+    """The finger at the device's frequencies. Raises CondensationError."""
+    for frequency in scene.device.frequencies:
+        densities = (0.0, scene.model.vibration.density)
+        yield Vibrating(frequency, *(condense_vibrating(section, scene, frequency, each) for each in densities))
+
+
+def frequency_rows(
+    scene: Scene,
+    section: CondensedSection,
+    body: CondensedBody | None,
+    creep: Creep,
+    vibrating: Sequence[Vibrating],
+    interface: Interface,
+    note: Callable[[], object] = lambda: None,
+) -> list[dict[str, Any]]:
+    """Rows of the frequency table for one interface, slow cycles first. note: called after each row pair.
+
+    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises ContactError if the
+    device cannot be pressed onto the finger.
+    """
+    indented = indent_device(scene, section, body, interface)
+    rows = []
+    found: dict[tuple[bytes, bytes, float], Outcome] = {}
+    for cycle in scene.device.cycles:
+        for at in (None, *vibrating):
+            frequency = at.frequency if at else SLOWLY
+            stimulus = cycle.normal.tobytes(), cycle.tangential.tobytes(), frequency
+            if stimulus not in found:
+                found[stimulus] = _outcome(scene, section, creep, indented, cycle, at)
+            rows += [_row(scene, cycle, frequency, interface, each, found[stimulus]) for each in Readout]
+            note()
+    return rows
+
+
+def _outcome(
+    scene: Scene,
+    section: CondensedSection,
+    creep: Creep,
+    indented: Indented,
+    cycle: Cycle,
+    at: Vibrating | None,
+) -> Outcome:
+    """What becomes of a condition at a frequency, slowly if there is none."""
+    frequency, effect = (
+        (at.frequency, inertia_effect(scene, indented, cycle, at.still, at.moving)) if at else (SLOWLY, 0.0)
+    )
+    try:
+        _require_no_inertia(scene, frequency, effect)
+        return Outcome(vibration_scores(scene, section, creep, indented, cycle, frequency), effect, "")
+    except ContactError as error:
+        return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
+
+
+def vibration_scores(
+    scene: Scene, section: CondensedSection, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
+) -> dict[Readout, float]:
+    """Both scores [mm2] of a condition at a frequency [Hz]. Raises ContactError, naming it."""
+    what = f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {frequency:g} Hz"
+    with named(what):
+        vibration = vibrate(
+            indented.problem, section, creep, indented.state, cycle, frequency, scene.model.vibration.steps
+        )
+    readouts = cyclic_readouts(vibration.strain)
+    gabor = scene.model.gabor
+    filtered = filtered_readouts(
+        resampling_to_grid(section.arc, gabor.spacing),
+        readouts[Readout.STRAIN],
+        readouts[Readout.CHANGE_OF_STRAIN],
+        gabor,
+    )
+    span = score_span(scene.device.actuators, scene.model.readout.span_margin)
+    return {each: roughness_score(filtered.arc, filtered.filtered(each), span) for each in Readout}
+
+
+def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:
+    """Both read-outs (m,) [1] at the receptors, from strains (n_times, 3m) over a cycle that ends at phase zero."""
+    measured = np.array([maximum_principal(each) for each in strain])
+    return {Readout.STRAIN: measured[-1], Readout.CHANGE_OF_STRAIN: measured[-1] - measured.mean(axis=0)}
+
+
+def _require_no_inertia(scene: Scene, frequency: float, effect: float) -> None:
+    limit = scene.model.vibration.inertia_limit
+    if effect > limit:
+        raise InertiaError(
+            f"inertia changes receptor strain by {effect:.0%} > {limit:.0%} at {frequency:g} Hz;"
+            f" try at most {highest_frequency(frequency, effect, limit):.0f} Hz"
+        )
+
+
+def _row(
+    scene: Scene,
+    cycle: Cycle,
+    frequency: float,
+    interface: Interface,
+    readout: Readout,
+    outcome: Outcome,
+) -> dict[str, Any]:
+    """One row of the frequency table."""
+    return {
+        "device": scene.device.name,
+        "condition": cycle.name,
+        "dispersion": cycle.dispersion,
+        "phase_deg": cycle.phase_deg,
+        "frequency_hz": frequency,
+        "interface": str(interface),
+        "readout": str(readout),
+        "score": outcome.scores.get(readout),
+        "unit": SCORE_UNIT,
+        "inertia": outcome.inertia,
+        "note": outcome.note,
+    }

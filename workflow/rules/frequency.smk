@@ -1,0 +1,72 @@
+# Scores of the devices that name a frequency_hz as vibrations, at each frequency; on tissue that creeps, small kinematics.
+# Not part of `all`: ask for them with `snakemake frequency` (minutes).
+# REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz beside it, results/{device}/body.npz for deformable actuators.
+# OUTPUTS: results/small/{device}/frequency.csv, results/frequency.csv, results/figures/frequency.{png,pdf}
+
+VIBRATING = [name for name in DEVICES if SCENE[name].device.frequencies]
+
+
+rule frequency:
+    input:
+        "results/frequency.csv",
+        ["results/figures/frequency.png", "results/figures/frequency.pdf"] if VIBRATING else [],
+
+
+rule vibrate:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        recordings=ancient(recordings_of),
+        mesh="results/small/{device}/mesh.npz",
+        condensed="results/small/{device}/condensed.npz",
+        body=body_of,
+        code=code("vibrate.py"),
+    output:
+        scores="results/small/{device}/frequency.csv",
+    log:
+        "results/logs/small/{device}/vibrate.log",
+    benchmark:
+        "results/benchmarks/small/{device}/vibrate.tsv"
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=2000,
+        runtime=20,
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+    script:
+        "../scripts/vibrate.py"
+
+
+rule frequencies:
+    input:
+        scores=expand("results/small/{device}/frequency.csv", device=VIBRATING),
+        code=code("frequencies.py"),
+    output:
+        table="results/frequency.csv",
+    log:
+        "results/logs/frequencies.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/frequencies.py"
+
+
+rule figure_frequency:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient([SCENES / "devices" / f"{name}.yaml" for name in VIBRATING]),
+        recordings=ancient([path for name in VIBRATING for path in RECORDINGS[name]]),
+        table="results/frequency.csv",
+        code=code("figure_frequency.py"),
+    output:
+        png="results/figures/frequency.png",
+        pdf="results/figures/frequency.pdf",
+    log:
+        "results/logs/figure_frequency.log",
+    conda:
+        ENVIRONMENT
+    params:
+        titles=[SCENE[name].device.title for name in VIBRATING],
+    script:
+        "../scripts/figure_frequency.py"

@@ -1,0 +1,25 @@
+"""Draw scores against frequency."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.figures.frequency import frequency_figure
+from fingerpad.figures.style import save
+from fingerpad.scenefile import load_scene
+
+
+def main(config: Path, devices: list[Path], table: Path, stem: Path) -> None:
+    """Read the table, draw, write PNG and PDF."""
+    shown = [load_scene(config, path).device for path in devices]
+    save(frequency_figure(shown, pd.read_csv(table)), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        Path(job.input.table),
+        Path(job.output.png).with_suffix(""),
+    )

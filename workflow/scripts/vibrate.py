@@ -1,0 +1,37 @@
+"""Score the conditions of one device as vibrations."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.creep import condense_creep
+from fingerpad.frequency import condense_frequencies, frequency_rows
+from fingerpad.mesh import load_section
+from fingerpad.scenefile import load_scene
+from fingerpad.store import load, write_rows
+
+
+def main(config: Path, device: Path, mesh: Path, condensed: Path, body: Path | None, scores: Path) -> None:
+    """Read mesh and compliance, condense what creeps and what inertia changes, vibrate, write the rows."""
+    scene, section = load_scene(config, device), load_section(mesh)
+    maps, face = load(condensed, CondensedSection), load(body, CondensedBody) if body else None
+    creep, vibrating = condense_creep(section, scene), list(condense_frequencies(section, scene))
+    write_rows(
+        scores,
+        [
+            row
+            for interface in scene.device.interfaces()
+            for row in frequency_rows(scene, maps, face, creep, vibrating, interface)
+        ],
+    )
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.mesh),
+        Path(job.input.condensed),
+        Path(job.input.body) if job.input.body else None,
+        Path(job.output.scores),
+    )
