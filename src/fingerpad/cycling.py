@@ -11,6 +11,7 @@ would take hundreds of cycles to settle; each cycle begins with the w_k that its
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -90,7 +91,7 @@ def vibrate(
             target = before.actuator + growth * displacement(cycle, phase)
             moment = _stepped(stepping, creep, before, moment, target)
             moments.append(moment)
-        strain = np.array([_strain(section, creep, before, each) for each in moments])
+        strain = _strain(section, creep, before, moments)
         then, watched = watched, [strain[-1], strain[-1] - strain.mean(axis=0)]
         if number > 1 and all(map(_repeated, watched, then)):
             return Vibration([each.state for each in moments], strain, number + 1)
@@ -142,15 +143,14 @@ def _stepped(stepping: Stepping, creep: Creep, before: ContactState, start: Mome
 def _left(stepping: Stepping, creep: Creep, before: ContactState, kept: FloatArray) -> FloatArray:
     """Displacement (n, 2) [mm] of contact nodes besides C_h f, from what is kept of w (k, n, 2) [N/mm]."""
     forces = kept + (1.0 - stepping.following) * before.force
-    return np.asarray(_answer(creep.compliance, forces).reshape(-1, 2))
+    return np.asarray(np.matmul(creep.compliance, forces.reshape(*creep.time.shape, -1, 1)).sum(axis=0).reshape(-1, 2))
 
 
-def _strain(section: CondensedSection, creep: Creep, before: ContactState, moment: Moment) -> FloatArray:
-    """Strain (3m,) [1] at the receptors: that of relaxed tissue, less what has not crept yet."""
-    force = moment.state.force
-    return np.asarray(section.strain @ force.ravel() - _answer(creep.strain, force - before.force - moment.memory))
-
-
-def _answer(maps: FloatArray, forces: FloatArray) -> FloatArray:
-    """Sum over all terms of maps (k, i, 2n) of forces (k, n, 2) [N/mm]."""
-    return np.asarray(np.einsum("kij,kj->i", maps, forces.reshape(forces.shape[0], -1)))
+def _strain(section: CondensedSection, creep: Creep, before: ContactState, moments: Sequence[Moment]) -> FloatArray:
+    """Strain (n_times, 3m) [1] at the receptors: that of relaxed tissue, less what has not crept yet."""
+    forces = np.array([each.state.force for each in moments])
+    left = np.array([each.state.force - before.force - each.memory for each in moments])
+    crept = [
+        maps @ own.reshape(forces.shape[0], -1).T for maps, own in zip(creep.strain, left.swapaxes(0, 1), strict=True)
+    ]
+    return section.receptor_strain(forces) - np.sum(crept, axis=0).T

@@ -9,6 +9,7 @@ import pandas as pd
 
 from .benchmark.ladder import OWN_LADDER
 from .closedforms.comparison import ORDER_OF
+from .scene import Interface, Readout
 
 AIM = 0.005  # error [1] that every score should keep; source: the project's aim
 COMPARED_AT = 0.01  # error [1] at which run times are compared
@@ -168,3 +169,58 @@ def _compared(ladder: pd.DataFrame, error: pd.Series) -> str:
         "Times as long as fingerpad, each on its cheapest mesh with an error of at most"
         f" {PERCENT * COMPARED_AT:g} %:\n\n{table(pd.DataFrame(rows))}"
     )
+
+
+def frequency_values(frequencies: pd.DataFrame) -> dict[str, object]:
+    """What `workflow/pages/frequency.md` asks for, from results/frequency.csv."""
+    shear = frequencies[frequencies["interface"] == Interface.SHEAR]
+    change = shear[shear["readout"] == Readout.CHANGE_OF_STRAIN]
+    scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)
+    scores = scores.reindex(columns=sorted(scores.columns))
+    spread = PERCENT * (scores.max(axis=1) / scores.min(axis=1) - 1.0)
+    shown = (1e3 * scores).map("{:.3f}".format).replace("nan", "")
+    shown.columns = pd.Index([_frequency(each) for each in shown.columns])
+    worst = shear.groupby(["device", "frequency_hz"], sort=False)["inertia"].max()
+    refused = change[change["score"].isna()].groupby(["device", "frequency_hz"]).size()
+    inertia = worst.rename("inertia").to_frame().assign(refused=refused).fillna({"refused": 0}).reset_index()
+    inertia = inertia[inertia["frequency_hz"] > 0.0]
+    first = change[change["device"] == change["device"].iloc[0]]
+    highest = first.dropna(subset="score")["frequency_hz"].max()
+    dispersions = first[first["frequency_hz"] == highest].groupby("dispersion", sort=False)
+    rising = [group.sort_values("phase_deg")["score"].is_monotonic_increasing for _, group in dispersions]
+    return {
+        "scores": table(shown.reset_index()),
+        "spread": f"{spread.min():.0f} to {spread.max():.0f} %",
+        "orders": table(_orders(scores)),
+        "highest": f"{highest:g}",
+        "rising": sum(rising),
+        "dispersions": len(rising),
+        "inertia": table(
+            inertia.assign(
+                frequency_hz=inertia["frequency_hz"].map("{:g}".format),
+                inertia=_percent(inertia["inertia"]),
+                refused=inertia["refused"].astype(int),
+            )
+        ),
+    }
+
+
+def _frequency(frequency: float) -> str:
+    return f"{frequency:g} Hz" if frequency > 0.0 else "slow"
+
+
+def _orders(scores: pd.DataFrame) -> pd.DataFrame:
+    """Per device and frequency whether conditions come in the order of slow cycles: Kendall's tau, and how many there
+    are.
+    """
+    slow = scores.columns[0]
+    rows = []
+    for device, own in scores.groupby(level="device", sort=False):
+        for frequency in scores.columns[1:]:
+            both = own[[slow, frequency]].dropna()
+            if len(both) > 1:
+                tau = both[slow].corr(both[frequency], method="kendall")
+                rows.append(
+                    {"device": device, "at": _frequency(frequency), "conditions": len(both), "tau": f"{tau:.2f}"}
+                )
+    return pd.DataFrame(rows)

@@ -1,6 +1,6 @@
 # Pages of docs/ that say what was measured. They need every long target; not part of `all`: `snakemake pages`.
-# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress and benchmark.
-# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/figures/*.png
+# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark and frequency.
+# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/figures/*.png
 
 MEASURED_FIGURES = ["accuracy_closed_forms.png", "benchmark.png"]
 
@@ -9,6 +9,7 @@ rule pages:
     input:
         "docs/accuracy.md",
         "docs/skipping.md",
+        "docs/frequency.md",
 
 
 rule accuracy_page:
@@ -50,3 +51,20 @@ rule skipping_page:
         ENVIRONMENT
     script:
         "../scripts/skipping_page.py"
+
+
+rule frequency_page:
+    input:
+        template=BASE / "workflow" / "pages" / "frequency.md",
+        table="results/frequency.csv",
+        figure="results/figures/frequency.png",
+        code=code("frequency_page.py"),
+    output:
+        page="docs/frequency.md",
+        figure="docs/figures/frequency.png",
+    log:
+        "results/logs/frequency_page.log",
+    conda:
+        ENVIRONMENT
+    script:
+        "../scripts/frequency_page.py"

@@ -1,0 +1,27 @@
+"""Write the page of scores against frequency."""
+
+import shutil
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.files import write_text
+from fingerpad.pages import filled, frequency_values
+
+
+def main(template: Path, table: Path, figure: Path, page: Path, shown: Path) -> None:
+    """Read template and table, write the page, and the figure beside it."""
+    values = frequency_values(pd.read_csv(table))
+    write_text(page, filled(template.read_text(encoding="utf-8"), values))
+    shutil.copyfile(figure, shown)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.template),
+        Path(job.input.table),
+        Path(job.input.figure),
+        Path(job.output.page),
+        Path(job.output.figure),
+    )
