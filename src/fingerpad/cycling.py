@@ -150,7 +150,5 @@ def _strain(section: CondensedSection, creep: Creep, before: ContactState, momen
     """Strain (n_times, 3m) [1] at the receptors: that of relaxed tissue, less what has not crept yet."""
     forces = np.array([each.state.force for each in moments])
     left = np.array([each.state.force - before.force - each.memory for each in moments])
-    crept = [
-        maps @ own.reshape(forces.shape[0], -1).T for maps, own in zip(creep.strain, left.swapaxes(0, 1), strict=True)
-    ]
-    return section.receptor_strain(forces) - np.sum(crept, axis=0).T
+    crept = np.matmul(creep.strain, left.reshape(*left.shape[:2], -1).transpose(1, 2, 0)).sum(axis=0)
+    return np.asarray(section.receptor_strain(forces) - crept.T)
