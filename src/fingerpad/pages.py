@@ -171,8 +171,8 @@ def _compared(ladder: pd.DataFrame, error: pd.Series) -> str:
     )
 
 
-def frequency_values(frequencies: pd.DataFrame) -> dict[str, object]:
-    """What `workflow/pages/frequency.md` asks for, from results/frequency.csv."""
+def frequency_values(frequencies: pd.DataFrame, variants: pd.DataFrame) -> dict[str, object]:
+    """What `workflow/pages/frequency.md` asks for, from results/frequency.csv and frequency_variants.csv."""
     shear = frequencies[frequencies["interface"] == Interface.SHEAR]
     change = shear[shear["readout"] == Readout.CHANGE_OF_STRAIN]
     scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)
@@ -192,6 +192,8 @@ def frequency_values(frequencies: pd.DataFrame) -> dict[str, object]:
         "scores": table(shown.reset_index()),
         "spread": f"{spread.min():.0f} to {spread.max():.0f} %",
         "orders": table(_orders(scores)),
+        "varied_at": f"{variants['frequency_hz'].iloc[0]:g}",
+        "variants": table(_varied(variants)),
         "highest": f"{highest:g}",
         "rising": sum(rising),
         "dispersions": len(rising),
@@ -223,4 +225,20 @@ def _orders(scores: pd.DataFrame) -> pd.DataFrame:
                 rows.append(
                     {"device": device, "at": _frequency(frequency), "conditions": len(both), "tau": f"{tau:.2f}"}
                 )
+    return pd.DataFrame(rows)
+
+
+def _varied(variants: pd.DataFrame) -> pd.DataFrame:
+    """Per device and assumption how far scores of the change of strain move, and whether their order stays."""
+    scores = variants.pivot_table(
+        str(Readout.CHANGE_OF_STRAIN), ["device", "condition"], "assumption", sort=False, dropna=False
+    )
+    shipped, *others = variants["assumption"].drop_duplicates()
+    rows = []
+    for device, own in scores.groupby(level="device", sort=False):
+        for other in others:
+            moved = PERCENT * (own[other] / own[shipped] - 1.0)
+            tau = own[shipped].corr(own[other], method="kendall")
+            change = f"{moved.min():+.0f} to {moved.max():+.0f} %"
+            rows.append({"device": device, "assumption": other, "change": change, "tau": f"{tau:.2f}"})
     return pd.DataFrame(rows)

@@ -1,9 +1,11 @@
 # Scores of the devices that name a frequency_hz as vibrations, at each frequency; on tissue that creeps, small kinematics.
 # Not part of `all`: ask for them with `snakemake frequency` (minutes).
 # REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz beside it, results/{device}/body.npz for deformable actuators.
-# OUTPUTS: results/small/{device}/frequency.csv, results/frequency.csv, results/figures/frequency.{png,pdf}
+# OUTPUTS: results/small/{device}/frequency.csv, frequency_variants.csv beside it, both of all devices in
+# results, results/figures/frequency.{png,pdf}
 
 VIBRATING = [name for name in DEVICES if SCENE[name].device.frequencies]
+VARIED_AT = 40.0  # Hz: where other assumptions on how tissue relaxes are tried
 
 
 rule frequency:
@@ -38,12 +40,41 @@ rule vibrate:
         "../scripts/vibrate.py"
 
 
+rule frequency_variants:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        recordings=ancient(recordings_of),
+        mesh="results/small/{device}/mesh.npz",
+        condensed="results/small/{device}/condensed.npz",
+        body=body_of,
+        code=code("frequency_variants.py"),
+    output:
+        table="results/small/{device}/frequency_variants.csv",
+    log:
+        "results/logs/small/{device}/frequency_variants.log",
+    benchmark:
+        "results/benchmarks/small/{device}/frequency_variants.tsv"
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=2000,
+        runtime=20,
+    params:
+        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+        frequency=VARIED_AT,
+    script:
+        "../scripts/frequency_variants.py"
+
+
 rule frequencies:
     input:
         scores=expand("results/small/{device}/frequency.csv", device=VIBRATING),
+        variants=expand("results/small/{device}/frequency_variants.csv", device=VIBRATING),
         code=code("frequencies.py"),
     output:
         table="results/frequency.csv",
+        variants="results/frequency_variants.csv",
     log:
         "results/logs/frequencies.log",
     conda:

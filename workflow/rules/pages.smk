@@ -57,6 +57,7 @@ rule frequency_page:
     input:
         template=BASE / "workflow" / "pages" / "frequency.md",
         table="results/frequency.csv",
+        variants="results/frequency_variants.csv",
         figure="results/figures/frequency.png",
         code=code("frequency_page.py"),
     output:

@@ -9,9 +9,9 @@ from fingerpad.files import write_text
 from fingerpad.pages import filled, frequency_values
 
 
-def main(template: Path, table: Path, figure: Path, page: Path, shown: Path) -> None:
-    """Read template and table, write the page, and the figure beside it."""
-    values = frequency_values(pd.read_csv(table))
+def main(template: Path, table: Path, variants: Path, figure: Path, page: Path, shown: Path) -> None:
+    """Read template and tables, write the page, and the figure beside it."""
+    values = frequency_values(pd.read_csv(table), pd.read_csv(variants))
     write_text(page, filled(template.read_text(encoding="utf-8"), values))
     shutil.copyfile(figure, shown)
 
@@ -21,6 +21,7 @@ if __name__ == "__main__":
     main(
         Path(job.input.template),
         Path(job.input.table),
+        Path(job.input.variants),
         Path(job.input.figure),
         Path(job.output.page),
         Path(job.output.figure),

@@ -29,10 +29,11 @@ from .style import (
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 48.0, 22.0  # mm
+HEADROOM = 0.1  # above the highest point, of the axis [1]
 BELOW = 2.0  # slow cycles are drawn at this part of the lowest frequency [1]
 CAPTION = (
     "Small strain, viscoelastic. Slow: tissue is always relaxed. Change of strain at phase zero from the cycle's mean."
-    " Missing points: inertia matters, no prediction."
+    " Marks on the axis: frequencies asked for; where a point is missing inertia matters, and there is no prediction."
 )
 
 
@@ -49,10 +50,11 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
     for row, device in zip(grid, devices, strict=True):
         own = table[(table["device"] == device.name) & (table["readout"] == Readout.CHANGE_OF_STRAIN)]
         for axes, interface in zip(row, Interface, strict=True):
-            _curves(axes, own[own["interface"] == interface], styles, frequencies)
+            _curves(axes, own[own["interface"] == interface], styles, frequencies, device.frequencies)
         subtitle(row[0], device.title, INTERFACE_NAME[Interface.SHEAR])
         subtitle(row[1], " ", INTERFACE_NAME[Interface.FRICTIONLESS])
         row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0])).replace(" score", "\nscore"))
+        row[0].margins(y=HEADROOM)
         row[0].set_ylim(bottom=0.0)
     for axes in grid[-1]:
         axes.set_xlabel("Frequency (Hz)")
@@ -62,12 +64,14 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
     return figure
 
 
-def _curves(axes: Axes, rows: pd.DataFrame, styles: Styles, frequencies: Sequence[float]) -> None:
-    """One curve a condition, slow cycles to the left of a gap in the axis."""
+def _curves(
+    axes: Axes, rows: pd.DataFrame, styles: Styles, frequencies: Sequence[float], asked: Sequence[float]
+) -> None:
+    """One curve a condition, slow cycles to the left of a gap in the axis; marks at the frequencies asked for."""
     slow = frequencies[0] / BELOW
     axes.set_xscale("log")
     axes.set_xlim(slow / np.sqrt(BELOW), frequencies[-1] * np.sqrt(BELOW))
-    axes.set_xticks([slow, *frequencies], ["slow", *(f"{each:g}" for each in frequencies)])
+    axes.set_xticks([slow, *asked], ["slow", *(f"{each:g}" for each in asked)])
     axes.minorticks_off()
     if rows.empty:
         note_in(axes, "no prediction")

@@ -1,0 +1,33 @@
+"""Score vibrations of one device, with shear, under other assumptions on how tissue relaxes."""
+
+from pathlib import Path
+
+from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.frequency import variant_rows
+from fingerpad.mesh import load_section
+from fingerpad.scene import Interface
+from fingerpad.scenefile import load_scene
+from fingerpad.solution import indent_device
+from fingerpad.store import load, write_rows
+
+
+def main(
+    config: Path, device: Path, mesh: Path, condensed: Path, body: Path | None, frequency: float, table: Path
+) -> None:
+    """Read mesh and compliance, press, vibrate under each assumption, write the scores."""
+    scene, maps = load_scene(config, device), load(condensed, CondensedSection)
+    indented = indent_device(scene, maps, load(body, CondensedBody) if body else None, Interface.SHEAR)
+    write_rows(table, variant_rows(scene, load_section(mesh), maps, indented, frequency))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Path(job.input.mesh),
+        Path(job.input.condensed),
+        Path(job.input.body) if job.input.body else None,
+        job.params.frequency,
+        Path(job.output.table),
+    )
