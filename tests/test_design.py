@@ -12,10 +12,11 @@ from fingerpad.accuracy import COARSENING, with_errors
 from fingerpad.design import Pad, Pressed, answer, condense_pad, press
 from fingerpad.edges import edge_intervals
 from fingerpad.errors import SceneError
-from fingerpad.figures.design import design_figure
+from fingerpad.figures.design import DesignPicture
+from fingerpad.figures.style import SCORE_SCALE
 from fingerpad.prediction import condense_scene, predicted_rows, rows_at
 from fingerpad.scene import Interface, Readout
-from fingerpad.solution import indent_device
+from fingerpad.symmetry import mirrors
 from scenes import scene
 
 DEVICE = "device2"
@@ -69,16 +70,10 @@ def test_scores_are_the_devices_within_the_errors_of_both(condition: str, interf
         assert abs(row["score"] - reference["score"]) < allowed
 
 
-def test_other_skin_bears_nothing() -> None:
-    """Taking the skin under the row alone changes nothing: on all of the pad's skin, receptors are strained the same,
-    but for where pre-indentation ends, 1e-4 mm in 1.6."""
-    fine, _ = pressed(0.6)
-    own, all_skin = fine.skin.section, pad().fine.section
-    assert own.position.shape[0] < all_skin.position.shape[0]
-    everywhere = indent_device(fine.scene, all_skin, None, Interface.SHEAR)
-    strain = own.strain @ fine.indented.state.force.ravel()
-    expected_strain = all_skin.strain @ everywhere.state.force.ravel()
-    assert np.abs(strain - expected_strain).max() < 1e-4 * np.abs(expected_strain).max()
+@pytest.mark.parametrize("pitch", [1.4, PITCH])
+def test_rows_are_pressed_by_halves(pitch: float) -> None:
+    """Also where the mid-line is within reach of the pins."""
+    assert all(mirrors(each.indented.problem) for each in press(pad(), pitch, WIDTH, 0.6))
 
 
 def test_up_and_down_is_another_stimulus() -> None:
@@ -94,10 +89,41 @@ def test_pins_that_overlap_are_refused() -> None:
         press(pad(), 1.0, 1.2, 0.6)
 
 
-def test_figure_shows_both_designs() -> None:
-    """Three panels of curves, two of scores, with a bar for the design and one for that before."""
+def test_picture_shows_both_designs() -> None:
+    """Bars are as high as the scores, and the design before stands at the left; without one there is none."""
+    picture = DesignPicture(4)
     one, other = (answer(pressed(0.6), AMPLITUDE, phase, True) for phase in (90.0, 180.0))
-    for before, bars in ((None, 1), (other, 2)):
-        figure = design_figure(one, before)
-        drawn = [axes for axes in figure.axes if axes.patches and "score" in axes.get_ylabel()]
-        assert [len(axes.patches) for axes in drawn] == [bars, bars]
+    for now, before in ((one, None), (other, one)):
+        picture.show(now, before)
+        scores = [axes for axes in picture.figure.axes if "score" in axes.get_ylabel()]
+        heights = [
+            [bar.get_height() / SCORE_SCALE[each][0] for bar in axes.patches]
+            for each, axes in zip(Readout, scores, strict=True)
+        ]
+        expected_heights = [
+            [row["score"] if row else 0.0 for row in rows]
+            for rows in zip(before.rows if before else (None, None), now.rows, strict=True)
+        ]
+        assert np.allclose(heights, expected_heights)
+
+
+def test_picture_is_the_same_from_a_kept_background() -> None:
+    """Drawn on the background of an equal design as drawn anew."""
+    found = answer(pressed(0.6), AMPLITUDE, 180.0, True)
+    fresh, kept = DesignPicture(4), DesignPicture(4)
+    fresh.show(found, found)
+    for _ in range(2):
+        kept.show(found, found)
+    assert kept.png() == fresh.png()
+
+
+def test_axes_hold_what_is_drawn() -> None:
+    picture = DesignPicture(4)
+    for amplitude in (0.005, 0.05):
+        picture.show(answer(pressed(0.6), amplitude, 180.0, True))
+        for axes in picture.figure.axes:
+            (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+            for line in axes.lines:
+                x, y = line.get_data()
+                shown = np.asarray(y)[(np.asarray(x) >= left) & (np.asarray(x) <= right)]
+                assert not np.any((shown < low) | (shown > high))

@@ -57,13 +57,6 @@ class ContactProblem:
     free: FloatArray | None = None
 
     @cached_property
-    def by_component(self) -> FloatArray:
-        """The compliance ordered x0, x1, ..., y0, y1, ... (2n, 2n) [mm per N/mm]."""
-        count = self.position.shape[0]
-        order = np.arange(2 * count).reshape(count, 2).T.ravel()
-        return np.asarray(self.compliance.take(order, 0).take(order, 1))
-
-    @cached_property
     def actuator_of(self) -> np.ndarray:
         """Index (n,) of the actuator nearest to each undeformed node: the only one that it can touch."""
         return np.asarray(np.argmin(np.abs(self.position[:, [0]] - np.asarray(self.row.positions)), axis=1))
@@ -149,7 +142,7 @@ def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
 
 def displacement(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
     """Displacement (n, 2) [mm] of the skin relative to the actuators' bases: C f and what their faces give way."""
-    moved = (problem.by_component @ force.T.ravel()).reshape(2, -1).T
+    moved = (problem.compliance @ force.ravel()).reshape(-1, 2)
     if problem.body is None or there is None:
         return np.asarray(moved)
     actuators, size = len(problem.row.positions), problem.body.coordinate.size

@@ -1,7 +1,7 @@
 """Designs of a row of rigid pins, each answered in a fraction of a second on a finger that is condensed once.
 
-The finger is condensed to all skin within reach; a design takes the skin under its pins. The skin is equally fine
-everywhere, as no edge has a place of its own. A second condensation, whose elements are twice as large, gives every
+The finger is condensed to all skin within reach of any design, and is equally fine everywhere, as no edge has a place
+of its own. A second condensation, whose elements are twice as large, gives every
 score its error as in the workflow (`accuracy`): the difference of both, which is the error of the first order and more
 than that of any higher.
 """
@@ -47,7 +47,7 @@ class Pad:
 
 @dataclass(frozen=True)
 class Pressed:
-    """A row pressed onto a finger. scene: the row at rest. skin: what of the finger lies under it."""
+    """A row pressed onto a finger. scene: the row at rest. skin: that it is pressed onto."""
 
     scene: Scene
     skin: Condensed
@@ -58,8 +58,8 @@ class Pressed:
 class Answer:
     """What a design feels like.
 
-    scene: of the design, with one condition. section: the skin under its pins. solution, readouts: on the finer mesh.
-    rows: of the score table, with errors.
+    scene: of the design, with one condition. section, solution, readouts: on the finer mesh. rows: of the score table,
+    with errors.
     """
 
     scene: Scene
@@ -113,17 +113,18 @@ def answer(pressed: tuple[Pressed, Pressed], amplitude: float, phase_deg: float,
     return replace(fine, rows=with_errors(fine.rows, coarse.rows))
 
 
-def under_row(section: CondensedSection, row: ActuatorRow) -> CondensedSection:
-    """The section with those contact nodes alone that lie under a pin or within ROOM of one: others bear nothing."""
-    distance = np.min(np.abs(section.position[:, [0]] - np.asarray(row.positions)), axis=1)
-    kept = np.flatnonzero(distance <= row.width / 2.0 + ROOM)
+def without_middle(section: CondensedSection) -> CondensedSection:
+    """The section without a contact node on the mid-line, where rows of an even number have no pin: rows that mirror
+    are then pressed by halves.
+    """
+    kept = np.flatnonzero(section.position[:, 0] != 0.0)
     unknowns = (2 * kept[:, None] + np.arange(2)).ravel()
     return replace(
         section,
         position=section.position[kept],
         weight=section.weight[kept],
         compliance=section.compliance[np.ix_(unknowns, unknowns)],
-        strain=section.strain[:, unknowns],
+        strain=np.ascontiguousarray(section.strain[:, unknowns]),
     )
 
 
@@ -144,9 +145,10 @@ def _condensed(scene: Scene, reach: float) -> Condensed:
     one = ActuatorRow((0.0,), 2.0 * reach, 0.0)
     covered = Scene(scene.model, Device(NAME, NAME, Control.DISPLACEMENT, one, (_condition(1, 0.0, 0.0, True),)))
     section = condense_section(mesh_section(covered, np.array([[0.0, reach]])), covered)
+    if len(scene.device.actuators.positions) % 2 == 0:
+        section = without_middle(section)
     return Condensed(section, None, resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 
 def _pressed(scene: Scene, skin: Condensed) -> Pressed:
-    own = replace(skin, section=under_row(skin.section, scene.device.actuators))
-    return Pressed(scene, own, indent_device(scene, own.section, None, Interface.SHEAR))
+    return Pressed(scene, skin, indent_device(scene, skin.section, None, Interface.SHEAR))

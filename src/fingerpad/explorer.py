@@ -11,8 +11,7 @@ import ipywidgets
 
 from .design import Answer, Pad, Pressed, answer, press
 from .errors import FingerpadError
-from .figures.design import design_figure
-from .figures.style import as_png
+from .figures.design import DesignPicture
 from .scene import Scene
 
 # smallest, largest value and step of each slider, in the unit that its label names
@@ -31,7 +30,6 @@ LABELS = {
     "amplitude": "amplitude [mm]",
 }
 START = {"pitch": 2.5, "width": 1.0, "friction": 0.6, "phase": 180.0, "amplitude": 0.02}  # Device 2
-RESOLUTION = 110.0  # of the picture [dots per inch]
 KEPT = 32  # pressed rows that are remembered [1]: moving a slider back takes no time
 
 
@@ -49,6 +47,7 @@ class Explorer:
 
     def __init__(self, pad: Pad) -> None:
         self._pressed = lru_cache(maxsize=KEPT)(lambda *row: press(pad, *row))
+        self._drawing = DesignPicture(len(pad.scene.device.actuators.positions))
         self._shown: Answer | None = None
         self.seconds = self.processor_seconds = 0.0
         self.sliders: dict[str, Any] = {
@@ -77,7 +76,8 @@ class Explorer:
         except FingerpadError as error:
             self.message.value = f"No answer: {escape(str(error))}. The picture is that of the design before."
         else:
-            self.picture.value = as_png(design_figure(found, self._shown), RESOLUTION)
+            self._drawing.show(found, self._shown)
+            self.picture.value = self._drawing.png()
             self._shown = found
             self.message.value = ""
         self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start

@@ -264,8 +264,8 @@ def _holds(patch: Patch, nodes: np.ndarray, count: int) -> bool:
 
 def _patch(problem: ContactProblem, nodes: np.ndarray, there: Touch | None) -> Patch:
     """Stiffness of some nodes, all other nodes unloaded. Raises NotConvergedError if their compliance is singular."""
-    unknowns = np.concatenate([nodes, problem.position.shape[0] + nodes])
-    compliance = problem.by_component.take(unknowns, 0).take(unknowns, 1)
+    unknowns = np.concatenate([2 * nodes, 2 * nodes + 1])
+    compliance = problem.compliance.take(unknowns, 0).take(unknowns, 1)
     if there is not None:
         compliance += face_compliance(problem, there, nodes)
     held = np.flatnonzero(np.diag(compliance) == 0.0)

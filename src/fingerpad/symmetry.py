@@ -40,16 +40,11 @@ def mirrors(problem: ContactProblem) -> bool:
 
 def fold(problem: ContactProblem) -> ContactProblem:
     """The right half's problem, its compliance under loads that mirror."""
-    count = problem.position.shape[0]
-    half = count // 2
-    right = np.arange(2 * half, 2 * count)
+    half = problem.position.shape[0] // 2
+    of_right = problem.compliance[2 * half :]
     # the left image of right node j is node count - 1 - j; its x and y unknowns keep their order
-    nodes = np.arange(half, count)
-    left = (2 * (count - 1 - nodes)[:, None] + np.arange(2)).ravel()
-    compliance = problem.compliance[np.ix_(right, right)] + problem.compliance[np.ix_(right, left)] * np.tile(
-        MIRROR, half
-    )
-    return replace(half_of(problem), compliance=compliance)
+    of_images = (of_right[:, : 2 * half].reshape(-1, half, 2)[:, ::-1] * MIRROR).reshape(-1, 2 * half)
+    return replace(half_of(problem), compliance=of_right[:, 2 * half :] + of_images)
 
 
 def half_of(problem: ContactProblem) -> ContactProblem:

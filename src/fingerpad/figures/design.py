@@ -1,24 +1,35 @@
-"""What a design does to the skin, and how rough it feels, at a glance: made to be drawn anew at every change."""
+"""What a design does to the skin, and how rough it feels, at a glance: laid out once, drawn anew at every change."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any
+
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+from matplotlib.text import Text
+from PIL import Image
 
 from ..design import Answer
-from ..roughness import score_span
+from ..roughness import SCORE_UNIT, score_span
 from ..scene import FloatArray, Readout
-from .receptors import draw_faces, face_arcs
+from .receptors import face_arcs
 from .style import (
     BLUE,
+    DASHED,
     GREY,
     LINE,
     MM,
     PERCENT,
     READOUT_NAME,
     SCORE_SCALE,
+    SHADE,
     THIN,
     VERMILLION,
     WIDE,
@@ -27,57 +38,167 @@ from .style import (
 )
 
 HEIGHT = 105.0  # mm
+RESOLUTION = 110.0  # of the picture [dots per inch]
 EDGES = {"left": 0.09, "right": 0.985, "bottom": 0.1, "top": 0.94, "wspace": 0.3, "hspace": 0.2}  # of the figure [1]
 WIDTHS = (3.2, 1.0)  # of the columns, relative
 KILO = 1e3  # kPa in a MPa
 HEADROOM = 1.25  # of the scores' axis beyond the larger [1]
+BAR = 0.7  # width of a score's bar, of the distance between both [1]
 NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]
-TICKS = 3  # intervals of a vertical axis at most [1]
-BEFORE, NOW = 0.0, 1.0  # places of both scores [1]
+TICKS = 4  # intervals of a vertical axis at most [1]
+STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)  # between ticks, but for powers of ten [1]
+PLACES = {"before": 0.0, "now": 1.0}  # of both scores [1]
+PNG_LEVEL = 1  # of 9; source: fewest seconds (measured), for a picture that is read where it is made
 
 
-@styled
-def design_figure(answer: Answer, before: Answer | None = None) -> Figure:
+@dataclass(frozen=True)
+class _Design:
+    """The artists that show one design: tractions, and by read-out curve, score, its error and its number."""
+
+    pressure: Line2D
+    shear: Line2D
+    curves: dict[Readout, Line2D]
+    bars: dict[Readout, Rectangle]
+    errors: dict[Readout, Line2D]
+    numbers: dict[Readout, Text]
+
+    def artists(self) -> list[Artist]:
+        """All of them, the lowest first."""
+        by_readout = (self.curves, self.bars, self.errors, self.numbers)
+        return [self.pressure, self.shear, *(artist for group in by_readout for artist in group.values())]
+
+
+class DesignPicture:
     """Contact tractions, strain and change of strain at the receptors, and both scores with their errors.
 
-    before: the answer of an earlier design, in grey beside the new one.
+    Axes and artists are made once, and drawn onto a background that is kept while no axis changes: to make them takes
+    longer than to draw them, and to draw axes and their ticks longer than the solution.
     """
-    # laid out by hand: a layout engine would take longer than the solution
-    figure = Figure(figsize=(WIDE * MM, HEIGHT * MM))
-    places = figure.add_gridspec(1 + len(Readout), 2, width_ratios=WIDTHS, **EDGES)
-    left = [figure.add_subplot(places[line, 0]) for line in range(1 + len(Readout))]
-    right = [figure.add_subplot(places[1 + line, 1]) for line in range(len(Readout))]
-    span = score_span(answer.scene.device.actuators, answer.scene.model.readout.span_margin)
-    for axes in left:
-        axes.set_xlim(*span)
-    if before:
-        _draw_tractions(left[0], before, (GREY, GREY))
-    _draw_tractions(left[0], answer, (BLUE, VERMILLION))
-    left[0].set_ylabel("Traction (kPa)")
-    left[0].legend(
-        handles=[
-            Line2D([], [], color=BLUE, label="pressure"),
-            Line2D([], [], color=VERMILLION, label="shear"),
-            *([Line2D([], [], color=GREY, label="before")] if before else []),
-        ],
-        loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=3, borderaxespad=0.0,
-    )  # fmt: skip
-    for axes, bars, readout in zip(left[1:], right, Readout, strict=True):
-        draw_faces(axes, face_arcs(answer.scene.device, answer.section))
-        if before:
-            axes.plot(before.readouts.arc, PERCENT * _read(before, readout), color=GREY)
-        axes.plot(answer.readouts.arc, PERCENT * _read(answer, readout), color=BLUE)
-        axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        _draw_scores(bars, readout, answer, before)
-    left[1].set_ylim(bottom=0.0)
-    for axes in (*left[:-1], *right[:-1]):  # ticks take most of the time, and those at the bottom hold for all
-        axes.set_xticks([])
-    for axes in (*left, *right):
-        axes.locator_params(axis="y", nbins=TICKS)
-    indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status)
-    figure.text(*NOTE, f"indentation {indentation:.2f} mm\n{nodes} nodes in contact", color=GREY, va="top")
-    left[-1].set_xlabel("x on the skin, arc length along the receptor line (mm)")
-    return figure
+
+    @styled
+    def __init__(self, pins: int) -> None:
+        """An empty picture for rows of so many pins."""
+        # laid out by hand: a layout engine would take longer than the solution
+        self.figure = Figure(figsize=(WIDE * MM, HEIGHT * MM), dpi=RESOLUTION)
+        self._canvas: Any = FigureCanvasAgg(self.figure)
+        places = self.figure.add_gridspec(1 + len(Readout), 2, width_ratios=WIDTHS, **EDGES)
+        self._tractions = self.figure.add_subplot(places[0, 0])
+        self._strains = {each: self.figure.add_subplot(places[1 + n, 0]) for n, each in enumerate(Readout)}
+        self._scores = {each: self.figure.add_subplot(places[1 + n, 1]) for n, each in enumerate(Readout)}
+        self._faces = [
+            axes.axvspan(0.0, 0.0, color=SHADE, linewidth=0.0, zorder=0)
+            for axes in self._strains.values()
+            for _ in range(pins)
+        ]
+        self._label_axes()
+        self._before = self._design("before", (GREY, GREY, GREY))
+        self._now = self._design("now", (BLUE, VERMILLION, BLUE))
+        self._note = self.figure.text(*NOTE, "", color=GREY, va="top")
+        self._moving = [*self._faces, *self._before.artists(), *self._now.artists(), self._note]
+        for artist in self._moving:
+            artist.set_animated(True)
+        self._limits: tuple[float, ...] = ()
+        self._background: Any = None
+
+    def _label_axes(self) -> None:
+        """What stays: names, units, ticks, legend."""
+        self._tractions.axhline(0.0, color=GREY, linewidth=THIN)
+        self._tractions.set_ylabel("Traction (kPa)")
+        self._tractions.legend(
+            handles=[
+                Line2D([], [], color=BLUE, label="pressure"),
+                Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear"),
+                Line2D([], [], color=GREY, label="design before"),
+            ],
+            loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=3, borderaxespad=0.0,
+        )  # fmt: skip
+        for readout in Readout:
+            self._strains[readout].set_ylabel(f"{READOUT_NAME[readout]} (%)")
+            self._scores[readout].set_ylabel(score_label(readout, SCORE_UNIT).replace(" score", "\nscore"))
+            self._scores[readout].set_xlim(-0.6, 1.6)
+        left, right = [self._tractions, *self._strains.values()], list(self._scores.values())
+        for axes in (*left[:-1], *right[:-1]):  # ticks take most of the time, and those at the bottom hold for all
+            axes.set_xticks([])
+        for axes in (*left, *right):
+            axes.locator_params(axis="y", nbins=TICKS, steps=STEPS)
+        right[-1].set_xticks(list(PLACES.values()), list(PLACES))
+        left[-1].set_xlabel("x on the skin, arc length along the receptor line (mm)")
+
+    def _design(self, name: str, colours: tuple[str, str, str]) -> _Design:
+        """Artists without data, in the colours of pressure, shear and read-outs."""
+        pressure, shear, read = colours
+        return _Design(
+            self._tractions.plot([], [], color=pressure)[0],
+            self._tractions.plot([], [], color=shear, linestyle=DASHED)[0],
+            {each: axes.plot([], [], color=read)[0] for each, axes in self._strains.items()},
+            {each: axes.bar(PLACES[name], 0.0, color=read, width=BAR)[0] for each, axes in self._scores.items()},
+            {each: axes.plot([], [], color="black", linewidth=LINE)[0] for each, axes in self._scores.items()},
+            {each: axes.text(PLACES[name], 0.0, "", ha="center", va="bottom") for each, axes in self._scores.items()},
+        )
+
+    @styled
+    def show(self, answer: Answer, before: Answer | None = None) -> None:
+        """Draw a design, beside that of an earlier answer in grey."""
+        designs = [(self._now, PLACES["now"], answer), *([(self._before, PLACES["before"], before)] if before else [])]
+        for artists, place, each in designs:
+            _set(artists, place, each)
+        faces = face_arcs(answer.scene.device, answer.section)
+        for artist, (start, stop) in zip(self._faces, np.tile(faces, (len(Readout), 1)), strict=True):
+            artist.set(x=start, width=stop - start)
+        indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status)
+        self._note.set_text(f"indentation {indentation:.2f} mm\n{nodes} nodes in contact")
+        span = score_span(answer.scene.device.actuators, answer.scene.model.readout.span_margin)
+        for axes in (self._tractions, *self._strains.values()):
+            axes.set_xlim(*span)
+        shown = [artists for artists, _, _ in designs]
+        _hold(self._tractions, [line for each in shown for line in (each.pressure, each.shear)])
+        for readout in Readout:
+            _hold(self._strains[readout], [each.curves[readout] for each in shown])
+            _hold(self._scores[readout], [each.errors[readout] for each in shown], HEADROOM)
+        self._draw()
+
+    def _draw(self) -> None:
+        """Draw what moves; axes only if one has changed."""
+        limits = tuple(limit for axes in self.figure.axes for limit in (*axes.get_xlim(), *axes.get_ylim()))
+        if limits == self._limits:
+            self._canvas.restore_region(self._background)
+        else:
+            self._canvas.draw()
+            self._background, self._limits = self._canvas.copy_from_bbox(self.figure.bbox), limits
+        for artist in self._moving:
+            self.figure.draw_artist(artist)
+
+    def png(self) -> bytes:
+        """What is drawn, as a PNG file."""
+        file = BytesIO()
+        opaque = np.asarray(self._canvas.buffer_rgba())[..., :3]
+        Image.fromarray(np.ascontiguousarray(opaque)).save(file, "png", compress_level=PNG_LEVEL)
+        return file.getvalue()
+
+
+def _set(artists: _Design, place: float, answer: Answer) -> None:
+    """Give a design's artists its data; its scores stand at `place`."""
+    x, pressure, shear = _tractions(answer)
+    artists.pressure.set_data(x, pressure)
+    artists.shear.set_data(x, shear)
+    for readout, row in zip(Readout, answer.rows, strict=True):
+        factor, _ = SCORE_SCALE[readout]
+        score, error = factor * row["score"], factor * row["score_error"]
+        artists.curves[readout].set_data(answer.readouts.arc, PERCENT * _read(answer, readout))
+        artists.bars[readout].set_height(score)
+        artists.errors[readout].set_data([place, place], [score - error, score + error])
+        artists.numbers[readout].set(position=(place, score + error), text=f"{score:.3g}\n±{error:.1g}")
+
+
+def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Where the skin in contact now is [mm], pressure and shear there [kPa]; a gap of NaN between pins."""
+    solution, positions = answer.solution, np.asarray(answer.scene.device.actuators.positions)
+    (condition,) = answer.scene.device.conditions
+    nearest = np.argmin(np.abs(answer.section.position[:, [0]] - positions), axis=1)
+    x = (positions + condition.tangential[-1])[nearest] + solution.place
+    touched = np.flatnonzero(solution.pressure > 0.0)
+    found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
+    return tuple(np.insert(found, np.flatnonzero(np.diff(nearest[touched])) + 1, np.nan, axis=1))
 
 
 def _read(answer: Answer, readout: Readout) -> FloatArray:
@@ -85,32 +206,11 @@ def _read(answer: Answer, readout: Readout) -> FloatArray:
     return answer.readouts.strain if readout is Readout.STRAIN else answer.readouts.change_of_strain
 
 
-def _draw_tractions(axes: Axes, answer: Answer, colours: tuple[str, str]) -> None:
-    """Pressure and shear where the skin now is."""
-    solution, positions = answer.solution, np.asarray(answer.scene.device.actuators.positions)
-    (condition,) = answer.scene.device.conditions
-    nearest = np.argmin(np.abs(answer.section.position[:, [0]] - positions), axis=1)
-    axes.axhline(0.0, color=GREY, linewidth=THIN)
-    for number, centre in enumerate(positions + condition.tangential[-1]):
-        touched = (nearest == number) & (solution.pressure > 0.0)
-        x = centre + solution.place[touched]
-        for values, colour in zip((solution.pressure, solution.shear), colours, strict=True):
-            axes.plot(x, KILO * values[touched], color=colour)
-
-
-def _draw_scores(axes: Axes, readout: Readout, answer: Answer, before: Answer | None) -> None:
-    """The score with its error, beside that of the design before."""
-    factor, _ = SCORE_SCALE[readout]
-    highest = 0.0
-    for place, each, colour in ((BEFORE, before, GREY), (NOW, answer, BLUE)):
-        if each is None:
-            continue
-        (found,) = (row for row in each.rows if row["readout"] == readout)
-        score, error = factor * found["score"], factor * found["score_error"]
-        axes.bar(place, score, color=colour, width=0.7)
-        axes.vlines(place, score - error, score + error, color="black", linewidth=LINE)
-        axes.text(place, score + error, f"{score:.3g}\n±{error:.1g}", ha="center", va="bottom")
-        highest = max(highest, score + error)
-    axes.set(xlim=(-0.6, 1.6), ylim=(0.0, HEADROOM * highest))
-    axes.set_xticks([BEFORE, NOW], ["before", "now"])
-    axes.set_ylabel(score_label(readout, answer.rows[0]["unit"]).replace(" score", "\nscore"))
+def _hold(axes: Axes, lines: list[Line2D], headroom: float = 1.0) -> None:
+    """End a vertical axis at ticks beyond zero and all that lines show on it, so that it often stays as it is."""
+    start, stop = axes.get_xlim()
+    x, y = np.hstack([np.asarray(line.get_data(), dtype=float) for line in lines])
+    shown = y[(x >= start) & (x <= stop)]
+    low, high = min(0.0, float(np.nanmin(shown))), headroom * float(np.nanmax(shown))
+    ticks = axes.yaxis.get_major_locator().tick_values(low, high)
+    axes.set_ylim(ticks[0], ticks[-1])

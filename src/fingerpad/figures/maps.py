@@ -25,6 +25,7 @@ from ..solution import Solution
 from .actuators import draw_actuators
 from .style import (
     BLUE,
+    DASHED,
     GREY,
     MIDDLE,
     NARROW,
@@ -55,7 +56,6 @@ COVERED = 99.5  # per cent of the area in view that the colours tell apart; the 
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
-DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the shear traction
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 
 

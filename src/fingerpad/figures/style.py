@@ -81,6 +81,7 @@ ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN = (
 COLOURS = (ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")  # as many as share no factor with the colours
 LINES: tuple[Any, ...] = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
+DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the shear traction
 FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom")
 SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
