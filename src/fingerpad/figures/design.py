@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.text import Text
+from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 from ..design import Answer
@@ -45,8 +46,7 @@ KILO = 1e3  # kPa in a MPa
 HEADROOM = 1.25  # of the scores' axis beyond the larger [1]
 BAR = 0.7  # width of a score's bar, of the distance between both [1]
 NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]
-TICKS = 4  # intervals of a vertical axis at most [1]
-STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)  # between ticks, but for powers of ten [1]
+LOCATOR = MaxNLocator(4, steps=[1.0, 2.0, 2.5, 5.0, 10.0])  # of vertical axes: intervals at most, and their lengths [1]
 PLACES = {"before": 0.0, "now": 1.0}  # of both scores [1]
 PNG_LEVEL = 1  # of 9; source: fewest seconds (measured), for a picture that is read where it is made
 
@@ -119,8 +119,6 @@ class DesignPicture:
         left, right = [self._tractions, *self._strains.values()], list(self._scores.values())
         for axes in (*left[:-1], *right[:-1]):  # ticks take most of the time, and those at the bottom hold for all
             axes.set_xticks([])
-        for axes in (*left, *right):
-            axes.locator_params(axis="y", nbins=TICKS, steps=STEPS)
         right[-1].set_xticks(list(PLACES.values()), list(PLACES))
         left[-1].set_xlabel("x on the skin, arc length along the receptor line (mm)")
 
@@ -212,5 +210,8 @@ def _hold(axes: Axes, lines: list[Line2D], headroom: float = 1.0) -> None:
     x, y = np.hstack([np.asarray(line.get_data(), dtype=float) for line in lines])
     shown = y[(x >= start) & (x <= stop)]
     low, high = min(0.0, float(np.nanmin(shown))), headroom * float(np.nanmax(shown))
-    ticks = axes.yaxis.get_major_locator().tick_values(low, high)
-    axes.set_ylim(ticks[0], ticks[-1])
+    ticks = np.asarray(LOCATOR.tick_values(low, high))
+    ticks = ticks[np.searchsorted(ticks, low, "right") - 1 : np.searchsorted(ticks, high) + 1]
+    if axes.get_ylim() != (ticks[0], ticks[-1]):
+        axes.set_yticks(ticks)
+        axes.set_ylim(ticks[0], ticks[-1])
