@@ -194,7 +194,9 @@ def body_of(scene: Scene) -> CondensedBody | None:
 
 
 def condense_body(scene: Scene) -> CondensedBody:
-    """Condense the deformable body of the scene's actuators (all equal) to its face."""
+    """Condense the deformable body of the scene's actuators (all equal) to its face; what its base stands on gives way
+    to all of the face alike.
+    """
     row = scene.device.actuators
     if row.body is None:
         raise MeshError("a rigid actuator has no body to condense")
@@ -208,7 +210,7 @@ def condense_body(scene: Scene) -> CondensedBody:
     loads = unit_loads(dofs, face, matrix.shape[0])
     none = csr_matrix((0, matrix.shape[0]))
     compliance, _, _ = condense(matrix, dofs, dofs[:, y == y.min()].ravel(), loads, none)
-    return CondensedBody(mesh.doflocs[0, face], compliance)
+    return CondensedBody(mesh.doflocs[0, face], compliance + np.tile(row.body.mount(), (face.size, face.size)))
 
 
 def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:

@@ -20,7 +20,19 @@ from .elasticity import displacement_basis, lame, node_dofs
 from .errors import SceneError
 from .mesh import SectionMesh, mesh_strip
 from .profile import SHARP_RADIUS, WALL_ANGLE, profile
-from .scene import ActuatorRow, Condition, FloatArray, Kinematics, Law, Layer, Material, Numerics, Scene, TissueLaw
+from .scene import (
+    ActuatorRow,
+    Body,
+    Condition,
+    FloatArray,
+    Kinematics,
+    Law,
+    Layer,
+    Material,
+    Numerics,
+    Scene,
+    TissueLaw,
+)
 
 ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly
@@ -116,6 +128,10 @@ def _part(scene: Scene, number: int) -> _Part:
     name, centre = actuator_name(number), row.positions[number]
     if row.body is None:
         return _rigid(name, row, centre)
+    if type(row.body) is not Body:
+        raise SceneError(
+            f"deck: found actuators of the kind {type(row.body).__name__}; allowed: rigid and deformable ones"
+        )
     return _strip(name, row, scene.model.numerics, centre, row.body.material)
 
 

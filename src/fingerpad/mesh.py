@@ -112,9 +112,11 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
 
 
 def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
-    """Mesh of one deformable actuator's body: a strip on its rigid base, face at y = 0, centred on x = 0.
+    """Mesh of one deformable actuator's body: a strip on its base, face at y = 0, centred on x = 0, and placed as the
+    body says.
 
-    Graded towards both ends of the face like the skin. Raises MeshError if the row is rigid.
+    Graded towards both ends of the face like the skin. Raises MeshError if the row is rigid, or its body is turned
+    inside out or has another face or base than the strip.
     """
     if row.body is None:
         raise MeshError("a rigid actuator has no body to mesh")
@@ -126,7 +128,16 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
     down = -row.body.thickness * np.linspace(1.0, 0.0, rows + 1)
     right = MeshTri.init_tensor(across, down)
     left = MeshTri(right.p * np.array([[-1.0], [1.0]]), right.t)  # mirrored with its diagonals
-    return MeshTri2.from_mesh(right + left)
+    strip = MeshTri2.from_mesh(right + left)
+    mesh = replace(strip, doflocs=row.body.placed(*strip.doflocs))
+    face, base = strip.doflocs[1] == 0.0, strip.doflocs[1] == -row.body.thickness
+    if not (
+        np.array_equal(mesh.doflocs[:, face], strip.doflocs[:, face])
+        and np.array_equal(mesh.doflocs[1, base], strip.doflocs[1, base])
+    ):
+        raise MeshError("actuator body: its face must lie where the strip's does, and its base as deep")
+    _require_valid(mesh, "actuator body")
+    return mesh
 
 
 def save_section(path: Path, section: SectionMesh) -> None:
@@ -252,7 +263,7 @@ def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
         receptor_facets[np.argsort(s[facet_nodes[receptor_facets]])],
         np.flatnonzero(zeta == zeta.max()),
     )
-    _require_valid(section)
+    _require_valid(mesh, "section mesh")
     return section
 
 
@@ -267,13 +278,13 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tup
     return index, tuple(layer.name for layer in (*finger.pad, *finger.dorsal))
 
 
-def _require_valid(section: SectionMesh) -> None:
+def _require_valid(mesh: MeshTri2, name: str) -> None:
     """Raise MeshError if the map of any element has a non-positive Jacobian at its corners or midpoints."""
     local = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])
-    gradient = section.mesh.mapping().DF(local)
+    gradient = mesh.mapping().DF(local)
     determinant = gradient[0, 0] * gradient[1, 1] - gradient[0, 1] * gradient[1, 0]
     sign = np.sign(determinant[:, :1])
     bad = np.flatnonzero(np.any(determinant * sign <= 0.0, axis=1))
     if bad.size:
-        where = section.mesh.doflocs[:, section.mesh.t[0, bad[0]]]
-        raise MeshError(f"section mesh: {bad.size} inverted elements, the first near x, y = {where.round(3)} mm")
+        where = mesh.doflocs[:, mesh.t[0, bad[0]]]
+        raise MeshError(f"{name}: {bad.size} inverted elements, the first near x, y = {where.round(3)} mm")

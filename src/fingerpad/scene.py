@@ -204,13 +204,26 @@ class Finger:
 
 @dataclass(frozen=True)
 class Body:
-    """Deformable body of an actuator: material and thickness [mm] of the strip on its rigid base."""
+    """Deformable body of an actuator: material and thickness [mm] of the strip on its rigid base.
+
+    Bodies that are no such strip say how they differ from it (`bodies`).
+    """
 
     material: Material
     thickness: float
 
     def __post_init__(self) -> None:
         _require_positive("actuator body", thickness=self.thickness)
+
+    def placed(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Where the strip's points x, y (n,) lie in this body (2, n) [mm]: its face on y = 0 and the height of its base
+        stay as they are.
+        """
+        return np.stack([x, y])
+
+    def mount(self) -> FloatArray:
+        """Compliance (2, 2) [mm per N/mm] of what the base stands on, in x and y; nothing turns it."""
+        return np.zeros((2, 2))
 
 
 @dataclass(frozen=True)

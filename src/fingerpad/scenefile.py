@@ -12,6 +12,7 @@ from typing import Any
 
 import yaml
 
+from .bodies import BODIES
 from .errors import SceneError
 from .scene import (
     ActuatorRow,
@@ -169,12 +170,9 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     """
     plain = _values(document)
     row, stimulus = plain["actuators"], plain["stimulus"]
-    body = None
-    if row["body"]["kind"] == "deformable":
-        body = Body(Material(row["body"]["modulus"], row["body"]["poisson"]), row["body"]["thickness"])
     count = row["count"]
     positions = tuple((i - (count - 1) / 2.0) * row["pitch"] for i in range(count))
-    actuators = ActuatorRow(positions, row["width"], row["edge_radius"], body)
+    actuators = ActuatorRow(positions, row["width"], row["edge_radius"], _body(row["body"]))
     conditions = KINDS[stimulus["kind"]](stimulus, count, path.parent)
     frequencies = tuple(stimulus.get("frequency_hz", ()))
     cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if frequencies else ()
@@ -207,6 +205,13 @@ def _values(node: Any) -> Any:
     if isinstance(node, list):
         return [_values(child) for child in node]
     return node
+
+
+def _body(given: dict[str, Any]) -> Body | None:
+    """The body of the plain values under `actuators.body`; None if it is rigid. Raises SceneError."""
+    rest = {key: value for key, value in given.items() if key not in ("kind", "modulus", "poisson")}
+    body = BODIES[given["kind"]]
+    return body(Material(given["modulus"], given["poisson"]), **rest) if body else None
 
 
 def _layer(entry: dict[str, Any]) -> Layer:

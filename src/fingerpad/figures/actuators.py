@@ -11,6 +11,7 @@ from ..scene import ActuatorRow, FloatArray
 from .style import THIN
 
 PROFILE_POINTS = 41  # along a rounded edge [1]
+SIDE_POINTS = 21  # along a side [1]
 BASE = 0.25  # mm of a deformable actuator's rigid base that is drawn
 FACE, UNDER = "#CFCFCF", "#5A5A5A"  # fill of actuators, and of the base of deformable ones
 
@@ -25,10 +26,16 @@ def draw_actuators(axes: Axes, row: ActuatorRow, offsets: FloatArray, depth: flo
     rounded = np.linspace(row.half_face, half, PROFILE_POINTS)
     x = np.concatenate([-rounded[::-1], rounded])
     drop, _ = profile(row, x)
-    shape = np.stack([np.concatenate([[-half], x, [half]]), np.concatenate([[-bottom], -drop, [-bottom]])], axis=1)
+    down = np.linspace(drop[-1], bottom, SIDE_POINTS)
+    side = np.stack([np.full_like(down, half), -down])
+    if row.body:
+        side = row.body.placed(*side)
+    mirrored = side[:, ::-1] * np.array([[-1.0], [1.0]])
+    shape = np.hstack([mirrored, np.stack([x, -drop]), side]).T
     for centre, offset in zip(row.positions, offsets, strict=True):
         placed = shape + offset + np.array([centre, 0.0])
         axes.add_patch(Polygon(placed, closed=True, facecolor=FACE, edgecolor="black", linewidth=THIN, zorder=2))
         if row.body:
             corner = (float(placed[0, 0]), float(placed[0, 1]) - BASE)
-            axes.add_patch(Rectangle(corner, row.width, BASE, facecolor=UNDER, edgecolor="black", linewidth=THIN))
+            wide = float(placed[-1, 0] - placed[0, 0])
+            axes.add_patch(Rectangle(corner, wide, BASE, facecolor=UNDER, edgecolor="black", linewidth=THIN))
