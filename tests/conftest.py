@@ -162,6 +162,17 @@ def changeable(finished: Project) -> Iterator[Project]:
     kept.rename(finished.folder)
 
 
+def coarsened(config: str) -> str:
+    """The text of config.yaml with a coarse mesh."""
+    for key, factor in COARSER.items():
+        config = re.sub(
+            rf"({key}: {{value: )([\d.]+)",
+            lambda found, factor=factor: f"{found[1]}{factor * float(found[2])}",
+            config,
+        )
+    return config
+
+
 @pytest.fixture(scope="session")
 def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Scenes with Device 2 alone, on a coarse mesh."""
@@ -169,11 +180,7 @@ def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) ->
     (folder / "devices").mkdir()
     shutil.copy2(project.folder / "config/devices/device2.yaml", folder / "devices")
     text = (project.folder / "config/config.yaml").read_text(encoding="utf-8")
-    for key, factor in COARSER.items():
-        text = re.sub(
-            rf"({key}: {{value: )([\d.]+)", lambda found, factor=factor: f"{found[1]}{factor * float(found[2])}", text
-        )
-    (folder / "config.yaml").write_text(text, encoding="utf-8")
+    (folder / "config.yaml").write_text(coarsened(text), encoding="utf-8")
     return folder
 
 

@@ -13,10 +13,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import meshio
 import pytest
 import yaml
 
 import fingerpad.commands.predict as predicting
+from conftest import Project, coarsened
 from fingerpad.api import predict
 from fingerpad.caveats import MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
@@ -43,6 +45,13 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         shutil.copytree(ROOT / part, tmp_path / part)
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def coarse(checkout: Path) -> Path:
+    """The same with a coarse mesh."""
+    Project(checkout).edit("config/config.yaml", coarsened)
+    return checkout
 
 
 # fingerpad new
@@ -144,6 +153,23 @@ def test_check_refuses(checkout: Path, capsys: pytest.CaptureFixture[str]) -> No
     path.write_text(path.read_text(encoding="utf-8").replace("pitch:", "ptich:"), encoding="utf-8")
     assert main(["check", str(path)]) == FAILED
     assert "did you mean pitch?" in capsys.readouterr().err
+
+
+# fingerpad fields
+
+
+@pytest.mark.parametrize("output", ["end.vtu", "path.pvd"])
+def test_fields_are_those_of_the_condition(coarse: Path, output: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """At the end of the stimulus, or pre-indented as well; the skin comes down to the pins."""
+    case = ["--condition", "alternate_180", "--interface", "shear", "-o", output]
+    assert main(["fields", "config/devices/device2.yaml", *case]) == 0
+    assert capsys.readouterr().out == f"written: {output}\n"
+    written = {"end.vtu": ["end.vtu"], "path.pvd": ["path.vtu", "path/0000.vtu"]}[output]
+    assert sorted(path.relative_to(coarse).as_posix() for path in coarse.rglob("*.vtu")) == written
+    for name in written:
+        fields = meshio.read(coarse / name).point_data
+        assert fields["contact_pressure_MPa"].max() > 0.0
+        assert fields["displacement_mm"][:, 1].max() > 1.0
 
 
 # fingerpad predict

@@ -335,13 +335,14 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
     shape = (len(distinct), corner.shape[1])
     side = np.array([[0, 1]])
-    fields = Fields(corner, side, side, np.zeros((len(distinct), *corner.shape)), np.full(shape, 0.2))
     contact = make_contact(device.actuators)
+    still = np.zeros((len(distinct), *corner.shape))
+    fields = Fields(corner, side, side, still, np.full(shape, 0.2), contact.position[:, 0])
     pressed = np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0)
     solution = make_solution(contact, device.actuators, np.tile(pressed, len(device.actuators.positions)))
     shown = [c.name for c in device.conditions if c.dispersion == dispersion]
     scene = Scene(MODEL, device)
-    figure = strain_map_figure(scene, dispersion, fields, contact, dict.fromkeys(shown, solution))
+    figure = strain_map_figure(scene, dispersion, fields, dict.fromkeys(shown, solution))
     require_legible(figure)
     for above, beneath in zip(figure.axes[: len(shown)], figure.axes[min(len(shown), 3) :], strict=False):
         if beneath.get_xlabel():

@@ -9,7 +9,7 @@ from scipy.linalg import logm
 from fingerpad.closedforms.energy import first_stress, stored_energy
 from fingerpad.elasticity import lame
 from fingerpad.finite_strain import green_strain, is_upright, logarithmic_strain
-from fingerpad.hyperelasticity import EQUAL, Tissue, respond, tissue_of
+from fingerpad.hyperelasticity import EQUAL, Tissue, cauchy_stress, respond, tissue_of
 from fingerpad.scene import FloatArray, Law, Material
 
 MATERIALS = [Material(0.08, 0.48), Material(1.0, 0.3), Material(2.0, 0.0)]
@@ -108,6 +108,32 @@ def test_zero_strain_is_linear_elasticity(law: Law) -> None:
             linear = np.array([[lam + 2.0 * mu, lam, 0.0], [lam, lam + 2.0 * mu, 0.0], [0.0, 0.0, mu]])
             assert np.abs(response.tangent[..., number] - linear).max() < 1e-13 * linear.max()
             assert np.abs(response.stress[:, number]).max() < 1e-14 * linear.max()
+
+
+@everywhere
+def test_cauchy_stress_is_that_of_the_energy(law: Law) -> None:
+    """P F^T / J in the plane, with P from the energy; turned in space it turns along, and zz does not."""
+    chosen = gradients()
+    own, rotation, unit = tissue(law, chosen.shape[-1]), turn(0.9), np.eye(2)[..., None]
+    found = cauchy_stress(own, chosen)
+    wanted = np.einsum("ikn,jkn->ijn", first_stress(own, chosen), deformation(chosen)) / determinant(chosen)
+    scale = np.maximum(np.abs(wanted).max(axis=(0, 1)), own.mu + own.lam)
+    plane = tensor(found[[0, 1, 3]])
+    assert (np.abs(plane - wanted).max(axis=(0, 1)) / scale).max() < ROUNDING
+    turned = cauchy_stress(own, np.einsum("ik,kjn->ijn", rotation, deformation(chosen)) - unit)
+    spun = np.einsum("ik,kln,jl->ijn", rotation, plane, rotation)
+    assert (np.abs(tensor(turned[[0, 1, 3]]) - spun).max(axis=(0, 1)) / scale).max() < ROUNDING
+    assert (np.abs(turned[2] - found[2]) / scale).max() < ROUNDING
+
+
+@everywhere
+def test_stress_out_of_the_plane_is_that_of_any_unstrained_axis(law: Law) -> None:
+    """Stretched along x alone, y and z are alike."""
+    stretch = np.zeros((2, 2, 9))
+    stretch[0, 0] = np.linspace(-0.4, 0.8, 9)
+    own = tissue(law, 9)
+    _, yy, zz, _ = cauchy_stress(own, stretch)
+    assert np.abs(yy - zz).max() < ROUNDING * np.abs(yy).max()
 
 
 @everywhere

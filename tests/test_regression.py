@@ -5,11 +5,14 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pandas as pd
 import pytest
 
 from conftest import Project
+from fingerpad.solution import Solution
+from fingerpad.store import load
 
 EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
 KEY = ["kinematics", "device", "condition", "interface", "readout"]
@@ -39,6 +42,20 @@ def test_both_kinematics_stand_side_by_side(finite_run: Project) -> None:
     curves = pd.read_csv(finite_run.folder / "results" / "indentation.csv").groupby(["kinematics", "interface"])
     ends = curves.last()["force_N_per_mm"].unstack("kinematics")
     assert (ends["finite"] > 1.3 * ends["small"]).all()
+
+
+@pytest.mark.workflow
+def test_fields_and_maps_of_finite_kinematics(finite_run: Project, project: Project, both_scenes: Path) -> None:
+    """On demand: what a force alone does not give is solved anew, and is drawn and written as with small ones."""
+    folder = "results/finite/device2/alternate_180/shear"
+    targets = (f"{folder}/fields.vtu", "results/figures/map_device2_alternate_finite.png")
+    run = project.snakemake(*targets, "--directory", finite_run.folder, "--config", f"scenes={both_scenes}")
+    assert run.status == 0, run.text
+    fields = meshio.read(finite_run.folder / folder / "fields.vtu").point_data
+    assert {"displacement_mm", "logarithmic_strain", "cauchy_stress_MPa", "contact_pressure_MPa"} <= fields.keys()
+    solved = load(finite_run.folder / folder / "solution.npz", Solution)
+    assert fields["contact_pressure_MPa"].max() == pytest.approx(solved.pressure.max(), rel=1e-9)
+    assert (finite_run.folder / targets[1]).read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.workflow

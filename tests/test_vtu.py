@@ -14,8 +14,8 @@ from scipy.spatial import KDTree
 from fingerpad.condensation import contact_tractions
 from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS, lame
 from fingerpad.measures import stress
-from fingerpad.recovery import strain_at
-from fingerpad.scene import FloatArray, Interface
+from fingerpad.scene import FloatArray, Interface, Kinematics
+from fingerpad.states import States, linear_states, strain_at, stress_at
 from fingerpad.strain import maximum_principal
 from fingerpad.vtu import NODES, field_meshes, skin_tractions, write_collection, write_vtu
 from scenes import condensed, scene, section, solved
@@ -54,7 +54,7 @@ def gradient(nodal: FloatArray, x: float, y: float) -> FloatArray:
 def meshes() -> list[meshio.Mesh]:
     """Pre-indented and actuated state of one condition."""
     solution = solved(DEVICE, CONDITION, Interface.SHEAR)
-    return field_meshes(section(DEVICE), scene(DEVICE), np.stack([solution.indented_force, *solution.force]))
+    return field_meshes(section(DEVICE), scene(DEVICE), linear_states(scene(DEVICE), section(DEVICE), solution))
 
 
 @pytest.fixture(scope="module")
@@ -127,8 +127,39 @@ def test_strain_is_the_gradient_of_the_displacement(read: meshio.Mesh, node: int
 def test_linear_displacement_has_constant_strain() -> None:
     mesh = section(DEVICE).mesh
     x, y = mesh.doflocs
-    linear = np.array([[0.01 * x + 0.02 * y, 0.03 * x - 0.04 * y]])
-    assert np.abs(strain_at(mesh, linear, NODES) - [0.01, -0.04, 0.05]).max() < 1e-12
+    linear = np.array([0.01 * x + 0.02 * y, 0.03 * x - 0.04 * y])
+    assert np.abs(strain_at(scene(DEVICE), mesh, linear, NODES) - [0.01, -0.04, 0.05]).max() < 1e-12
+
+
+def test_finite_fields_begin_as_the_small_ones() -> None:
+    """Of displacements a millionth of a solution's, the logarithmic strain and Cauchy's stress are linear: off by the
+    square of the strain."""
+    small, finite = scene(DEVICE), scene(DEVICE).with_kinematics(Kinematics.FINITE)
+    tiny = 1e-6 * linear_states(small, section(DEVICE), solved(DEVICE, CONDITION, Interface.SHEAR)).displacement[-1]
+    for linear, found in (
+        (strain_at(each, section(DEVICE).mesh, tiny, NODES) for each in (small, finite)),
+        (stress_at(each, section(DEVICE), tiny, NODES) for each in (small, finite)),
+    ):
+        assert np.abs(found - linear).max() < 1e-5 * np.abs(linear).max()
+
+
+def test_turned_tissue_has_no_finite_strain() -> None:
+    """A rotation of the whole section by a quarter of a turn: no strain, no stress; displacement as it is."""
+    finite = scene(DEVICE).with_kinematics(Kinematics.FINITE)
+    x, y = section(DEVICE).mesh.doflocs
+    nothing = np.zeros((1, skin_nodes(), 2))
+    (turned,) = field_meshes(section(DEVICE), finite, States(np.array([[-y - x, x - y]]), nothing))
+    assert np.abs(turned.point_data["logarithmic_strain"]).max() < ROUNDING
+    assert (
+        np.abs(turned.point_data["cauchy_stress_MPa"]).max() < 1e-6
+    )  # MPa; nearly incompressible: 25 E times rounding
+    x, y, _ = turned.points.T
+    assert turned.point_data["displacement_mm"][:, 1] == pytest.approx(x - y)
+
+
+def skin_nodes() -> int:
+    """How many nodes of the skin may come into contact."""
+    return int(contact_tractions(section(DEVICE), scene(DEVICE)).weight.size)
 
 
 def test_stress_is_that_of_the_elements_layer(read: meshio.Mesh) -> None:

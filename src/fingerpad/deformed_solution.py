@@ -19,7 +19,7 @@ from .finite_strain import logarithmic_strain
 from .mesh import SectionMesh
 from .pressing import Pressed, whole_span
 from .scene import Condition, FloatArray, Interface, Scene
-from .solution import Solution, certify, contact_problem, increments, named, solution
+from .solution import Certificate, Solution, certify, contact_problem, increments, named, solution
 from .strain import receptor_readouts
 
 
@@ -56,13 +56,19 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
     Raises ContactError, naming device, condition and interface, if the path cannot be followed, if its certificate
     exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
+    moves, certificate = certified_moves(scene, finger, condition)
+    section = finger.pressed.section
+    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
+    return solution(section, [each.state for each in moves], receptor_readouts(strains), certificate)
+
+
+def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:
+    """`deformed_moves`, and the certificate of the last. Raises ContactError as `stimulate_deformed`."""
     with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}"):
         moves = deformed_moves(scene, finger, condition)
         last = moves[-1]
         section = replace(finger.pressed.section, residual=max(finger.pressed.section.residual, last.defect))
-        certificate = certify(replace(finger.problem, free=last.free), section, last.state)
-    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
-    return solution(section, [each.state for each in moves], receptor_readouts(strains), certificate)
+        return moves, certify(replace(finger.problem, free=last.free), section, last.state)
 
 
 def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Move]:

@@ -15,14 +15,19 @@ def replacing(path: Path) -> Iterator[Path]:
     """A path to write to, which becomes `path` when the block ends without an error; otherwise nothing is left of it,
     and what was at `path` before stays. Raises FileNotFoundError that names the folder if there is none.
     """
-    if not path.parent.is_dir():
-        raise FileNotFoundError(errno.ENOENT, "is no folder, so nothing can be written there", str(path.parent))
+    require_folder(path)
     part = path.with_name(path.name + PART)
     try:
         yield part
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def require_folder(path: Path) -> None:
+    """Raise FileNotFoundError that names the folder of a file to be written if there is none."""
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "is no folder, so nothing can be written there", str(path.parent))
 
 
 def write_text(path: Path, text: str) -> None:

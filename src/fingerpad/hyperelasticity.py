@@ -68,6 +68,37 @@ def respond(tissue: Tissue, gradient: FloatArray) -> Response:
     return _turned(axes, stress, d11, d22, d12, turning)
 
 
+def cauchy_stress(tissue: Tissue, gradient: FloatArray) -> FloatArray:
+    """Cauchy stress (4, ...) xx, yy, zz, xy [MPa] at displacement gradients (2, 2, ...): F S F^T / J in the plane, and
+    dW/de_3 / J out of it.
+    """
+    (a, b), (c, d) = gradient
+    f11, f22 = 1.0 + a, 1.0 + d
+    s11, s22, s12 = respond(tissue, gradient).stress
+    kirchhoff = [
+        f11 * f11 * s11 + b * b * s22 + 2.0 * f11 * b * s12,
+        c * c * s11 + f22 * f22 * s22 + 2.0 * c * f22 * s12,
+        _out_of_plane(tissue, principal_strain(gradient).values),
+        f11 * c * s11 + b * f22 * s22 + (f11 * f22 + b * c) * s12,
+    ]
+    return np.asarray(np.stack(kirchhoff) / (f11 * f22 - b * c))
+
+
+def _out_of_plane(tissue: Tissue, strain: FloatArray) -> FloatArray:
+    """Kirchhoff stress (...) along the axis that is not strained [MPa], at principal Green's strains (2, ...)."""
+    if tissue.law is Law.GREEN:
+        return np.asarray(tissue.lam * (strain[0] + strain[1]))
+    log = np.log1p(2.0 * strain) / 2.0
+    volume = log[0] + log[1]
+    if tissue.law is Law.HENCKY:
+        return np.asarray(tissue.lam * volume)
+    alpha = tissue.exponent if tissue.law is Law.OGDEN else 2.0
+    growth = np.expm1(volume)
+    mean = (np.expm1(alpha * log[0]) + np.expm1(alpha * log[1])) / 3.0
+    bulk = tissue.lam + 2.0 * tissue.mu / 3.0
+    return np.asarray(bulk * growth * (1.0 + growth) - 2.0 * tissue.mu / alpha * np.exp(-alpha / 3.0 * volume) * mean)
+
+
 def _kirchhoff(tissue: Tissue, strain: FloatArray) -> tuple[FloatArray, tuple[FloatArray, FloatArray, FloatArray]]:
     """Kirchhoff stress (2, ...) and its stiffness c_11, c_12, c_22 [MPa] at principal Green's strains (2, ...)."""
     lam, mu = tissue.lam, tissue.mu

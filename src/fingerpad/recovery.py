@@ -1,4 +1,4 @@
-"""Recovery of the section's full fields from contact forces."""
+"""Recovery of the section's full fields from contact forces on linear tissue."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from skfem import MeshTri2
 
-from .compliance import VOIGT
 from .condensation import contact_tractions, section_stiffness
 from .elasticity import displacement_basis, node_dofs
 from .fields import Fields
@@ -39,26 +38,31 @@ def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray)
     return np.asarray(displacement.T[:, dofs])
 
 
-def strain_at(mesh: MeshTri2, displacement: FloatArray, points: FloatArray) -> FloatArray:
-    """Strain (n_loadings, n_elements k, 3) [1], exx, eyy, gxy, at reference points (2, k) of every element, element by
-    element. displacement: (n_loadings, 2, n_nodes) [mm].
+def gradient_at(mesh: MeshTri2, displacement: FloatArray, points: FloatArray) -> FloatArray:
+    """Displacement gradient (2, 2, n_elements k) [1], du_i/dX_j, at reference points (2, k) of every element, one
+    element after the other. displacement: (2, n_nodes) [mm].
     """
     basis = displacement_basis(mesh, points=(points, np.ones(points.shape[1])))
-    unknowns = np.empty((displacement.shape[0], basis.N))
-    unknowns[:, node_dofs(basis)] = displacement
-    found = []
-    for field in unknowns:
-        gradient = np.asarray(basis.interpolate(field).grad)
-        components = np.stack([gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]], axis=-1)
-        found.append(components.reshape(-1, VOIGT))
-    return np.array(found)
+    unknowns = np.empty(basis.N)
+    unknowns[node_dofs(basis)] = displacement
+    return np.asarray(basis.interpolate(unknowns).grad).reshape(2, 2, -1)
+
+
+def strain_of(gradient: FloatArray) -> FloatArray:
+    """Strain (n, 3) [1], exx, eyy, gxy, of displacement gradients (2, 2, n)."""
+    return np.stack([gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]], axis=-1)
 
 
 def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fields:
-    """Fields under contact forces (n_loadings, n_contact, 2) [N/mm]."""
+    """Fields of linear tissue under contact forces (n_loadings, n_contact, 2) [N/mm]."""
     displacement = recover_displacement(section, scene, forces)
+    strain = np.array([strain_of(gradient_at(section.mesh, each, CORNERS)) for each in displacement])
+    return fields_of(section, scene, displacement, strain)
+
+
+def fields_of(section: SectionMesh, scene: Scene, displacement: FloatArray, strain: FloatArray) -> Fields:
+    """What maps draw of displacements (n_loadings, 2, n_nodes) [mm] and strains (n_loadings, n, 3) [1] at corners."""
     corners = section.mesh.t.T.ravel()
-    strain = strain_at(section.mesh, displacement, CORNERS)
     one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
     one_of[corners] = np.arange(corners.size)
     interface, boundary = (
@@ -70,4 +74,5 @@ def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fi
         boundary,
         displacement[:, :, corners],
         np.array([maximum_principal(components.ravel()) for components in strain]),
+        contact_tractions(section, scene).position[:, 0],
     )

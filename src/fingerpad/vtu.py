@@ -15,23 +15,25 @@ import numpy as np
 
 from .condensation import contact_tractions
 from .files import replacing, write_text
-from .measures import stress
 from .mesh import SectionMesh
-from .recovery import recover_displacement, strain_at
-from .scene import FloatArray, Scene
+from .scene import FloatArray, Kinematics, Scene
+from .states import States, strain_at, stress_at
 from .strain import maximum_principal
 
 NODES = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])  # corners, midpoints 01, 12, 20
 TURNED = [0, 2, 1, 5, 4, 3]  # the same nodes in the opposite sense
+STRAIN = {Kinematics.SMALL: "strain", Kinematics.FINITE: "logarithmic_strain"}  # what the arrays are called
+STRESS = {Kinematics.SMALL: "stress_MPa", Kinematics.FINITE: "cauchy_stress_MPa"}
 SYMMETRIC = 6  # components of a symmetric tensor [1]
 
 
-def field_meshes(section: SectionMesh, scene: Scene, forces: FloatArray) -> list[meshio.Mesh]:
-    """The undeformed section with the fields of each state, from contact forces (n_states, n_contact, 2) [N/mm].
+def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[meshio.Mesh]:
+    """The undeformed section with the fields of each state.
 
     At points: displacement_mm, strain (tensor, exy = gxy / 2), maximum_principal_strain, stress_MPa (of the element's
-    own layer), contact_pressure_MPa and contact_shear_MPa of the actuators on the skin, zero elsewhere. In cells:
-    layer, counted from the pad's skin inwards and on with the dorsal layers.
+    own layer), contact_pressure_MPa and contact_shear_MPa of the actuators on the skin (over undeformed length), zero
+    elsewhere. With finite kinematics strain and stress are called what they are then, logarithmic_strain (of material
+    directions) and cauchy_stress_MPa. In cells: layer, counted from the pad's skin inwards and on with the dorsal ones.
     """
     mesh = section.mesh
     nodes = np.vstack([mesh.t, mesh.nvertices + mesh.t2f[[0, 1, 2]]])
@@ -39,25 +41,18 @@ def field_meshes(section: SectionMesh, scene: Scene, forces: FloatArray) -> list
     own = np.take_along_axis(nodes.T, order, axis=1).ravel()
     point = (len(NODES[0]) * np.arange(len(order))[:, None] + order).ravel()
     cells = [("triangle6", np.arange(own.size).reshape(order.shape))]
-    materials = [layer.material for layer in (*scene.model.finger.pad, *scene.model.finger.dorsal)]
-    layer_of_point = np.repeat(section.layer, len(NODES[0]))
-
-    displacement = recover_displacement(section, scene, forces)
-    tractions = skin_tractions(section, scene, forces)
+    tractions = skin_tractions(section, scene, states.force)
     found = []
-    for moved, strain, traction in zip(displacement, strain_at(mesh, displacement, NODES), tractions, strict=True):
-        components = strain[point]
-        stresses = np.empty((own.size, 4))
-        for number, material in enumerate(materials):
-            inside = layer_of_point == number
-            stresses[inside] = stress(components[inside].ravel(), material)
+    for moved, traction in zip(states.displacement, tractions, strict=True):
+        components = strain_at(scene, mesh, moved, NODES)[point]
+        stresses = stress_at(scene, section, moved, NODES)[point]
         exx, eyy, gxy = components.T
         nothing = np.zeros_like(exx)
         point_data = {
             "displacement_mm": _in_space(moved[:, own]),
-            "strain": _symmetric(exx, eyy, nothing, gxy / 2.0),
+            STRAIN[scene.kinematics]: _symmetric(exx, eyy, nothing, gxy / 2.0),
             "maximum_principal_strain": maximum_principal(components.ravel()),
-            "stress_MPa": _symmetric(*stresses.T),
+            STRESS[scene.kinematics]: _symmetric(*stresses.T),
             "contact_pressure_MPa": traction[1, own],
             "contact_shear_MPa": traction[0, own],
         }
@@ -83,6 +78,17 @@ def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
     """Write one state as a compressed VTU file."""
     with replacing(path) as part:
         meshio.write(part, mesh, file_format="vtu")
+
+
+def write_path(pvd: Path, folder: Path, last: Path, times: Sequence[float], meshes: Sequence[meshio.Mesh]) -> None:
+    """Write a path: the last state as a file of its own, those before in a folder, and the PVD file of all, whose times
+    [s] begin with that of pre-indentation.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    files = [*(folder / f"{number:04d}.vtu" for number in range(len(meshes) - 1)), last]
+    for file, mesh in zip(files, meshes, strict=True):
+        write_vtu(file, mesh)
+    write_collection(pvd, times, files)
 
 
 def write_collection(path: Path, times: Sequence[float], files: Sequence[Path]) -> None:

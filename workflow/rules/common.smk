@@ -74,8 +74,8 @@ def recordings_of(wildcards):
 
 
 def kinematics_of(wildcards):
-    """The wildcard kinematics; without one small."""
-    return wildcards.get("kinematics", str(Kinematics.SMALL))
+    """The wildcard kinematics, or those that a figure's ending names; without either small."""
+    return wildcards.get("kinematics", MODES[wildcards.get("mode", "")])
 
 
 def mode_of(wildcards):
@@ -92,6 +92,14 @@ def solution_of(wildcards):
     """The solution that holds for the wildcard condition: equal stimuli are solved once."""
     solved = scene_of(wildcards).solved_as(condition_of(wildcards).name)
     return f"results/{kinematics_of(wildcards)}/{wildcards.device}/{solved.name}/{wildcards.interface}/solution.npz"
+
+
+def pressed_of(wildcards):
+    """With finite kinematics the pressed finger of the wildcard interface; with small ones nothing."""
+    finite = kinematics_of(wildcards) == Kinematics.FINITE
+    return (
+        f"results/finite/{wildcards.device}/{wildcards.get('interface', Interface.SHEAR)}/pressed.npz" if finite else []
+    )
 
 
 def code(script):

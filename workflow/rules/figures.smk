@@ -36,30 +36,41 @@ FIGURES = [
 ]
 
 
+rule finite_maps:
+    input:
+        expand(
+            "results/figures/{map}_finite.{suffix}",
+            map=[f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]],
+            suffix=["png", "pdf"],
+        ),
+
+
 rule fields:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        mesh="results/small/{device}/mesh.npz",
+        mesh="results/{kinematics}/{device}/mesh.npz",
+        body=body_of,
+        pressed=pressed_of,
         solutions=lambda w: [
-            f"results/small/{w.device}/{condition.name}/shear/solution.npz"
+            f"results/{w.kinematics}/{w.device}/{condition.name}/shear/solution.npz"
             for condition in scene_of(w).device.conditions
             if scene_of(w).device.first_with_stimulus_of(condition.name) is condition
         ],
         code=code("fields.py"),
     output:
-        fields="results/small/{device}/fields.npz",
+        fields="results/{kinematics}/{device}/fields.npz",
     log:
-        "results/logs/small/{device}/fields.log",
+        "results/logs/{kinematics}/{device}/fields.log",
     benchmark:
-        "results/benchmarks/small/{device}/fields.tsv"
+        "results/benchmarks/{kinematics}/{device}/fields.tsv"
     priority: 1
     conda:
         ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
-            scene_of(w).model.finger, scene_of(w).device.actuators, support.stroke(scene_of(w))
+            scene_of(w).model.finger, scene_of(w).device.actuators, support.stroke(scene_of(w)), tissue_of(w)
         ),
     script:
         "../scripts/fields.py"
@@ -183,25 +194,25 @@ rule figure_map:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        condensed="results/small/{device}/condensed.npz",
-        fields="results/small/{device}/fields.npz",
+        fields=lambda w: f"results/{mode_of(w)}/{w.device}/fields.npz",
         solutions=lambda w: [
-            f"results/small/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
+            f"results/{mode_of(w)}/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
             for condition in scene_of(w).device.conditions
             if condition.dispersion == w.dispersion
         ],
         code=code("figure_map.py"),
     output:
-        png="results/figures/map_{device}_{dispersion}.png",
-        pdf="results/figures/map_{device}_{dispersion}.pdf",
+        png="results/figures/map_{device}_{dispersion}{mode}.png",
+        pdf="results/figures/map_{device}_{dispersion}{mode}.pdf",
     log:
-        "results/logs/figures/map_{device}_{dispersion}.log",
+        "results/logs/figures/map_{device}_{dispersion}{mode}.log",
     wildcard_constraints:
         device="|".join(DEVICES),
         dispersion="|".join(sorted({dispersion for names in DISPERSIONS.values() for dispersion in names})),
     conda:
         ENVIRONMENT
     params:
+        kinematics=mode_of,
         scene=lambda w: support.fingerprint(scene_of(w).device),
     script:
         "../scripts/figure_map.py"

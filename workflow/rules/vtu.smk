@@ -1,7 +1,8 @@
 # Full fields of a condition for ParaView: displacement, strain, stress, layer, contact tractions.
 # fields.vtu is the end of the stimulus; fields.pvd is the path there: pre-indented and at each time of the stimulus.
-# Not part of `all`: ask for one file, or for all with `snakemake vtu` (20 MB a condition and interface).
-# REQUIRED INPUTS: results/small/{device}/mesh.npz, results/small/{device}/{condition}/{interface}/solution.npz.
+# Not part of `all`: ask for one file, or for all of small kinematics with `snakemake vtu` (20 MB a condition and interface).
+# REQUIRED INPUTS: results/{kinematics}/{device}/mesh.npz, results/{kinematics}/{device}/{condition}/{interface}/solution.npz;
+# with finite kinematics results/finite/{device}/{interface}/pressed.npz, and results/{device}/body.npz for deformable actuators.
 # OUTPUTS: fields.vtu, fields.pvd and states/ beside the solution
 
 
@@ -15,22 +16,25 @@ rule field_output:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        mesh="results/small/{device}/mesh.npz",
+        mesh="results/{kinematics}/{device}/mesh.npz",
+        body=body_of,
+        pressed=pressed_of,
         solution=solution_of,
         code=code("field_output.py"),
     output:
-        vtu="results/small/{device}/{condition}/{interface}/fields.vtu",
-        pvd="results/small/{device}/{condition}/{interface}/fields.pvd",
-        states=directory("results/small/{device}/{condition}/{interface}/states"),
+        vtu="results/{kinematics}/{device}/{condition}/{interface}/fields.vtu",
+        pvd="results/{kinematics}/{device}/{condition}/{interface}/fields.pvd",
+        states=directory("results/{kinematics}/{device}/{condition}/{interface}/states"),
     log:
-        "results/logs/small/{device}/{condition}/{interface}/field_output.log",
+        "results/logs/{kinematics}/{device}/{condition}/{interface}/field_output.log",
     benchmark:
-        "results/benchmarks/small/{device}/{condition}/{interface}/field_output.tsv"
+        "results/benchmarks/{kinematics}/{device}/{condition}/{interface}/field_output.tsv"
     conda:
         ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
+            tissue_of(w),
             scene_of(w).device.actuators,
             support.stroke(scene_of(w)),
             condition_of(w).time,

@@ -2,37 +2,59 @@
 
 from pathlib import Path
 
-import numpy as np
-
+from fingerpad.compliance import CondensedBody
+from fingerpad.deformed_solution import pressed_finger
 from fingerpad.mesh import load_section
+from fingerpad.pressing import Pressed
+from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
+from fingerpad.states import deformed_states, linear_states
 from fingerpad.store import load
-from fingerpad.vtu import field_meshes, write_collection, write_vtu
+from fingerpad.vtu import field_meshes, write_path
 
 
 def main(
-    config: Path, device: Path, mesh: Path, solution: Path, condition: str, vtu: Path, pvd: Path, states: Path
+    kinematics: str,
+    config: Path,
+    device: Path,
+    mesh: Path,
+    body: Path | None,
+    pressed: Path | None,
+    solution: Path,
+    condition: str,
+    interface: str,
+    vtu: Path,
+    pvd: Path,
+    states: Path,
 ) -> None:
-    """Read mesh and contact forces, recover the fields of all states, write the last and, in a folder, those before."""
-    scene, solved = load_scene(config, device), load(solution, Solution)
-    forces = np.stack([solved.indented_force, *solved.force])
-    *before, last = field_meshes(load_section(mesh), scene, forces)
-    states.mkdir(parents=True, exist_ok=True)
-    files = [states / f"{number:04d}.vtu" for number in range(len(before))]
-    for file, state in zip([*files, vtu], [*before, last], strict=True):
-        write_vtu(file, state)
-    write_collection(pvd, [0.0, *scene.device.condition(condition).time], [*files, vtu])
+    """Read mesh and solution, recover the fields of all states, write the last and, in a folder, those before.
+
+    pressed: with finite kinematics the pressed finger, from where the stimulus is solved, as forces are not enough.
+    """
+    scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
+    moved = scene.device.condition(condition)
+    if pressed:
+        actuators = load(body, CondensedBody) if body else None
+        finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface(interface))
+        found = deformed_states(scene, finger, moved)
+    else:
+        found = linear_states(scene, section, load(solution, Solution))
+    write_path(pvd, states, vtu, [0.0, *moved.time], field_meshes(section, scene, found))
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     main(
+        job.wildcards.kinematics,
         Path(job.input.config),
         Path(job.input.device),
         Path(job.input.mesh),
+        Path(job.input.body) if job.input.body else None,
+        Path(job.input.pressed) if job.input.pressed else None,
         Path(job.input.solution),
         job.wildcards.condition,
+        job.wildcards.interface,
         Path(job.output.vtu),
         Path(job.output.pvd),
         Path(job.output.states),

@@ -4,25 +4,52 @@ from pathlib import Path
 
 import numpy as np
 
+from fingerpad.compliance import CondensedBody
+from fingerpad.deformed_solution import pressed_finger
 from fingerpad.mesh import load_section
+from fingerpad.pressing import Pressed
 from fingerpad.recovery import recover_fields
+from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
+from fingerpad.states import deformed_states, states_fields
 from fingerpad.store import load, save
 
 
-def main(config: Path, device: Path, mesh: Path, solutions: list[Path], fields: Path) -> None:
-    """Read the last contact forces of every solution, recover the fields, write them in the same order."""
-    forces = np.array([load(path, Solution).force[-1] for path in solutions])
-    save(fields, recover_fields(load_section(mesh), load_scene(config, device), forces))
+def main(
+    kinematics: str,
+    config: Path,
+    device: Path,
+    mesh: Path,
+    body: Path | None,
+    pressed: Path | None,
+    solutions: list[Path],
+    fields: Path,
+) -> None:
+    """Read the last contact forces of every solution, recover the fields, write them in the same order.
+
+    pressed: with finite kinematics the pressed finger, from where every stimulus is solved, as forces are not enough.
+    """
+    scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
+    if pressed:
+        actuators = load(body, CondensedBody) if body else None
+        finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
+        names = [path.parent.parent.name for path in solutions]
+        ends = [deformed_states(scene, finger, scene.device.condition(name)).displacement[-1] for name in names]
+        save(fields, states_fields(scene, section, np.array(ends)))
+    else:
+        save(fields, recover_fields(section, scene, np.array([load(path, Solution).force[-1] for path in solutions])))
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     main(
+        job.wildcards.kinematics,
         Path(job.input.config),
         Path(job.input.device),
         Path(job.input.mesh),
+        Path(job.input.body) if job.input.body else None,
+        Path(job.input.pressed) if job.input.pressed else None,
         [Path(path) for path in job.input.solutions],
         Path(job.output.fields),
     )

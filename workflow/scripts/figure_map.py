@@ -2,33 +2,32 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedSection
 from fingerpad.fields import Fields
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.style import save
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import load
 
 
 def main(
+    kinematics: str,
     config: Path,
     device: Path,
-    condensed: Path,
     fields: Path,
     solutions: list[Path],
     dispersion: str,
     stem: Path,
 ) -> None:
     """Read fields and solutions (in the order of the dispersion's conditions), draw, write PNG and PDF."""
-    scene = load_scene(config, device)
+    scene = load_scene(config, device, Kinematics(kinematics))
     names = [condition.name for condition in scene.device.conditions if condition.dispersion == dispersion]
     save(
         strain_map_figure(
             scene,
             dispersion,
             load(fields, Fields),
-            load(condensed, CondensedSection),
             {name: load(path, Solution) for name, path in zip(names, solutions, strict=True)},
         ),
         stem,
@@ -38,9 +37,9 @@ def main(
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     main(
+        job.params.kinematics,
         Path(job.input.config),
         Path(job.input.device),
-        Path(job.input.condensed),
         Path(job.input.fields),
         [Path(path) for path in job.input.solutions],
         job.wildcards.dispersion,

@@ -7,14 +7,12 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from ..csvrows import listed
 from ..edges import mesh_device
-from ..errors import UsageError
 from ..export import DeckSettings, input_deck
-from ..files import write_text
+from ..files import require_folder, write_text
 from ..pressing import indented_height
-from ..scene import Interface, Kinematics
-from .options import add_scene_options, checked_scene
+from ..scene import Interface
+from .options import add_case_options, add_scene_options, checked_case
 
 STEPS = 2  # of the progress: mesh, pre-indentation
 DESCRIPTION = """\
@@ -31,17 +29,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.set_defaults(run=run)
     parser.description = DESCRIPTION
-    parser.add_argument("device", type=Path, metavar="DEVICE_FILE", help="device, as in config/devices")
-    parser.add_argument("--condition", required=True, metavar="NAME", help="condition of the device")
-    parser.add_argument(
-        "--interface", required=True, choices=[each.value for each in Interface], help="friction or none"
-    )
-    parser.add_argument(
-        "--kinematics",
-        choices=[each.value for each in Kinematics],
-        default=Kinematics.SMALL.value,
-        help="small strains, or large ones (NLGEOM) with the config's tissue law (default: %(default)s)",
-    )
+    add_case_options(parser, "small strains, or large ones (NLGEOM) with the config's tissue law")
     parser.add_argument("-o", "--output", required=True, type=Path, metavar="FILE", help="deck to write")
     add_scene_options(parser)
     parser.add_argument(
@@ -67,12 +55,9 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Mesh the scene, find how deep it is indented, and write the deck."""
-    scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
-    condition = scene.device.condition(options.condition)
-    if Interface(options.interface) not in scene.device.interfaces():
-        allowed = f"{listed(scene.device.interfaces())} (a device that controls force moves nothing without friction)"
-        raise UsageError(f"{scene.device.name}: found the interface '{options.interface}'; allowed: {allowed}")
-    acting = scene.model.contact.coefficient(Interface(options.interface))
+    require_folder(options.output)
+    scene, condition, touching = checked_case(options)
+    acting = scene.model.contact.coefficient(touching)
     indenting = acting if options.friction_from == "indentation" else 0.0
     interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS
     with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:

@@ -9,8 +9,9 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from ..checkout import find_checkout
+from ..csvrows import listed
 from ..errors import UsageError
-from ..scene import Scene
+from ..scene import Condition, Interface, Kinematics, Scene
 from ..validation import check_device
 
 
@@ -25,6 +26,31 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="schemas that both files must fit (default: workflow/schemas of the checkout)",
     )
+
+
+def add_case_options(parser: argparse.ArgumentParser, kinematics: str) -> None:
+    """One condition of a device; `kinematics` says what there is to choose between."""
+    parser.add_argument("device", type=Path, metavar="DEVICE_FILE", help="device, as in config/devices")
+    parser.add_argument("--condition", required=True, metavar="NAME", help="condition of the device")
+    parser.add_argument(
+        "--interface", required=True, choices=[each.value for each in Interface], help="friction or none"
+    )
+    parser.add_argument(
+        "--kinematics",
+        choices=[each.value for each in Kinematics],
+        default=Kinematics.SMALL.value,
+        help=f"{kinematics} (default: %(default)s)",
+    )
+
+
+def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interface]:
+    """The scene, condition and interface of the options. Raises SceneError, UsageError."""
+    scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
+    condition, interface = scene.device.condition(options.condition), Interface(options.interface)
+    if interface not in scene.device.interfaces():
+        allowed = f"{listed(scene.device.interfaces())} (a device that controls force moves nothing without friction)"
+        raise UsageError(f"{scene.device.name}: found the interface '{interface}'; allowed: {allowed}")
+    return scene, condition, interface
 
 
 def checked_scene(device: Path, options: argparse.Namespace) -> Scene:

@@ -18,15 +18,15 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
 
-from ..compliance import CondensedSection
 from ..fields import Fields
-from ..scene import ActuatorRow, Condition, Scene
+from ..scene import ActuatorRow, Condition, FloatArray, Kinematics, Scene
 from ..solution import Solution
 from .actuators import draw_actuators
 from .style import (
     BLUE,
     DASHED,
     GREY,
+    KINEMATICS_NAME,
     MIDDLE,
     NARROW,
     PERCENT,
@@ -48,7 +48,9 @@ WIDTHS = (NARROW, MIDDLE, WIDE)  # mm, of figures with one, two or three panels 
 ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
-CAPTION = "{counted}, at the end of the stimulus; displacements to scale. Tractions: linear between nodes."
+CAPTION = (
+    "{counted}, {kinematics}, at the end of the stimulus; displacements to scale. Tractions: linear between nodes."
+)
 BOLD = 1.2  # width of bold letters, of plain ones [1]
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
@@ -56,6 +58,7 @@ COVERED = 99.5  # per cent of the area in view that the colours tell apart; the 
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
+STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "logarithmic strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 
 
@@ -64,7 +67,6 @@ def strain_map_figure(
     scene: Scene,
     dispersion: str,
     fields: Fields,
-    contact: CondensedSection,
     solutions: Mapping[str, Solution],
 ) -> Figure:
     """Maximum principal strain at the end of the stimulus and contact tractions, with shear, a panel a condition.
@@ -108,7 +110,7 @@ def strain_map_figure(
         axes.set_title(styles.series[device.name, condition.name].label, loc="left")
         axes.tick_params(labelleft=False)
         beneath.tick_params(labelleft=False, labelbottom=True)
-        _draw_tractions(beneath, row, contact, solution, condition)
+        _draw_tractions(beneath, row, fields.contact, solution, condition)
         beneath.set_ylim(*limits)
         beneath.set_xlabel("x (mm)")
     for axes in (*maps[len(conditions) :], *tractions[len(conditions) :]):
@@ -119,7 +121,7 @@ def strain_map_figure(
             axes.set_ylabel(label)
     figure.colorbar(
         drawn, ax=list(maps[:columns]), extend="max", aspect=14, pad=0.01,
-        label="Max. principal strain\n(%, square-root scale)",
+        label=f"Max. principal {STRAIN_NAME[scene.kinematics]}\n(%, square-root scale)",
     )  # fmt: skip
     several = len({condition.dispersion for condition in device.conditions}) > 1
     named = f", {plain(dispersion)} dispersion" if several else ""
@@ -130,7 +132,7 @@ def strain_map_figure(
             Line2D([], [], color=BLUE, label="contact pressure"),
             Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, along x"),
         ],
-        CAPTION.format(counted=counted(conditions)),
+        CAPTION.format(counted=counted(conditions), kinematics=KINEMATICS_NAME[scene.kinematics]),
     )
     return figure
 
@@ -163,10 +165,10 @@ def _draw_map(axes: Axes, fields: Fields, loading: int, end: float) -> TriMesh:
 
 
 def _draw_tractions(
-    axes: Axes, row: ActuatorRow, contact: CondensedSection, solution: Solution, condition: Condition
+    axes: Axes, row: ActuatorRow, contact: FloatArray, solution: Solution, condition: Condition
 ) -> None:
-    """Pressure and shear of the nodes in contact, one line an actuator."""
-    nearest = np.argmin(np.abs(contact.position[:, [0]] - np.asarray(row.positions)), axis=1)
+    """Pressure and shear of the nodes in contact, one line an actuator. contact: (n,) x of undeformed nodes [mm]."""
+    nearest = np.argmin(np.abs(contact[:, None] - np.asarray(row.positions)), axis=1)
     centre = np.asarray(row.positions) + condition.tangential[-1]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear

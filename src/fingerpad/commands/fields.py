@@ -1,0 +1,62 @@
+"""`fingerpad fields`: the full fields of a condition as VTU files, which ParaView opens."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from ..edges import mesh_device
+from ..errors import UsageError
+from ..files import require_folder
+from ..states import solved_states
+from ..vtu import field_meshes, write_path, write_vtu
+from .options import add_case_options, add_scene_options, checked_case
+
+STEPS = 4  # of the progress: mesh, solution, fields, files
+ENDINGS = (".vtu", ".pvd")
+DESCRIPTION = """\
+Write the fields of one condition of a device for ParaView: displacement, strain, stress, layer and contact tractions,
+in mm and MPa. A file that ends in .vtu holds the end of the stimulus. With the ending .pvd, say path.pvd, the path to
+it is written: pre-indented and at each time of the stimulus, in path/ and path.vtu. With --kinematics finite the
+strain is the logarithmic one and the stress Cauchy's.
+
+examples:
+  fingerpad fields config/devices/device2.yaml --condition alternate_180 --interface shear -o fields.vtu
+  fingerpad fields config/devices/device2.yaml --condition alternate_180 --interface shear -o path.pvd
+"""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    add_case_options(parser, "small displacements and strains, or finite ones")
+    parser.add_argument(
+        "-o", "--output", required=True, type=Path, metavar="FILE", help=f"file to write ({', '.join(ENDINGS)})"
+    )
+    add_scene_options(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Solve the condition, and write what it does to the section."""
+    output = options.output
+    if output.suffix not in ENDINGS:
+        raise UsageError(f"{output}: found the ending '{output.suffix}'; allowed: {', '.join(ENDINGS)}")
+    require_folder(output)
+    scene, condition, interface = checked_case(options)
+    with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
+        section = mesh_device(scene)
+        bar.update()
+        states = solved_states(scene, section, condition, interface)
+        bar.update()
+        meshes = field_meshes(section, scene, states)
+        bar.update()
+        if output.suffix == ".pvd":
+            write_path(output, output.with_suffix(""), output.with_suffix(".vtu"), [0.0, *condition.time], meshes)
+        else:
+            write_vtu(output, meshes[-1])
+        bar.update()
+    print(f"written: {output}")

@@ -1,0 +1,90 @@
+"""States of the whole section on the way of a stimulus: displacement, strain and stress of small and finite kinematics.
+
+Strain is the linear one, or Hencky's, ln U; stress is Hooke's, or Cauchy's. Both are read at points of every element,
+as they jump between elements.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import MeshTri2
+
+from .condensation import body_of, condense_section
+from .deformed_solution import PressedFinger, certified_moves, pressed_finger
+from .fields import Fields
+from .finite_strain import logarithmic_strain
+from .hyperelasticity import cauchy_stress, tissue_of
+from .measures import stress
+from .mesh import SectionMesh
+from .pressing import press
+from .recovery import CORNERS, fields_of, gradient_at, recover_displacement, strain_of
+from .scene import Condition, FloatArray, Interface, Kinematics, Scene
+from .solution import Solution, solve_condition
+
+
+@dataclass(frozen=True)
+class States:
+    """The pre-indented state, and those at a stimulus's times.
+
+    displacement: (n_states, 2, n_nodes) [mm]. force: (n_states, n_contact, 2) on the skin [N/mm].
+    """
+
+    displacement: FloatArray
+    force: FloatArray
+
+
+def solved_states(scene: Scene, section: SectionMesh, condition: Condition, interface: Interface) -> States:
+    """Solve a condition, and what it does to the whole section. Raises CondensationError, ContactError."""
+    body = body_of(scene)
+    if scene.kinematics is Kinematics.FINITE:
+        pressed = press(scene, section, body, interface)
+        return deformed_states(scene, pressed_finger(scene, section, body, pressed, interface), condition)
+    condensed = condense_section(section, scene)
+    return linear_states(scene, section, solve_condition(scene, condensed, body, condition, interface))
+
+
+def linear_states(scene: Scene, section: SectionMesh, solution: Solution) -> States:
+    """States of linear tissue, from the contact forces of a solution."""
+    force = np.stack([solution.indented_force, *solution.force])
+    return States(recover_displacement(section, scene, force), force)
+
+
+def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -> States:
+    """States of tissue that deforms much, which follow from no forces alone: the stimulus is solved. Raises
+    ContactError.
+    """
+    moves, _ = certified_moves(scene, finger, condition)
+    return States(
+        np.array([each.displacement[finger.dofs] for each in moves]), np.array([each.state.force for each in moves])
+    )
+
+
+def strain_at(scene: Scene, mesh: MeshTri2, displacement: FloatArray, points: FloatArray) -> FloatArray:
+    """Strain (n_elements k, 3) [1], e_11, e_22, 2 e_12, at reference points (2, k) of every element, one element after
+    the other. displacement: (2, n_nodes) [mm].
+    """
+    gradient = gradient_at(mesh, displacement, points)
+    return logarithmic_strain(gradient).T if scene.kinematics is Kinematics.FINITE else strain_of(gradient)
+
+
+def stress_at(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
+    """Stress (n_elements k, 4) [MPa], xx, yy, zz, xy, of each element's own layer, where `strain_at` has strain."""
+    gradient = gradient_at(section.mesh, displacement, points)
+    finger, law = scene.model.finger, scene.model.tissue
+    materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
+    layer = np.repeat(section.layer, points.shape[1])
+    if scene.kinematics is Kinematics.FINITE:
+        return cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T
+    found = np.empty((layer.size, 4))
+    for number, material in enumerate(materials):
+        inside = layer == number
+        found[inside] = stress(strain_of(gradient[..., inside]).ravel(), material)
+    return found
+
+
+def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) -> Fields:
+    """What maps draw of states with those displacements (n_states, 2, n_nodes) [mm]."""
+    strain = np.array([strain_at(scene, section.mesh, each, CORNERS) for each in displacement])
+    return fields_of(section, scene, displacement, strain)
