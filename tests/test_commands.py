@@ -54,6 +54,14 @@ def coarse(checkout: Path) -> Path:
     return checkout
 
 
+def on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> io.StringIO:
+    """What goes to a terminal as standard error from now on."""
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True  # type: ignore[method-assign]
+    monkeypatch.setattr(sys, "stderr", terminal)
+    return terminal
+
+
 # fingerpad new
 
 
@@ -144,6 +152,12 @@ def test_check_says_what_there_is_and_draws(checkout: Path, capsys: pytest.Captu
     for part in ("valid", "Device 3: lateral pucks", "4 deformable actuators", "alternate_090", "third.png"):
         assert part in said
     assert (checkout / "third.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_check_shows_its_progress_on_a_terminal(coarse: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = on_a_terminal(monkeypatch)
+    assert main(["check", "config/devices/device2.yaml", "-o", "second.png"]) == 0
+    assert "0/3" in terminal.getvalue()
 
 
 def test_check_refuses(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -274,9 +288,7 @@ def test_predict_prints_an_aligned_table(
 def test_predict_shows_its_progress_on_a_terminal(
     checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    terminal = io.StringIO()
-    terminal.isatty = lambda: True  # type: ignore[method-assign]
-    monkeypatch.setattr(sys, "stderr", terminal)
+    terminal = on_a_terminal(monkeypatch)
     assert main(["predict", "config/devices/device2.yaml"]) == 0
     assert f"0/{steps(scene('device2'))}" in terminal.getvalue()
     assert "0/" not in capsys.readouterr().out

@@ -5,9 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from tqdm import tqdm
+
 from ..errors import UsageError
 from ..figures.section import section_figure
 from ..figures.style import save_as
+from ..files import require_folder
 from ..mesh import mesh_section, nominal_edges
 from ..scene import Scene
 from .options import add_scene_options, checked_scene
@@ -20,6 +23,7 @@ examples:
   fingerpad check config/devices/device2.yaml
   fingerpad check config/devices/device2.yaml -o device2.png
 """
+STEPS = 3  # of the progress: mesh, figure, picture
 PICTURES = (".png", ".pdf", ".svg")
 
 
@@ -40,8 +44,14 @@ def run(options: argparse.Namespace) -> None:
     scene = checked_scene(options.device, options)
     print(f"{options.device}: valid\n{described(scene)}")
     if picture is not None:
-        section = mesh_section(scene, nominal_edges(scene.device.actuators))
-        save_as(section_figure(scene.model, section, [scene.device]), picture)
+        require_folder(picture)
+        with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
+            section = mesh_section(scene, nominal_edges(scene.device.actuators))
+            bar.update()
+            figure = section_figure(scene.model, section, [scene.device])
+            bar.update()
+            save_as(figure, picture)
+            bar.update()
         print(f"drawn: {picture}")
 
 

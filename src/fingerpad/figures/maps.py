@@ -58,7 +58,7 @@ COVERED = 99.5  # per cent of the area in view that the colours tell apart; the 
 STEP = 5.0  # per cent of strain to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
-STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "logarithmic strain"}
+STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "log. strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 
 
