@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from .accuracy import with_errors
+from .accuracy import with_error, with_errors
 from .compliance import CondensedSection
 from .condensation import condense_section
+from .errors import ContactError
 from .mesh import mesh_section
 from .prediction import Condensed, read_out
 from .resampling import resampling_to_grid
@@ -59,7 +60,7 @@ class Answer:
     """What a design feels like.
 
     scene: of the design, with one condition. section, solution, readouts: on the finer mesh. rows: of the score table,
-    with errors.
+    with errors, or without, which `unknown` then explains.
     """
 
     scene: Scene
@@ -67,6 +68,7 @@ class Answer:
     solution: Solution
     readouts: FilteredReadouts
     rows: list[dict[str, Any]]
+    unknown: str = ""
 
 
 def condense_pad(scene: Scene, reach: float) -> Pad:
@@ -80,8 +82,9 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
-def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pressed, Pressed]:
-    """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes.
+def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pressed, Pressed | ContactError]:
+    """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes; in place of the
+    coarser one stands why its path cannot be followed, if it cannot.
 
     Raises SceneError if pins overlap or numbers are out of range, ContactError if the path cannot be followed.
     """
@@ -91,26 +94,31 @@ def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Presse
     pins = ActuatorRow(positions, width, row.edge_radius)
     model = replace(model, contact=replace(model.contact, friction=friction))
     scene = Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, pins, (_condition(count, 0.0, 0.0, True),)))
-    coarse = _with_numerics(scene, model.numerics.coarsened(COARSER))
-    return _pressed(scene, pad.fine), _pressed(coarse, pad.coarse)
+    fine = _pressed(scene, pad.fine)
+    try:
+        return fine, _pressed(_with_numerics(scene, model.numerics.coarsened(COARSER)), pad.coarse)
+    except ContactError as error:
+        return fine, error
 
 
-def answer(pressed: tuple[Pressed, Pressed], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
+def answer(
+    pressed: tuple[Pressed, Pressed | ContactError], amplitude: float, phase_deg: float, lateral: bool
+) -> Answer:
     """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
     pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
 
-    Raises ContactError if the path cannot be followed.
+    Raises ContactError if the path cannot be followed on the finer mesh.
     """
-    found = []
-    for row in pressed:
-        condition = _condition(len(row.scene.device.actuators.positions), amplitude, phase_deg, lateral)
-        scene = replace(row.scene, device=replace(row.scene.device, conditions=(condition,)))
-        solution = stimulate(scene, row.skin.section, row.indented, condition)
-        readouts = read_out(scene, row.skin, solution)
-        rows = score_rows(scene, condition, Interface.SHEAR, readouts)
-        found.append(Answer(scene, row.skin.section, solution, readouts, rows))
-    fine, coarse = found
-    return replace(fine, rows=with_errors(fine.rows, coarse.rows))
+    fine, coarse = pressed
+    count = len(fine.scene.device.actuators.positions)
+    condition = _condition(count, amplitude, phase_deg, lateral)
+    found = _moved(fine, condition)
+    try:
+        if isinstance(coarse, ContactError):
+            raise coarse
+        return replace(found, rows=with_errors(found.rows, _moved(coarse, condition).rows))
+    except ContactError as error:
+        return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=str(error))
 
 
 def without_middle(section: CondensedSection) -> CondensedSection:
@@ -134,6 +142,15 @@ def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) ->
     still = np.zeros_like(path)
     normal, tangential = (still, path) if lateral else (path, still)
     return Condition(NAME, "alternate", phase_deg, np.array([1.0]), normal, tangential)
+
+
+def _moved(row: Pressed, condition: Condition) -> Answer:
+    """The answer on one mesh, its rows without errors. Raises ContactError."""
+    scene = replace(row.scene, device=replace(row.scene.device, conditions=(condition,)))
+    solution = stimulate(scene, row.skin.section, row.indented, condition)
+    readouts = read_out(scene, row.skin, solution)
+    rows = score_rows(scene, condition, Interface.SHEAR, readouts)
+    return Answer(scene, row.skin.section, solution, readouts, rows)
 
 
 def _with_numerics(scene: Scene, numerics: Numerics) -> Scene:

@@ -10,7 +10,7 @@ from typing import Any
 import ipywidgets
 
 from .design import Answer, Pad, Pressed, answer, press
-from .errors import FingerpadError
+from .errors import ContactError, FingerpadError
 from .figures.design import DesignPicture
 from .scene import Scene
 
@@ -79,9 +79,9 @@ class Explorer:
             self._drawing.show(found, self._shown)
             self.picture.value = self._drawing.png()
             self._shown = found
-            self.message.value = ""
+            self.message.value = f"Errors are unknown: {escape(found.unknown)}." if found.unknown else ""
         self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start
 
     def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:
-        pressed: tuple[Pressed, Pressed] = self._pressed(pitch, width, friction)
+        pressed: tuple[Pressed, Pressed | ContactError] = self._pressed(pitch, width, friction)
         return answer(pressed, amplitude, phase, self.direction.value == "lateral")

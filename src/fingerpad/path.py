@@ -100,7 +100,7 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     if failure.inverted:
         return InvertedError, f"{failure.inverted}; try less indentation"
     if failure.turned:
-        return UniquenessError, "there the states of contact have no unique solution; try less friction"
+        return UniquenessError, "there the states of contact have no unique solution; try less friction, less movement"
     return ConvergenceError, "try more increments"
 
 

@@ -181,11 +181,14 @@ def _set(artists: _Design, place: float, answer: Answer) -> None:
     artists.shear.set_data(x, shear)
     for readout, row in zip(Readout, answer.rows, strict=True):
         factor, _ = SCORE_SCALE[readout]
-        score, error = factor * row["score"], factor * row["score_error"]
+        known = row["score_error"] is not None
+        score, error = factor * row["score"], factor * row["score_error"] if known else 0.0
         artists.curves[readout].set_data(answer.readouts.arc, PERCENT * _read(answer, readout))
         artists.bars[readout].set_height(score)
         artists.errors[readout].set_data([place, place], [score - error, score + error])
-        artists.numbers[readout].set(position=(place, score + error), text=f"{score:.3g}\n±{error:.1g}")
+        artists.numbers[readout].set(
+            position=(place, score + error), text=f"{score:.3g}\n±{f'{error:.1g}' if known else '?'}"
+        )
 
 
 def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
