@@ -27,11 +27,9 @@ def draw_actuators(axes: Axes, row: ActuatorRow, offsets: FloatArray, depth: flo
     x = np.concatenate([-rounded[::-1], rounded])
     drop, _ = profile(row, x)
     down = np.linspace(drop[-1], bottom, SIDE_POINTS)
-    side = np.stack([np.full_like(down, half), -down])
-    if row.body:
-        side = row.body.placed(*side)
-    mirrored = side[:, ::-1] * np.array([[-1.0], [1.0]])
-    shape = np.hstack([mirrored, np.stack([x, -drop]), side]).T
+    side = np.full_like(down, half)
+    outline = np.concatenate([-side, x, side]), -np.concatenate([down[::-1], drop, down])
+    shape = (row.body.placed(*outline) if row.body else np.stack(outline)).T
     for centre, offset in zip(row.positions, offsets, strict=True):
         placed = shape + offset + np.array([centre, 0.0])
         axes.add_patch(Polygon(placed, closed=True, facecolor=FACE, edgecolor="black", linewidth=THIN, zorder=2))
