@@ -82,7 +82,7 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
-def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pressed, Pressed | ContactError]:
+def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pressed, Pressed | str]:
     """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes; in place of the
     coarser one stands why its path cannot be followed, if it cannot.
 
@@ -98,12 +98,10 @@ def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Presse
     try:
         return fine, _pressed(_with_numerics(scene, model.numerics.coarsened(COARSER)), pad.coarse)
     except ContactError as error:
-        return fine, error
+        return fine, str(error)
 
 
-def answer(
-    pressed: tuple[Pressed, Pressed | ContactError], amplitude: float, phase_deg: float, lateral: bool
-) -> Answer:
+def answer(pressed: tuple[Pressed, Pressed | str], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
     """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
     pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
 
@@ -113,12 +111,14 @@ def answer(
     count = len(fine.scene.device.actuators.positions)
     condition = _condition(count, amplitude, phase_deg, lateral)
     found = _moved(fine, condition)
-    try:
-        if isinstance(coarse, ContactError):
-            raise coarse
-        return replace(found, rows=with_errors(found.rows, _moved(coarse, condition).rows))
-    except ContactError as error:
-        return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=str(error))
+    if isinstance(coarse, str):
+        unknown = coarse
+    else:
+        try:
+            return replace(found, rows=with_errors(found.rows, _moved(coarse, condition).rows))
+        except ContactError as error:
+            unknown = str(error)
+    return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=unknown)
 
 
 def without_middle(section: CondensedSection) -> CondensedSection:

@@ -10,7 +10,7 @@ from typing import Any
 import ipywidgets
 
 from .design import Answer, Pad, Pressed, answer, press
-from .errors import ContactError, FingerpadError
+from .errors import FingerpadError
 from .figures.design import DesignPicture
 from .scene import Scene
 
@@ -83,5 +83,5 @@ class Explorer:
         self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start
 
     def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:
-        pressed: tuple[Pressed, Pressed | ContactError] = self._pressed(pitch, width, friction)
+        pressed: tuple[Pressed, Pressed | str] = self._pressed(pitch, width, friction)
         return answer(pressed, amplitude, phase, self.direction.value == "lateral")
