@@ -85,7 +85,7 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
         "fingr",
         [
             "an unknown key",
-            "finger, tissue, contact, readout, filter, numerics",
+            "finger, tissue, contact, readout, filter, vibration, numerics",
             "did you mean finger?",
             "(transverse section",
         ],
@@ -255,7 +255,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "key of another kind": (
         {"stimulus.rows": []},
         "stimulus.rows",
-        ["an unknown key", "direction, amplitude, playback, phases, dispersions"],
+        ["an unknown key", "direction, frequency_hz, amplitude, playback, phases, dispersions"],
     ),
     "unknown direction": (
         {"stimulus.direction.value": "latral"},

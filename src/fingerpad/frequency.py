@@ -6,7 +6,7 @@ these afferents answer change, not what stays.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -46,11 +46,10 @@ class Outcome:
     note: str
 
 
-def condense_frequencies(section: SectionMesh, scene: Scene) -> Iterator[Vibrating]:
-    """The finger at the device's frequencies. Raises CondensationError."""
-    for frequency in scene.device.frequencies:
-        densities = (0.0, scene.model.vibration.density)
-        yield Vibrating(frequency, *(condense_vibrating(section, scene, frequency, each) for each in densities))
+def condense_vibrating_at(section: SectionMesh, scene: Scene, frequency: float) -> Vibrating:
+    """The finger at a frequency [Hz]. Raises CondensationError."""
+    densities = (0.0, scene.model.vibration.density)
+    return Vibrating(frequency, *(condense_vibrating(section, scene, frequency, each) for each in densities))
 
 
 def frequency_rows(

@@ -315,8 +315,7 @@ class Cycle:
 class Device:
     """A device: its actuators, what it controls, and the conditions it is tried in.
 
-    cycles: the conditions as vibrations, and frequencies: at which they are asked for [Hz]; none of both for a device
-    that is moved slowly.
+    cycles: the conditions as vibrations, none if they are given in time. frequencies: at which they are asked for [Hz].
     """
 
     name: str

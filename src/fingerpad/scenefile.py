@@ -175,7 +175,7 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     actuators = ActuatorRow(positions, row["width"], row["edge_radius"], _body(row["body"]))
     conditions = KINDS[stimulus["kind"]](stimulus, count, path.parent)
     frequencies = tuple(stimulus.get("frequency_hz", ()))
-    cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if frequencies else ()
+    cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if stimulus["kind"] in CYCLES else ()
     return Device(
         path.stem, plain["title"], Control(plain["control"]), actuators, tuple(conditions), cycles, frequencies
     )

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.creep import condense_creep
-from fingerpad.frequency import condense_frequencies, frequency_rows
+from fingerpad.frequency import condense_vibrating_at, frequency_rows
 from fingerpad.mesh import load_section
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load, write_rows
@@ -14,7 +14,8 @@ def main(config: Path, device: Path, mesh: Path, condensed: Path, body: Path | N
     """Read mesh and compliance, condense what creeps and what inertia changes, vibrate, write the rows."""
     scene, section = load_scene(config, device), load_section(mesh)
     maps, face = load(condensed, CondensedSection), load(body, CondensedBody) if body else None
-    creep, vibrating = condense_creep(section, scene), list(condense_frequencies(section, scene))
+    creep = condense_creep(section, scene)
+    vibrating = [condense_vibrating_at(section, scene, each) for each in scene.device.frequencies]
     write_rows(
         scores,
         [

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import csv
 import json
-import sys
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
@@ -17,6 +15,7 @@ from ..forecast import forecast, steps
 from ..roughness import KEY
 from ..scene import Kinematics, Scene
 from .options import add_scene_options, checked_scene
+from .printing import aligned, print_csv, titled
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
@@ -31,7 +30,6 @@ examples:
 """
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
 RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
-GAP = "  "
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -66,7 +64,7 @@ def run(options: argparse.Namespace) -> None:
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
-        _print_csv(rows)
+        print_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows])
     else:
         print("\n\n".join(map(as_table, scenes, tables)))
 
@@ -76,12 +74,8 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
     cells = [[_shown(column, row[column]) for column in COLUMNS] for row in ordered]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(row["note"] for row in rows)]
-    header = [name.replace("_", " ") for name in COLUMNS]
-    widths = [max(len(line[i]) for line in (header, *cells)) for i in range(len(COLUMNS))]
-    lines = [f"{scene.device.title} ({scene.device.name})"]
-    for line in (header, *cells):
-        padded = (line[i].rjust(widths[i]) if COLUMNS[i] in RIGHT else line[i].ljust(widths[i]) for i in columns)
-        lines.append(GAP.join(padded).rstrip())
+    shown = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
+    lines = [titled(scene), *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
     said = [(caveat, row) for row in ordered for caveat in row["caveats"]]
     for caveat, group in groupby(said, key=lambda pair: pair[0]):
         where = ", ".join(f"{row['condition']} ({row['interface']}, {row['readout']})" for _, row in group)
@@ -95,9 +89,3 @@ def _shown(column: str, value: Any) -> str:
     if column in KEY or not isinstance(value, float):
         return str(value)
     return f"{value:.1e}" if column == "score_error" else f"{value:.5g}"
-
-
-def _print_csv(rows: Sequence[Mapping[str, Any]]) -> None:
-    writer = csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({**row, "caveats": "; ".join(row["caveats"])} for row in rows)

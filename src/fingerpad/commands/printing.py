@@ -1,0 +1,40 @@
+"""How subcommands print tables."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..scene import Scene
+
+GAP = "  "
+
+
+def titled(scene: Scene) -> str:
+    """The line above a device's table."""
+    return f"{scene.device.title} ({scene.device.name})"
+
+
+def aligned(lines: Sequence[Sequence[str]], right: Sequence[bool]) -> list[str]:
+    """Lines of cells, the header first, with columns of equal width; those of `right` end at the right.
+
+    >>> aligned([["a", "b"], ["long", "1"]], [False, True])
+    ['a     b', 'long  1']
+    """
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        GAP.join(
+            cell.rjust(width) if at_right else cell.ljust(width)
+            for cell, width, at_right in zip(line, widths, right, strict=True)
+        ).rstrip()
+        for line in lines
+    ]
+
+
+def print_csv(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Rows that share their keys, as CSV on standard output."""
+    writer = csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)

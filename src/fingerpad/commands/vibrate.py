@@ -1,0 +1,117 @@
+"""`fingerpad vibrate`: scores of a device's conditions as vibrations."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+from tqdm import tqdm
+
+from ..condensation import body_of, condense_section
+from ..creep import condense_creep
+from ..edges import mesh_device
+from ..errors import UsageError
+from ..frequency import SLOWLY, condense_vibrating_at, frequency_rows
+from ..scene import Scene
+from .options import add_scene_options, checked_scene
+from .printing import aligned, print_csv, titled
+
+LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
+STEPS = 3  # of the progress before any score: mesh, compliance, creep
+DESCRIPTION = """\
+Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
+creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
+frequency there is one. "slow" is a cycle in which tissue is always relaxed.
+
+examples:
+  fingerpad vibrate config/devices/device2.yaml
+  fingerpad vibrate config/devices/device2.yaml --frequency 25 60
+  fingerpad vibrate --csv config/devices/device2.yaml > device2.csv
+"""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    parser.add_argument(
+        "--frequency", type=float, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
+    )
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
+    how.add_argument("--csv", action="store_true", help="print the columns of results/frequency.csv")
+    add_scene_options(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Vibrate the device, and print all scores once they are there."""
+    scene = asked(checked_scene(options.device, options), options.frequency)
+    device = scene.device
+    total = STEPS + len(device.frequencies)
+    total += len(device.interfaces()) * len(device.cycles) * (1 + len(device.frequencies))
+    with tqdm(total=total, desc=device.name, leave=False, disable=None) as bar, threadpool_limits(1):
+        section = mesh_device(scene)
+        bar.update()
+        condensed, body = condense_section(section, scene), body_of(scene)
+        bar.update()
+        creep = condense_creep(section, scene)
+        bar.update()
+        vibrating = []
+        for frequency in device.frequencies:
+            vibrating.append(condense_vibrating_at(section, scene, frequency))
+            bar.update()
+        rows = [
+            row
+            for interface in device.interfaces()
+            for row in frequency_rows(scene, condensed, body, creep, vibrating, interface, bar.update)
+        ]
+    if options.json:
+        print(json.dumps(rows, indent=2))
+    elif options.csv:
+        print_csv(rows)
+    else:
+        print(as_table(scene, rows))
+
+
+def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
+    """The scene with other frequencies [Hz], if there are any. Raises UsageError if it has none, or cannot have one."""
+    device = scene.device
+    if not device.cycles:
+        raise UsageError(
+            f"{device.name}: found displacements that are given in time; allowed: a stimulus of kind phased or"
+            " alternating, which can be a vibration"
+        )
+    if frequencies is None and not device.frequencies:
+        raise UsageError(f"{device.name}: found no stimulus.frequency_hz; give it, or --frequency HZ")
+    for frequency in frequencies or ():
+        if not LOWEST <= frequency <= HIGHEST:
+            raise UsageError(f"--frequency: found {frequency:g}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
+    wanted = tuple(sorted(set(frequencies))) if frequencies else device.frequencies
+    return replace(scene, device=replace(device, frequencies=wanted))
+
+
+def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
+    """A table for each interface and read-out, one line a condition and one column a frequency; then the notes."""
+    frequencies = (SLOWLY, *scene.device.frequencies)
+    header = ["condition", *("slow" if each == SLOWLY else f"{each:g} Hz" for each in frequencies)]
+    parts = [titled(scene)]
+    for (interface, readout), group in groupby(
+        sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain")),
+        key=lambda row: (row["interface"], row["readout"]),
+    ):
+        own = list(group)
+        cells = [
+            [name, *("-" if row["score"] is None else f"{row['score']:.4g}" for row in condition)]
+            for name, condition in groupby(own, key=lambda row: str(row["condition"]))
+        ]
+        right = [False, *(True for _ in frequencies)]
+        parts.append("\n".join([f"{interface}, {readout} [{own[0]['unit']}]", *aligned([header, *cells], right)]))
+    notes = dict.fromkeys(f"{row['condition']} ({row['interface']}): {row['note']}" for row in rows if row["note"])
+    return "\n\n".join([*parts, "\n".join(notes)]).rstrip()
