@@ -258,12 +258,6 @@ def condense_ordered(
     return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
 
 
-def contact_last(order: np.ndarray, loads: csc_matrix) -> np.ndarray:
-    """A fill-reducing order (n_free,) with the unknowns that loads (n_unknowns, k) act on moved to its end."""
-    loaded = np.isin(order, loads.indices)
-    return np.concatenate([order[~loaded], order[loaded]])
-
-
 def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matrix) -> tuple[FloatArray, float]:
     """Compliance (k, k) of loads (n_free, k) on the last unknowns of a stiffness, and relative residual.
 
@@ -320,18 +314,28 @@ def arc_length(points: FloatArray) -> FloatArray:
     return arc - float(np.interp(0.0, points[around, 0], arc[around]))
 
 
-def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work)."""
+def fill_reducing_order(
+    matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray, last: np.ndarray | None = None
+) -> np.ndarray:
+    """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work).
+
+    last: unknowns that come last in it. The factors join them to one another, and so does the graph beforehand.
+    """
     nodes = np.flatnonzero(free[dofs].any(axis=0))
     first = dofs[0, nodes]
     graph = csc_matrix(matrix[first][:, first])
+    if last is not None:
+        joined = np.isin(dofs[:, nodes], last).any(axis=0).astype(float)[:, None]
+        graph = csc_matrix(abs(graph) + csc_matrix(joined) @ csc_matrix(joined).T)
     graph.data[:] = -1.0
     graph = csc_matrix(graph + diags_array(np.full(nodes.size, 2.0 * np.diff(graph.indptr).max())))
     permutation = _factorise(graph, "MMD_AT_PLUS_A").perm_c
     order = np.empty_like(permutation)
     order[permutation] = np.arange(permutation.size)
     ordered = dofs[:, nodes[order]].T.ravel()
-    return np.asarray(ordered[free[ordered]])
+    ordered = ordered[free[ordered]]
+    after = np.isin(ordered, [] if last is None else last)
+    return np.concatenate([ordered[~after], ordered[after]])
 
 
 def factorise(permuted: csc_matrix) -> SuperLU:

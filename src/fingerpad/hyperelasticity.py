@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .elasticity import lame
-from .finite_strain import Principal, principal_strain
+from .finite_strain import Principal, green_strain, principal_strain
 from .scene import FloatArray, Law, Material
 
 EQUAL = 1e-6  # difference of principal strains [1] below which its limit serves; source: it is off by the square
@@ -50,6 +50,21 @@ def tissue_of(law: Law, exponent: float, materials: Sequence[Material], index: n
     """Tissue whose points (...) have the materials of that index (...)."""
     constants = np.array([lame(material) for material in materials])[index]
     return Tissue(law, constants[..., 0], constants[..., 1], exponent)
+
+
+def stress_of(tissue: Tissue, gradient: FloatArray) -> FloatArray:
+    """Second Piola-Kirchhoff stress (3, ...) S_11, S_22, S_12 [MPa] of tissue at displacement gradients (2, 2, ...).
+
+    Coaxial with E, it is S = m I + t (E - e I) with m, e the mean principal values and t = (S_1 - S_2)/(E_1 - E_2).
+    """
+    strain = green_strain(gradient)
+    middle, half, shear = (strain[0] + strain[1]) / 2.0, (strain[0] - strain[1]) / 2.0, strain[2] / 2.0
+    radius = np.sqrt(half * half + shear * shear)
+    values = np.stack([middle + radius, middle - radius])
+    principal = _kirchhoff(tissue, values)[0] / (1.0 + 2.0 * values)
+    mean, difference = (principal[0] + principal[1]) / 2.0, (principal[0] - principal[1]) / 2.0
+    slope = difference / np.maximum(radius, np.finfo(float).tiny)
+    return np.stack([mean + slope * half, mean - slope * half, slope * shear])
 
 
 def respond(tissue: Tissue, gradient: FloatArray) -> Response:
