@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 
 from .compliance import CondensedBody, CondensedSection
 from .condensation import (
@@ -78,12 +78,13 @@ def press(
     bare = CondensedSection(tractions.position, tractions.weight, NONE, receptor, arc_length(receptor), NONE, 0.0)
     problem = contact_problem(scene, bare, body, interface)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
-    parts = right_half(section, scene, tractions) if mirrored else whole(section, scene, tractions)
+    parts = right_half(section, tractions) if mirrored else whole(section, tractions)
     spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
     pressing = half_of(problem) if mirrored else problem
     touch, states = touching_height(pressing), list[ContactState]()
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
-        start, count = deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])), -(-increments(scene, problem)[0] // CONTACT_INCREMENTS)
+        start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
+        count = -(-increments(scene, problem)[0] // CONTACT_INCREMENTS)
         solve = recording(solver_on(spans[0]), states.append)
         if height is None:
             criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
@@ -129,19 +130,21 @@ def indented_height(scene: Scene, section: SectionMesh, interface: Interface) ->
 
 def whole_span(scene: Scene, section: SectionMesh, condensing: bool) -> Span:
     """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill."""
-    return _span(scene, section, whole(section, scene, contact_tractions(section, scene)), 0, condensing)
+    return _span(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
 
 
 def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> Span:
     """The tissue with one choice of what is held."""
-    free = np.ones(parts.matrix.shape[0], dtype=bool)
+    free = np.ones(parts.dofs.size, dtype=bool)
     free[parts.held[which]] = False
     loads = parts.loads[which]
-    order = fill_reducing_order(parts.matrix, parts.dofs, free, loads.indices if condensing else None)
+    basis = displacement_basis(section.mesh, parts.elements)
+    own = basis.element_dofs.T
+    within = csr_matrix((np.ones(own.size), own.ravel(), np.arange(own.shape[0] + 1) * own.shape[1]), (own.shape[0], free.size))
+    order = fill_reducing_order(csc_matrix(within.T @ within), parts.dofs, free, loads.indices if condensing else None)
     finger, law = scene.model.finger, scene.model.tissue
     materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
-    basis = displacement_basis(section.mesh, parts.elements)
     return Span(elements_of(basis, tissue, order), csc_matrix(loads[order]))
 
 
