@@ -91,8 +91,7 @@ def condense_parts(
     rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
     read = strain[VOIGT * np.count_nonzero(rows.side < 0) :] if halved else strain
     maps = [
-        condense(matrix, parts.dofs, held, loads, read)
-        for held, loads in zip(parts.held, parts.loads, strict=True)
+        condense(matrix, parts.dofs, held, loads, read) for held, loads in zip(parts.held, parts.loads, strict=True)
     ]
     compliance, strain_map, _ = maps[0]
     if halved:
@@ -164,8 +163,8 @@ def unfolding(count: int, mirror: FloatArray) -> Unfolding:
 
 
 def _folded_loads(section: SectionMesh, tractions: Tractions, dofs: np.ndarray) -> tuple[csc_matrix, csc_matrix]:
-    """Nodal forces (n_unknowns, 2m) on the right half from unit resultants that act together with their mirror image, and
-    against it.
+    """Nodal forces (n_unknowns, 2m) on the right half from unit resultants that act together with their mirror image,
+    and against it.
     """
     index = np.flatnonzero(np.isin(section.skin, tractions.nodes))
     x = section.mesh.doflocs[0, tractions.nodes]

@@ -177,20 +177,22 @@ def _followed(
     actuator: FloatArray,
     first: FloatArray,
     last: FloatArray,
-) -> tuple[DeformedState, Passed, Tangent]:
+) -> tuple[ContactState, Passed, Tangent]:
     """Contact at the end of an increment of the tissue, what it passed before, and the tangent with its last patch.
 
     first: (n, 2) displacement of contact nodes at the start [mm]. last: (n, 2) that without contact forces at the end
-    [mm]. Raises NotConvergedError.
+    [mm]. On the way the latter lies on a parabola through what it was before, at the start, and is at the end. Raises
+    NotConvergedError.
     """
     length = float(np.abs(actuator - start.actuator).max())
     here = Passed(0.0, first, start.force)
     known = [here] if start.passed is None else [start.passed, here]
     free = [each.moved - _moved(tangent, each.force) for each in known]
     drift = BarycentricInterpolator([*(-each.before for each in known), length], np.array([*free, last]))
-    state, patch, passed = start, tangent.patch, here
+    state: ContactState = start
+    patch, passed = tangent.patch, here
     for way in np.linspace(0.0, length, CONTACT_INCREMENTS + 1)[1:]:
-        passed = Passed(length / CONTACT_INCREMENTS, here.moved, here.force)
+        passed = replace(here, before=length / CONTACT_INCREMENTS)
         there = replace(problem, compliance=tangent.compliance, free=drift(way))
         target = start.actuator + way / length * (actuator - start.actuator)
         state, patch = solve_increment(there, state, target, patch)

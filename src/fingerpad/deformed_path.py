@@ -48,7 +48,9 @@ class DeformedTissue:
     def solve(self, load: FloatArray) -> FloatArray:
         """Displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
         field = np.asarray(self.factors.solve(load))
-        return field if self.spring is None else field - self.spring.share * (self.spring.field @ load) * self.spring.field
+        return (
+            field if self.spring is None else field - self.spring.share * (self.spring.field @ load) * self.spring.field
+        )
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,10 @@ class Spring:
     field: FloatArray
     share: float
     compliance: FloatArray
+
+    def takes(self, load: FloatArray) -> FloatArray:
+        """What it takes of the displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
+        return self.share * float(self.field @ load) * self.field
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,7 @@ def respond(tissue: Tissue, gradient: FloatArray) -> Response:
     equal = apart < EQUAL
     limit = (d11 + d22) / 2.0 - d12
     turning = np.where(equal, limit, (stress[0] - stress[1]) / np.where(equal, 1.0, apart)) / 2.0
-    return _turned(axes, stress, d11, d22, d12, turning)
+    return Response(stress_of(tissue, gradient), _turned(axes, d11, d22, d12, turning))
 
 
 def cauchy_stress(tissue: Tissue, gradient: FloatArray) -> FloatArray:
@@ -140,15 +140,13 @@ def _kirchhoff(tissue: Tissue, strain: FloatArray) -> tuple[FloatArray, tuple[Fl
     return tau, (own[0], other, own[1])
 
 
-def _turned(
-    axes: Principal, stress: FloatArray, d11: FloatArray, d22: FloatArray, d12: FloatArray, turning: FloatArray
-) -> Response:
-    """Response in x, y of principal stress (2, ...) and tangent; S_12 over 2 E_12 is `turning` along the axes."""
+def _turned(axes: Principal, d11: FloatArray, d22: FloatArray, d12: FloatArray, turning: FloatArray) -> FloatArray:
+    """Tangent (3, 3, ...) in x, y of that along the axes, where S_12 over 2 E_12 is `turning`."""
     c, s = axes.cosine, axes.sine
     cc, ss, cs = c * c, s * s, c * s
-    # rows: principal E_11, E_22, 2 E_12 of E_11, E_22, 2 E_12 in x, y; stresses go back with the transpose
+    # rows: principal E_11, E_22, 2 E_12 of E_11, E_22, 2 E_12 in x, y
     first, second, shear = np.stack([cc, ss, cs]), np.stack([ss, cc, -cs]), np.stack([-2.0 * cs, 2.0 * cs, cc - ss])
     tangent = first[:, None] * (d11 * first + d12 * second)
     tangent += second[:, None] * (d12 * first + d22 * second)
     tangent += shear[:, None] * (turning * shear)
-    return Response(first * stress[0] + second * stress[1], tangent)
+    return np.asarray(tangent)

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix
 
 from .compliance import CondensedBody, CondensedSection
 from .condensation import (
@@ -139,13 +139,20 @@ def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensi
     free[parts.held[which]] = False
     loads = parts.loads[which]
     basis = displacement_basis(section.mesh, parts.elements)
-    own = basis.element_dofs.T
-    within = csr_matrix((np.ones(own.size), own.ravel(), np.arange(own.shape[0] + 1) * own.shape[1]), (own.shape[0], free.size))
-    order = fill_reducing_order(csc_matrix(within.T @ within), parts.dofs, free, loads.indices if condensing else None)
+    joined = _joined(basis.element_dofs, free.size)
+    order = fill_reducing_order(joined, parts.dofs, free, loads.indices if condensing else None)
     finger, law = scene.model.finger, scene.model.tissue
     materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
     return Span(elements_of(basis, tissue, order), csc_matrix(loads[order]))
+
+
+def _joined(element_dofs: np.ndarray, size: int) -> csc_matrix:
+    """Matrix (size, size) with entries where elements join unknowns (12, n_elements): the tangent's, in no time."""
+    count, elements = element_dofs.shape
+    within = csc_matrix((np.ones(element_dofs.size), element_dofs.T.ravel(), np.arange(elements + 1) * count))
+    within.resize(size, elements)
+    return csc_matrix(within @ within.T)
 
 
 def _mirrored(section: SectionMesh, right: FloatArray) -> FloatArray:
