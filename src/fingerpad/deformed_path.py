@@ -5,19 +5,22 @@ About the pre-indented state u_0 with tangent K, a path on the condensed maps en
 of the tissue. Where R(u') is not L f, the contact nodes' displacement without forces, free = L^T (u - K^-1 R(u)), is
 another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
 the way from u_0, where K is exact, and evenly from elsewhere. So the tissue is in equilibrium wherever a move ends.
+
+Any K leads there. Without friction a pressed finger can all but sway freely, and corrections on its tangent go astray
+with the softest mode: there K is the tangent and a spring on that mode.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU
 
 from .condensation import factorise
-from .contact import ContactProblem, ContactState
+from .contact import ContactProblem, ContactState, drifted
 from .deformation import internal_force, internal_force_and_tangent
 from .deformed import CONTACT_INCREMENTS, MEMORY, Span, accelerated, deformed, solver_on, undeformed
 from .errors import ContactError
@@ -48,9 +51,7 @@ class DeformedTissue:
     def solve(self, load: FloatArray) -> FloatArray:
         """Displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
         field = np.asarray(self.factors.solve(load))
-        return (
-            field if self.spring is None else field - self.spring.share * (self.spring.field @ load) * self.spring.field
-        )
+        return field if self.spring is None else field - self.spring.takes(load)
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,7 @@ def deformed_tissue(
 
 
 def _spring(span: Span, factors: SuperLU, compliance: FloatArray) -> Spring:
+    """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors."""
     count = compliance.shape[0]
     (next_one, softest), modes = eigh(compliance, subset_by_index=[count - 2, count - 1])
     mode = modes[:, 1]
@@ -202,6 +204,6 @@ def _followed(
         problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
     ) -> tuple[ContactState, Patch]:
         way = float(np.abs(actuator - start.actuator).max()) / length
-        return solve_increment(replace(problem, free=first + way**power * drift), state, actuator, patch)
+        return solve_increment(drifted(problem, first + way**power * drift), state, actuator, patch)
 
     return advance(problem, start, target, increments, patch, solve)
