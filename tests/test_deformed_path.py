@@ -54,6 +54,6 @@ def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
     assert corrected.tangents == 0
     span = finger.tissue.condensing()
     begin = deformed(finger.start.state, finger.start.displacement)
-    followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(span))
+    followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(span, 1))
     way = np.abs(followed.displacement - finger.start.displacement).max()
     assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * EQUILIBRIUM * way

@@ -32,7 +32,8 @@ from .scene import FloatArray
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
 LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
 CONTRACTION = 0.4  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
-CONTACT_INCREMENTS = 4  # in one of the tissue [1]; source: scores move by 0.15 of their errors at most
+CONTACT_INCREMENTS = 4  # in one of the tissue [1], at most; source: scores move by 0.15 of their errors at most
+TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; source: fewer are halved too often
 MEMORY = 12  # iterates [1] that are combined; source: fewest corrections of 6, 8, 12
 
 
@@ -100,18 +101,33 @@ def undeformed(state: DeformedState) -> ContactState:
     return ContactState(**{field.name: getattr(state, field.name) for field in fields(ContactState)})
 
 
-def solver_on(span: Span) -> SolveIncrement[DeformedState]:
-    """What solves an increment on that tissue, for a path."""
-    return partial(solve_deformed_increment, span)
+def increments_of(count: int) -> tuple[int, int]:
+    """Increments of the tissue on a way that contact takes in `count`, and those of contact in each.
+
+    >>> increments_of(20), increments_of(14), increments_of(4)
+    ((5, 4), (5, 3), (4, 1))
+    """
+    tissue = max(-(-count // CONTACT_INCREMENTS), min(count, TISSUE_INCREMENTS))
+    return tissue, -(-count // tissue)
+
+
+def solver_on(span: Span, increments: int) -> SolveIncrement[DeformedState]:
+    """What solves an increment on that tissue, for a path, in so many of contact."""
+    return partial(solve_deformed_increment, span, increments)
 
 
 def solve_deformed_increment(
-    span: Span, problem: ContactProblem, start: DeformedState, actuator: FloatArray, tangent: Tangent | None
+    span: Span,
+    increments: int,
+    problem: ContactProblem,
+    start: DeformedState,
+    actuator: FloatArray,
+    tangent: Tangent | None,
 ) -> tuple[DeformedState, Tangent]:
     """The state with the actuators at `actuator` (n_actuators, 2) [mm], and the tangent it was found with.
 
-    problem: of undeformed tissue, whatever its compliance. tangent: one from earlier on this path. Raises
-    NotConvergedError.
+    increments: of contact. problem: of undeformed tissue, whatever its compliance. tangent: one from earlier on this
+    path. Raises NotConvergedError.
     """
     length = float(np.abs(actuator - start.actuator).max())
     scale = float(np.abs(actuator).max()) + length
@@ -128,7 +144,7 @@ def solve_deformed_increment(
             back = -tangent.factors.solve(internal_force(span.elements, displacement)[free])
             last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = (span.loads.T @ start.displacement[free]).reshape(-1, 2)
-            found, passed, tangent = _followed(problem, tangent, start, actuator, first, last)
+            found, passed, tangent = _followed(increments, problem, tangent, start, actuator, first, last)
             iterations += found.iterations - start.iterations
             step = back + tangent.factors.solve(span.loads @ found.force.ravel())
             displacement[free] += step
@@ -171,6 +187,7 @@ def accelerated(steps: list[FloatArray], ends: list[FloatArray]) -> FloatArray:
 
 
 def _followed(
+    increments: int,
     problem: ContactProblem,
     tangent: Tangent,
     start: DeformedState,
@@ -192,8 +209,8 @@ def _followed(
     condensed = replace(problem, compliance=tangent.compliance)
     state: ContactState = start
     patch, passed = tangent.patch, here
-    for way in np.linspace(0.0, length, CONTACT_INCREMENTS + 1)[1:]:
-        passed = replace(here, before=length / CONTACT_INCREMENTS)
+    for way in np.linspace(0.0, length, increments + 1)[1:]:
+        passed = replace(here, before=length / increments)
         target = start.actuator + way / length * (actuator - start.actuator)
         state, patch = solve_increment(drifted(condensed, drift(way)), state, target, patch)
         here = Passed(0.0, drift(way) + _moved(tangent, state.force), state.force)

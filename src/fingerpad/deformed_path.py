@@ -22,7 +22,7 @@ from scipy.sparse.linalg import SuperLU
 from .condensation import factorise
 from .contact import ContactProblem, ContactState, drifted
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import CONTACT_INCREMENTS, MEMORY, Span, accelerated, deformed, solver_on, undeformed
+from .deformed import MEMORY, Span, accelerated, deformed, increments_of, solver_on, undeformed
 from .errors import ContactError
 from .increment import Patch, solve_increment
 from .path import advance
@@ -171,8 +171,8 @@ def _followed_newly(
 ) -> Move:
     """`move` with a new tangent wherever an increment asks for one."""
     span = tissue.condensing()
-    begin = deformed(start.state, start.displacement)
-    reached, _ = advance(problem, begin, target, -(-increments // CONTACT_INCREMENTS), None, solver_on(span))
+    begin, (count, within) = deformed(start.state, start.displacement), increments_of(increments)
+    reached, _ = advance(problem, begin, target, count, None, solver_on(span, within))
     moved = (span.loads.T @ reached.displacement[span.elements.free]).reshape(-1, 2)
     rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
     return Move(

@@ -29,7 +29,7 @@ from .condensation import (
 )
 from .contact import ContactState, rest, touching_height
 from .deformation import elements_of
-from .deformed import CONTACT_INCREMENTS, Span, deformed, solver_on, tangent_at, undeformed
+from .deformed import Span, deformed, increments_of, solver_on, tangent_at, undeformed
 from .elasticity import displacement_basis
 from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
@@ -84,8 +84,8 @@ def press(
     touch, states = touching_height(pressing), list[ContactState]()
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
         start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
-        count = -(-increments(scene, problem)[0] // CONTACT_INCREMENTS)
-        solve = recording(solver_on(spans[0]), states.append)
+        count, within = increments_of(increments(scene, problem)[0])
+        solve = recording(solver_on(spans[0], within), states.append)
         if height is None:
             criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
             reached = raise_until(pressing, criterion, count, limit, start, solve)
