@@ -90,15 +90,6 @@ class ContactState:
     searches: int
 
 
-def drifted(problem: ContactProblem, free: FloatArray) -> ContactProblem:
-    """The problem with another displacement (n, 2) of the nodes without contact forces [mm]; what has been made of its
-    compliance is kept, as that takes as long as solving an increment.
-    """
-    other = replace(problem, free=free)
-    vars(other).update(by_component=problem.by_component, actuator_of=problem.actuator_of)
-    return other
-
-
 def touching_height(problem: ContactProblem) -> float:
     """Height [mm] to which the actuators rise until the first skin node touches."""
     x = problem.position[:, 0] - np.asarray(problem.row.positions)[problem.actuator_of]

@@ -22,7 +22,7 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU
 
 from .condensation import factorise, trailing_compliance
-from .contact import ContactProblem, ContactState, drifted
+from .contact import ContactProblem, ContactState
 from .deformation import Elements, internal_force, internal_force_and_tangent
 from .errors import CondensationError, InvertedError
 from .increment import NotConvergedError, Patch, solve_increment
@@ -212,7 +212,7 @@ def _followed(
     for way in np.linspace(0.0, length, increments + 1)[1:]:
         passed = replace(here, before=length / increments)
         target = start.actuator + way / length * (actuator - start.actuator)
-        state, patch = solve_increment(drifted(condensed, drift(way)), state, target, patch)
+        state, patch = solve_increment(replace(condensed, free=drift(way)), state, target, patch)
         here = Passed(0.0, drift(way) + _moved(tangent, state.force), state.force)
     return state, passed, replace(tangent, patch=patch)
 

@@ -13,14 +13,14 @@ with the softest mode: there K is the tangent and a spring on that mode.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU
 
 from .condensation import factorise
-from .contact import ContactProblem, ContactState, drifted
+from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
 from .deformed import MEMORY, Span, accelerated, deformed, increments_of, solver_on, undeformed
 from .errors import ContactError
@@ -204,6 +204,6 @@ def _followed(
         problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
     ) -> tuple[ContactState, Patch]:
         way = float(np.abs(actuator - start.actuator).max()) / length
-        return solve_increment(drifted(problem, first + way**power * drift), state, actuator, patch)
+        return solve_increment(replace(problem, free=first + way**power * drift), state, actuator, patch)
 
     return advance(problem, start, target, increments, patch, solve)
