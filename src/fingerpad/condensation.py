@@ -76,11 +76,14 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     """
     tractions = contact_tractions(section, scene)
     halved = scene.model.skips.halved_condensation
-    parts = right_half(section, scene, tractions) if halved else whole(section, scene, tractions)
-    return condense_parts(section, scene, tractions, parts)
+    parts = right_half(section, tractions) if halved else whole(section, tractions)
+    matrix, _ = section_stiffness(section, scene, parts.elements)
+    return condense_parts(section, scene, tractions, parts, matrix)
 
 
-def condense_parts(section: SectionMesh, scene: Scene, tractions: Tractions, parts: Parts) -> CondensedSection:
+def condense_parts(
+    section: SectionMesh, scene: Scene, tractions: Tractions, parts: Parts, matrix: csc_matrix
+) -> CondensedSection:
     """`condense_section` of tissue with any stiffness. Raises CondensationError."""
     points, strain = receptor_strain(section, scene)
     halved = len(parts.loads) > 1
@@ -88,8 +91,7 @@ def condense_parts(section: SectionMesh, scene: Scene, tractions: Tractions, par
     rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
     read = strain[VOIGT * np.count_nonzero(rows.side < 0) :] if halved else strain
     maps = [
-        condense(parts.matrix, parts.dofs, held, loads, read)
-        for held, loads in zip(parts.held, parts.loads, strict=True)
+        condense(matrix, parts.dofs, held, loads, read) for held, loads in zip(parts.held, parts.loads, strict=True)
     ]
     compliance, strain_map, _ = maps[0]
     if halved:
@@ -105,34 +107,33 @@ class Parts:
     """The tissue that is solved: the section, or its right half under loads that mirror, and that mirror with the
     opposite sign.
 
-    elements: of the section. matrix: their stiffness. dofs: (2, n_nodes) unknowns of nodes. held, loads: for each kind
-    of loads the unknowns that do not move, and the nodal forces (n_unknowns, 2m) of unit contact forces.
+    elements: of the section. dofs: (2, n_nodes) unknowns of nodes. held, loads: for each kind of loads the unknowns
+    that do not move, and the nodal forces (n_unknowns, 2m) of unit contact forces.
     """
 
     elements: np.ndarray
-    matrix: csc_matrix
     dofs: np.ndarray
     held: Sequence[np.ndarray]
     loads: Sequence[csc_matrix]
 
 
-def whole(section: SectionMesh, scene: Scene, tractions: Tractions) -> Parts:
+def whole(section: SectionMesh, tractions: Tractions) -> Parts:
     """The whole section."""
-    matrix, dofs = section_stiffness(section, scene)
-    loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
-    return Parts(np.arange(section.mesh.t.shape[1]), matrix, dofs, [dofs[:, section.fixed].ravel()], [loads])
+    dofs = node_dofs(displacement_basis(section.mesh))
+    loads = csc_matrix(unit_loads(dofs, tractions.nodes, dofs.size) @ tractions.by_component())
+    return Parts(np.arange(section.mesh.t.shape[1]), dofs, [dofs[:, section.fixed].ravel()], [loads])
 
 
-def right_half(section: SectionMesh, scene: Scene, tractions: Tractions) -> Parts:
+def right_half(section: SectionMesh, tractions: Tractions) -> Parts:
     """The right half of a section; of contact nodes in the middle the right half takes the one on the mid-line."""
     x = section.mesh.doflocs[0]
     elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
-    matrix, dofs = section_stiffness(section, scene, elements)
+    dofs = node_dofs(displacement_basis(section.mesh, elements))
     still, axis = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0]), dofs[:, x == 0.0]
     held = [np.union1d(still, axis[sideways]) for sideways in (0, 1)]
     first = 2 * (tractions.position.shape[0] // 2)
-    loads = [each[:, first:] for each in _folded_loads(section, tractions, dofs, matrix.shape[0])]
-    return Parts(elements, matrix, dofs, held, loads)
+    loads = [each[:, first:] for each in _folded_loads(section, tractions, dofs)]
+    return Parts(elements, dofs, held, loads)
 
 
 @dataclass(frozen=True)
@@ -161,11 +162,9 @@ def unfolding(count: int, mirror: FloatArray) -> Unfolding:
     return Unfolding(np.where(on_right, line, line[::-1]) - left, np.where(on_right, 1, -1), mirror)
 
 
-def _folded_loads(
-    section: SectionMesh, tractions: Tractions, dofs: np.ndarray, size: int
-) -> tuple[csc_matrix, csc_matrix]:
-    """Nodal forces (size, 2m) on the right half from unit resultants that act together with their mirror image, and
-    against it.
+def _folded_loads(section: SectionMesh, tractions: Tractions, dofs: np.ndarray) -> tuple[csc_matrix, csc_matrix]:
+    """Nodal forces (n_unknowns, 2m) on the right half from unit resultants that act together with their mirror image,
+    and against it.
     """
     index = np.flatnonzero(np.isin(section.skin, tractions.nodes))
     x = section.mesh.doflocs[0, tractions.nodes]
@@ -175,7 +174,7 @@ def _folded_loads(
     for unknowns, there, sign in ((right, x >= 0.0, 1.0), (mirror, x < 0.0, np.array([-1.0, 1.0]))):
         own = np.flatnonzero(np.repeat(there, 2))
         signs = (sign * np.ones_like(unknowns)).ravel()[own]
-        placing = csc_matrix((signs, (unknowns.ravel()[own], own)), shape=(size, unknowns.size))
+        placing = csc_matrix((signs, (unknowns.ravel()[own], own)), shape=(dofs.size, unknowns.size))
         sides.append(placing @ forces)
     return csc_matrix(sides[0] + sides[1]), csc_matrix(sides[0] - sides[1])
 
@@ -258,12 +257,6 @@ def condense_ordered(
     return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
 
 
-def contact_last(order: np.ndarray, loads: csc_matrix) -> np.ndarray:
-    """A fill-reducing order (n_free,) with the unknowns that loads (n_unknowns, k) act on moved to its end."""
-    loaded = np.isin(order, loads.indices)
-    return np.concatenate([order[~loaded], order[loaded]])
-
-
 def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matrix) -> tuple[FloatArray, float]:
     """Compliance (k, k) of loads (n_free, k) on the last unknowns of a stiffness, and relative residual.
 
@@ -320,18 +313,28 @@ def arc_length(points: FloatArray) -> FloatArray:
     return arc - float(np.interp(0.0, points[around, 0], arc[around]))
 
 
-def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray) -> np.ndarray:
-    """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work)."""
+def fill_reducing_order(
+    matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray, last: np.ndarray | None = None
+) -> np.ndarray:
+    """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work).
+
+    last: unknowns that come last in it. The factors join them to one another, and so does the graph beforehand.
+    """
     nodes = np.flatnonzero(free[dofs].any(axis=0))
     first = dofs[0, nodes]
     graph = csc_matrix(matrix[first][:, first])
+    if last is not None:
+        joined = np.isin(dofs[:, nodes], last).any(axis=0).astype(float)[:, None]
+        graph = csc_matrix(abs(graph) + csc_matrix(joined) @ csc_matrix(joined).T)
     graph.data[:] = -1.0
     graph = csc_matrix(graph + diags_array(np.full(nodes.size, 2.0 * np.diff(graph.indptr).max())))
     permutation = _factorise(graph, "MMD_AT_PLUS_A").perm_c
     order = np.empty_like(permutation)
     order[permutation] = np.arange(permutation.size)
     ordered = dofs[:, nodes[order]].T.ravel()
-    return np.asarray(ordered[free[ordered]])
+    ordered = ordered[free[ordered]]
+    after = np.isin(ordered, [] if last is None else last)
+    return np.concatenate([ordered[~after], ordered[after]])
 
 
 def factorise(permuted: csc_matrix) -> SuperLU:

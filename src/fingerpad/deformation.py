@@ -17,7 +17,7 @@ from skfem import Basis
 from .compliance import VOIGT
 from .errors import InvertedError
 from .finite_strain import is_upright
-from .hyperelasticity import Tissue, respond
+from .hyperelasticity import Tissue, respond, stress_of
 from .scene import FloatArray
 
 NODES = 6  # of a second-order triangle [1]
@@ -96,7 +96,7 @@ def displacement_gradient(elements: Elements, displacement: FloatArray) -> Float
 def internal_force(elements: Elements, displacement: FloatArray) -> FloatArray:
     """Forces (size,) [N/mm] that hold the tissue at a displacement (size,) [mm]. Raises InvertedError."""
     gradient = displacement_gradient(elements, displacement)
-    stress = respond(elements.tissue, gradient).stress
+    stress = stress_of(elements.tissue, gradient)
     return _assembled(elements, _first_stress(gradient, stress))
 
 

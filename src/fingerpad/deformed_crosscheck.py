@@ -18,7 +18,7 @@ from .crosscheck import (
     softness,
     targets,
 )
-from .deformed_path import Move, move
+from .deformed_path import move
 from .deformed_solution import pressed_finger, receptor_logarithmic_strain
 from .errors import ContactError
 from .export import DeckSettings
@@ -48,12 +48,11 @@ def deformed_outcome(
     indented, *stimulus = targets(condition, settings)
     last = settings.indentation / INDENTATION_INCREMENTS
     pressed = press(indenting, section, body, Interface.SHEAR, settings.indentation - last)
-    finger = pressed_finger(indenting, section, body, pressed, Interface.SHEAR)
-    problem = finger.problem
+    finger = pressed_finger(_rubbing(scene, settings.friction_acting), section, body, pressed, Interface.SHEAR)
+    problem = replace(finger.problem, friction=settings.friction_indenting)
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(pressed.section, settings)))
-    start = Move(pressed.state, finger.tissue.displacement, pressed.free, 0, 0, 0.0)
-    before = move(finger.tissue, problem, start, indented, 1)
+    before = move(finger.tissue, problem, finger.start, indented, 1)
     reached = before
     if settings.friction_acting > settings.friction_indenting:
         reached = replace(before, state=switch_friction(before.state))

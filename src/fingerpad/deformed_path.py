@@ -5,26 +5,30 @@ About the pre-indented state u_0 with tangent K, a path on the condensed maps en
 of the tissue. Where R(u') is not L f, the contact nodes' displacement without forces, free = L^T (u - K^-1 R(u)), is
 another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
 the way from u_0, where K is exact, and evenly from elsewhere. So the tissue is in equilibrium wherever a move ends.
+
+Any K leads there. Without friction a pressed finger can all but sway freely, and corrections on its tangent go astray
+with the softest mode: there K is the tangent and a spring on that mode.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU
 
 from .condensation import factorise
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import Span, Tangent, deformed, solver_on, undeformed
+from .deformed import MEMORY, Span, accelerated, deformed, increments_of, solver_on, undeformed
 from .errors import ContactError
 from .increment import Patch, solve_increment
 from .path import advance
 from .scene import FloatArray
 
-MAX_CORRECTIONS = 20  # of one move [1] before new tangents are made on the way; source: usual count is 2-12 (measured)
-MEMORY = 12  # iterates [1] that are combined; source: fewest corrections of 6, 8, 12
+MAX_CORRECTIONS = 30  # of one move [1] before new tangents are made on the way; source: usual count is 2-24 (measured)
 EQUILIBRIUM = (
     1e-3  # change of displacement in a correction over that of the move [1]; source: scores then hold to 0.2 %
 )
@@ -32,11 +36,40 @@ EQUILIBRIUM = (
 
 @dataclass(frozen=True)
 class DeformedTissue:
-    """The whole section about the pre-indented state: factors of its tangent, and displacement (size,) [mm]."""
+    """The whole section about the pre-indented state.
+
+    factors: of its tangent K. displacement: (size,) [mm]. condensing: the same span in an order from which new tangents
+    are condensed, for moves that need them. spring: `solve` is with K + spring, or None.
+    """
 
     span: Span
     factors: SuperLU
     displacement: FloatArray
+    condensing: Callable[[], Span]
+    spring: Spring | None
+
+    def solve(self, load: FloatArray) -> FloatArray:
+        """Displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
+        field = np.asarray(self.factors.solve(load))
+        return field if self.spring is None else field - self.spring.takes(load)
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring that makes the softest mode v of the contact nodes as stiff as the next.
+
+    With C v = c v and the next eigenvalue c', C' = C - (c - c') v v^T is the compliance of contact nodes, and
+    K^-1 - (c - c')/c^2 g g^T with g = K^-1 L v that of the tissue (Sherman and Morrison). Only corrections feel it.
+    field: (n_free,) g. share: (c - c')/c^2. compliance: C'.
+    """
+
+    field: FloatArray
+    share: float
+    compliance: FloatArray
+
+    def takes(self, load: FloatArray) -> FloatArray:
+        """What it takes of the displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
+        return self.share * float(self.field @ load) * self.field
 
 
 @dataclass(frozen=True)
@@ -56,10 +89,29 @@ class Move:
     defect: float
 
 
-def deformed_tissue(span: Span, displacement: FloatArray) -> DeformedTissue:
-    """Linearise about a displacement (size,) [mm]. Raises CondensationError."""
+def deformed_tissue(
+    span: Span, displacement: FloatArray, condensing: Callable[[], Span], sprung: FloatArray | None
+) -> DeformedTissue:
+    """Linearise about a displacement (size,) [mm], with a spring on a given compliance's softest mode.
+
+    Raises CondensationError.
+    """
     _, matrix = internal_force_and_tangent(span.elements, displacement)
-    return DeformedTissue(span, factorise(matrix), displacement)
+    factors = factorise(matrix)
+    spring = None if sprung is None else _spring(span, factors, sprung)
+    return DeformedTissue(span, factors, displacement, condensing, spring)
+
+
+def _spring(span: Span, factors: SuperLU, compliance: FloatArray) -> Spring:
+    """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors."""
+    count = compliance.shape[0]
+    (next_one, softest), modes = eigh(compliance, subset_by_index=[count - 2, count - 1])
+    mode = modes[:, 1]
+    return Spring(
+        factors.solve(span.loads @ mode),
+        float(softest - next_one) / float(softest) ** 2,
+        compliance - (softest - next_one) * np.outer(mode, mode),
+    )
 
 
 def move(tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int) -> Move:
@@ -85,19 +137,20 @@ def _corrected(
 ) -> Move:
     """`move` on the tissue's tangent alone. Raises _UnsettledError."""
     span, free = tissue.span, tissue.span.elements.free
-    power = 2 if start.displacement is tissue.displacement else 1
+    power = 2 if start.displacement is tissue.displacement and tissue.spring is None else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
-    displacement, first = start.displacement, None
+    displacement, first, patch = start.displacement, None, None
     for correction in range(MAX_CORRECTIONS):
         try:
-            back = -tissue.factors.solve(internal_force(span.elements, displacement)[free])
+            back = -tissue.solve(internal_force(span.elements, displacement)[free])
             last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
-            state = _followed(problem, start.state, target, increments, first, last - first, power)
+            drift = last - first
+            state, patch = _followed(problem, start.state, target, increments, first, drift, power, patch)
         except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
             raise _UnsettledError from error
-        step = back + tissue.factors.solve(span.loads @ state.force.ravel())
+        step = back + tissue.solve(span.loads @ state.force.ravel())
         reached = displacement[free] + step
         defect = float(np.abs(step).max() / np.abs(reached - start.displacement[free]).max())
         if correction > 0:  # the first is no correction, but the move itself
@@ -117,11 +170,10 @@ def _followed_newly(
     tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
 ) -> Move:
     """`move` with a new tangent wherever an increment asks for one."""
-    span, free = tissue.span, tissue.span.elements.free
-    begin = deformed(start.state, start.displacement)
-    tangent = Tangent(tissue.factors, problem.compliance, 0.0)
-    reached, _ = advance(problem, begin, target, increments, tangent, solver_on(span))
-    moved = (span.loads.T @ reached.displacement[free]).reshape(-1, 2)
+    span = tissue.condensing()
+    begin, (count, within) = deformed(start.state, start.displacement), increments_of(increments)
+    reached, _ = advance(problem, begin, target, count, None, solver_on(span, within))
+    moved = (span.loads.T @ reached.displacement[span.elements.free]).reshape(-1, 2)
     rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
     return Move(
         undeformed(reached),
@@ -133,15 +185,6 @@ def _followed_newly(
     )
 
 
-def accelerated(steps: list[FloatArray], ends: list[FloatArray]) -> FloatArray:
-    """Anderson's next iterate of a fixed point, from steps G(u) - u and ends G(u) of the last iterations, oldest first
-    (Walker and Ni 2011): the combination of ends whose steps nearly cancel.
-    """
-    differences = np.stack(steps[1:], axis=1) - np.stack(steps[:-1], axis=1)
-    weights = np.linalg.lstsq(differences, steps[-1], rcond=None)[0]
-    return np.asarray(ends[-1] - (np.stack(ends[1:], axis=1) - np.stack(ends[:-1], axis=1)) @ weights)
-
-
 def _followed(
     problem: ContactProblem,
     start: ContactState,
@@ -150,8 +193,11 @@ def _followed(
     first: FloatArray,
     drift: FloatArray,
     power: int,
-) -> ContactState:
-    """State at the end of a move along which contact nodes without forces drift from `first` by `drift` (m, 2) [mm]."""
+    patch: Patch | None,
+) -> tuple[ContactState, Patch]:
+    """State at the end of a move along which contact nodes without forces drift from `first` by `drift` (m, 2) [mm],
+    and the last patch.
+    """
     length = float(np.abs(target - start.actuator).max())
 
     def solve(
@@ -160,4 +206,4 @@ def _followed(
         way = float(np.abs(actuator - start.actuator).max()) / length
         return solve_increment(replace(problem, free=first + way**power * drift), state, actuator, patch)
 
-    return advance(problem, start, target, increments, None, solve)[0]
+    return advance(problem, start, target, increments, patch, solve)

@@ -6,6 +6,7 @@ Receptors are read as maximum principal logarithmic strain, over their undeforme
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -27,13 +28,15 @@ from .strain import receptor_readouts
 class PressedFinger:
     """A pressed device and the tissue about that state: the same for all conditions.
 
-    gradient: (4m, size) of displacement gradients at the receptors. dofs: (2, n_nodes) unknowns of the nodes.
+    start: of all stimuli. gradient: (4m, size) of displacement gradients at the receptors. dofs: (2, n_nodes) unknowns
+    of the nodes.
     """
 
     interface: Interface
     pressed: Pressed
     problem: ContactProblem
     tissue: DeformedTissue
+    start: Move
     gradient: csr_matrix
     dofs: np.ndarray
 
@@ -45,9 +48,16 @@ def pressed_finger(
     dofs = node_dofs(displacement_basis(section.mesh))
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement
-    problem = replace(contact_problem(scene, pressed.section, body, interface), free=pressed.free)
-    tissue = deformed_tissue(whole_span(scene, section), displacement)
-    return PressedFinger(interface, pressed, problem, tissue, receptor_gradient(section, scene)[1], dofs)
+    problem, free = contact_problem(scene, pressed.section, body, interface), pressed.free
+    sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
+    condensing = partial(whole_span, scene, section, True)
+    tissue = deformed_tissue(whole_span(scene, section, False), displacement, condensing, sprung)
+    if tissue.spring is not None:
+        borne = (problem.compliance - tissue.spring.compliance) @ pressed.state.force.ravel()
+        problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
+    start = Move(pressed.state, displacement, free, 0, 0, 0.0)
+    gradient = receptor_gradient(section, scene)[1]
+    return PressedFinger(interface, pressed, replace(problem, free=free), tissue, start, gradient, dofs)
 
 
 def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:
@@ -74,7 +84,7 @@ def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -
 def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Move]:
     """The pre-indented state, and the ends of all moves of a stimulus. Raises ContactError."""
     before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
-    moves = [Move(before, finger.tissue.displacement, finger.pressed.free, 0, 0, 0.0)]
+    moves = [finger.start]
     for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
         target = before.actuator + np.stack([tangential, normal], axis=1)
         moves.append(move(finger.tissue, finger.problem, moves[-1], target, count))

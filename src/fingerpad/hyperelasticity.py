@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .elasticity import lame
-from .finite_strain import Principal, principal_strain
+from .finite_strain import Principal, green_strain, principal_strain
 from .scene import FloatArray, Law, Material
 
 EQUAL = 1e-6  # difference of principal strains [1] below which its limit serves; source: it is off by the square
@@ -52,6 +52,21 @@ def tissue_of(law: Law, exponent: float, materials: Sequence[Material], index: n
     return Tissue(law, constants[..., 0], constants[..., 1], exponent)
 
 
+def stress_of(tissue: Tissue, gradient: FloatArray) -> FloatArray:
+    """Second Piola-Kirchhoff stress (3, ...) S_11, S_22, S_12 [MPa] of tissue at displacement gradients (2, 2, ...).
+
+    Coaxial with E, it is S = m I + t (E - e I) with m, e the mean principal values and t = (S_1 - S_2)/(E_1 - E_2).
+    """
+    strain = green_strain(gradient)
+    middle, half, shear = (strain[0] + strain[1]) / 2.0, (strain[0] - strain[1]) / 2.0, strain[2] / 2.0
+    radius = np.sqrt(half * half + shear * shear)
+    values = np.stack([middle + radius, middle - radius])
+    principal = _kirchhoff(tissue, values)[0] / (1.0 + 2.0 * values)
+    mean, difference = (principal[0] + principal[1]) / 2.0, (principal[0] - principal[1]) / 2.0
+    slope = difference / np.maximum(radius, np.finfo(float).tiny)
+    return np.stack([mean + slope * half, mean - slope * half, slope * shear])
+
+
 def respond(tissue: Tissue, gradient: FloatArray) -> Response:
     """Stress and tangent of tissue at displacement gradients (2, 2, ...)."""
     axes = principal_strain(gradient)
@@ -65,7 +80,7 @@ def respond(tissue: Tissue, gradient: FloatArray) -> Response:
     equal = apart < EQUAL
     limit = (d11 + d22) / 2.0 - d12
     turning = np.where(equal, limit, (stress[0] - stress[1]) / np.where(equal, 1.0, apart)) / 2.0
-    return _turned(axes, stress, d11, d22, d12, turning)
+    return Response(stress_of(tissue, gradient), _turned(axes, d11, d22, d12, turning))
 
 
 def cauchy_stress(tissue: Tissue, gradient: FloatArray) -> FloatArray:
@@ -125,15 +140,13 @@ def _kirchhoff(tissue: Tissue, strain: FloatArray) -> tuple[FloatArray, tuple[Fl
     return tau, (own[0], other, own[1])
 
 
-def _turned(
-    axes: Principal, stress: FloatArray, d11: FloatArray, d22: FloatArray, d12: FloatArray, turning: FloatArray
-) -> Response:
-    """Response in x, y of principal stress (2, ...) and tangent; S_12 over 2 E_12 is `turning` along the axes."""
+def _turned(axes: Principal, d11: FloatArray, d22: FloatArray, d12: FloatArray, turning: FloatArray) -> FloatArray:
+    """Tangent (3, 3, ...) in x, y of that along the axes, where S_12 over 2 E_12 is `turning`."""
     c, s = axes.cosine, axes.sine
     cc, ss, cs = c * c, s * s, c * s
-    # rows: principal E_11, E_22, 2 E_12 of E_11, E_22, 2 E_12 in x, y; stresses go back with the transpose
+    # rows: principal E_11, E_22, 2 E_12 of E_11, E_22, 2 E_12 in x, y
     first, second, shear = np.stack([cc, ss, cs]), np.stack([ss, cc, -cs]), np.stack([-2.0 * cs, 2.0 * cs, cc - ss])
     tangent = first[:, None] * (d11 * first + d12 * second)
     tangent += second[:, None] * (d12 * first + d22 * second)
     tangent += shear[:, None] * (turning * shear)
-    return Response(first * stress[0] + second * stress[1], tangent)
+    return np.asarray(tangent)

@@ -8,13 +8,12 @@ it is at that frequency (real part of the modulus) and without its damping, whic
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csc_matrix
 
 from .compliance import VOIGT, CondensedSection
-from .condensation import condense_parts, contact_tractions, right_half
+from .condensation import condense_parts, contact_tractions, right_half, section_stiffness
 from .contact import Status
 from .creep import stiffened
 from .elasticity import mass
@@ -29,9 +28,10 @@ def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float, den
     speed = 2.0 * math.pi * frequency
     stiff = stiffened(scene, 1j * speed)
     tractions = contact_tractions(section, stiff)
-    parts = right_half(section, stiff, tractions)
-    matrix = csc_matrix(parts.matrix - speed**2 * mass(section.mesh, parts.elements, density))
-    return condense_parts(section, stiff, tractions, replace(parts, matrix=matrix))
+    parts = right_half(section, tractions)
+    matrix, _ = section_stiffness(section, stiff, parts.elements)
+    moving = csc_matrix(matrix - speed**2 * mass(section.mesh, parts.elements, density))
+    return condense_parts(section, stiff, tractions, parts, moving)
 
 
 def inertia_effect(

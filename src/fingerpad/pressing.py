@@ -19,7 +19,6 @@ from .condensation import (
     arc_length,
     body_of,
     condense_section,
-    contact_last,
     contact_tractions,
     fill_reducing_order,
     receptor_strain,
@@ -30,7 +29,7 @@ from .condensation import (
 )
 from .contact import ContactState, rest, touching_height
 from .deformation import elements_of
-from .deformed import Span, deformed, solver_on, tangent_at, undeformed
+from .deformed import Span, deformed, increments_of, solver_on, tangent_at, undeformed
 from .elasticity import displacement_basis
 from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
@@ -79,13 +78,14 @@ def press(
     bare = CondensedSection(tractions.position, tractions.weight, NONE, receptor, arc_length(receptor), NONE, 0.0)
     problem = contact_problem(scene, bare, body, interface)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
-    parts = right_half(section, scene, tractions) if mirrored else whole(section, scene, tractions)
+    parts = right_half(section, tractions) if mirrored else whole(section, tractions)
     spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
     pressing = half_of(problem) if mirrored else problem
     touch, states = touching_height(pressing), list[ContactState]()
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
-        start, count = deformed(rest(pressing, touch), np.zeros(parts.matrix.shape[0])), increments(scene, problem)[0]
-        solve = recording(solver_on(spans[0]), states.append)
+        start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
+        count, within = increments_of(increments(scene, problem)[0])
+        solve = recording(solver_on(spans[0], within), states.append)
         if height is None:
             criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
             reached = raise_until(pressing, criterion, count, limit, start, solve)
@@ -128,21 +128,31 @@ def indented_height(scene: Scene, section: SectionMesh, interface: Interface) ->
     return float(state.actuator[0, 1])
 
 
-def whole_span(scene: Scene, section: SectionMesh) -> Span:
-    """The tissue of the whole section."""
-    return _span(scene, section, whole(section, scene, contact_tractions(section, scene)), 0)
+def whole_span(scene: Scene, section: SectionMesh, condensing: bool) -> Span:
+    """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill."""
+    return _span(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
 
 
-def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int) -> Span:
+def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> Span:
     """The tissue with one choice of what is held."""
-    free = np.ones(parts.matrix.shape[0], dtype=bool)
+    free = np.ones(parts.dofs.size, dtype=bool)
     free[parts.held[which]] = False
-    order = contact_last(fill_reducing_order(parts.matrix, parts.dofs, free), parts.loads[which])
+    loads = parts.loads[which]
+    basis = displacement_basis(section.mesh, parts.elements)
+    joined = _joined(basis.element_dofs, free.size)
+    order = fill_reducing_order(joined, parts.dofs, free, loads.indices if condensing else None)
     finger, law = scene.model.finger, scene.model.tissue
     materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
-    basis = displacement_basis(section.mesh, parts.elements)
-    return Span(elements_of(basis, tissue, order), csc_matrix(parts.loads[which][order]))
+    return Span(elements_of(basis, tissue, order), csc_matrix(loads[order]))
+
+
+def _joined(element_dofs: np.ndarray, size: int) -> csc_matrix:
+    """Matrix (size, size) with entries where elements join unknowns (12, n_elements): the tangent's, in no time."""
+    count, elements = element_dofs.shape
+    within = csc_matrix((np.ones(element_dofs.size), element_dofs.T.ravel(), np.arange(elements + 1) * count))
+    within.resize(size, elements)
+    return csc_matrix(within @ within.T)
 
 
 def _mirrored(section: SectionMesh, right: FloatArray) -> FloatArray:

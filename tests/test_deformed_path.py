@@ -1,0 +1,59 @@
+"""Corrections of stimuli on deformed tissue without friction, where the finger all but sways freely."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fingerpad.deformed import deformed, solver_on
+from fingerpad.deformed_path import EQUILIBRIUM, DeformedTissue, move
+from fingerpad.deformed_solution import PressedFinger, pressed_finger
+from fingerpad.mesh import mesh_section, nominal_edges
+from fingerpad.path import advance
+from fingerpad.pressing import press
+from fingerpad.scene import FloatArray, Interface, Kinematics
+from scenes import scene
+
+COARSER = 10.0  # times the shipped sizes and strides
+ROUNDING = 1e-8  # relative, of what a soft mode magnifies
+
+
+@pytest.fixture(scope="module")
+def finger() -> PressedFinger:
+    base = scene("device1").coarsened(COARSER)
+    base = replace(base, model=replace(base.model, tissue=replace(base.model.tissue, kinematics=Kinematics.FINITE)))
+    section = mesh_section(base, nominal_edges(base.device.actuators))
+    pressed = press(base, section, None, Interface.FRICTIONLESS)
+    return pressed_finger(base, section, None, pressed, Interface.FRICTIONLESS)
+
+
+def moved(tissue: DeformedTissue, forces: FloatArray) -> FloatArray:
+    return np.asarray(tissue.span.loads.T @ tissue.solve(tissue.span.loads @ forces))
+
+
+def test_a_spring_makes_the_softest_mode_as_stiff_as_the_next(finger: PressedFinger) -> None:
+    """On the tissue as in the compliance of the contact nodes; the others stay as they are."""
+    spring = finger.tissue.spring
+    assert spring is not None
+    forces = np.random.default_rng(0).standard_normal(spring.compliance.shape[0])
+    answer = moved(finger.tissue, forces)
+    assert np.abs(answer - spring.compliance @ forces).max() < ROUNDING * np.abs(answer).max()
+    without, held = (np.linalg.eigvalsh(each) for each in (finger.pressed.section.compliance, spring.compliance))
+    next_twice = np.append(without[:-1], without[-2])
+    assert np.abs(held - next_twice).max() < ROUNDING * without[-1]
+    assert without[-1] > 2.0 * without[-2]
+
+
+def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
+    """Both ends are in equilibrium: they differ by what corrections leave, though the spring held one of them."""
+    up = 0.02 * np.array([1.0, 1.0, -1.0, -1.0])
+    target = finger.start.state.actuator + np.stack([np.zeros(4), up], axis=1)
+    corrected = move(finger.tissue, finger.problem, finger.start, target, 4)
+    assert corrected.tangents == 0
+    span = finger.tissue.condensing()
+    begin = deformed(finger.start.state, finger.start.displacement)
+    followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(span, 1))
+    way = np.abs(followed.displacement - finger.start.displacement).max()
+    assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * EQUILIBRIUM * way
