@@ -99,7 +99,9 @@ def _corrected(
             raise _UnsettledError from error
         step = back + tissue.factors.solve(span.loads @ state.force.ravel())
         reached = displacement[free] + step
-        defect = float(np.abs(step).max() / np.abs(reached - start.displacement[free]).max())
+        moved = float(np.abs(reached - start.displacement[free]).max())
+        # a stimulus that never touches moves nothing
+        defect = float(np.abs(step).max()) / moved if moved > 0.0 else 0.0
         if correction > 0:  # the first is no correction, but the move itself
             steps.append(step)
             ends.append(reached)

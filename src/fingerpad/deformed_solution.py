@@ -19,6 +19,7 @@ from .finite_strain import logarithmic_strain
 from .mesh import SectionMesh
 from .pressing import Pressed, whole_span
 from .scene import Condition, FloatArray, Interface, Scene
+from .skin import Skin, require_uncrossed, skin_of
 from .solution import Certificate, Solution, certify, contact_problem, increments, named, solution
 from .strain import receptor_readouts
 
@@ -36,6 +37,7 @@ class PressedFinger:
     tissue: DeformedTissue
     gradient: csr_matrix
     dofs: np.ndarray
+    skin: Skin
 
 
 def pressed_finger(
@@ -46,8 +48,9 @@ def pressed_finger(
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement
     problem = replace(contact_problem(scene, pressed.section, body, interface), free=pressed.free)
+    skin = skin_of(section, dofs, halved=False)
     tissue = deformed_tissue(whole_span(scene, section), displacement)
-    return PressedFinger(interface, pressed, problem, tissue, receptor_gradient(section, scene)[1], dofs)
+    return PressedFinger(interface, pressed, problem, tissue, receptor_gradient(section, scene)[1], dofs, skin)
 
 
 def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:
@@ -78,6 +81,7 @@ def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) ->
     for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
         target = before.actuator + np.stack([tangential, normal], axis=1)
         moves.append(move(finger.tissue, finger.problem, moves[-1], target, count))
+        require_uncrossed(finger.skin, moves[-1].displacement, f"after move {len(moves) - 1} of the stimulus")
     return moves
 
 
