@@ -29,6 +29,7 @@ from .stability import unstable_directions
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
 LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
 FARTHEST = 4.0  # way of tissue [1] over that of the actuators in an increment; source: 1 in devices, 3.1 before a snap
+FAST = 2.0  # the same [1], beyond which a path that ends is said to snap; source: the way grows there without bound
 SLIGHT = 1e-3  # of the load [1], by which tissue may move besides; source: equilibrium where corrected moves end
 CONTRACTION = 0.2  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
 
@@ -102,7 +103,7 @@ def solve_deformed_increment(
     free, displacement = span.elements.free, start.displacement + length * start.rate
     made, iterations = 0, 0
     changes: list[float] = []
-    unstable = False
+    unstable = float(np.abs(start.rate).max()) > FAST
     try:
         while len(changes) < MAX_ITERATIONS:
             if tangent is None:
@@ -130,7 +131,7 @@ def solve_deformed_increment(
     except InvertedError as error:
         raise NotConvergedError(float("inf"), inverted=str(error)) from error
     except CondensationError as error:
-        raise NotConvergedError(float("inf")) from error
+        raise NotConvergedError(float("inf"), snaps=unstable) from error
     except NotConvergedError as failure:
         raise NotConvergedError(failure.residual, failure.turned, snaps=failure.snaps or unstable) from failure
     raise NotConvergedError(changes[-1], snaps=unstable)

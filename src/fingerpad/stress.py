@@ -115,16 +115,18 @@ def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
 
 
 def coarse_section(scene: Scene) -> SectionMesh:
-    """The section of a scene on a mesh that is coarsened until it has few unknowns. Raises MeshError."""
-    edges = nominal_edges(scene.device.actuators)
+    """The section of a scene on a mesh that is coarsened until it has few unknowns, or as far as elements allow.
+
+    Raises MeshError.
+    """
+    edges, section = nominal_edges(scene.device.actuators), None
     for coarsening in COARSENINGS:
-        coarser = scene.coarsened(coarsening)
         with suppress(MeshError):
-            section = mesh_section(coarser, edges)
+            section = mesh_section(scene.coarsened(coarsening), edges)
             few = contact_tractions(section, scene).weight.size <= MOST_DEFORMED_CONTACT
             if few and 2 * section.mesh.doflocs.shape[1] <= MOST_DEFORMED_UNKNOWNS:
-                return section
-    return mesh_section(coarser, edges)
+                break
+    return section or mesh_section(scene.coarsened(COARSENINGS[-1]), edges)
 
 
 def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:
@@ -204,18 +206,7 @@ def with_numbers(solution: Solution) -> Solution:
 
 
 def summary(rows: Sequence[Mapping[str, str]]) -> list[dict[str, str]]:
-    """Shares of outcomes and the costliest scene, for each kinematics, from rows of outcomes as text (a table that was
-    read).
-    """
-    kinds = dict.fromkeys(row["kinematics"] for row in rows)
-    return [
-        {"kinematics": kind, **line}
-        for kind in kinds
-        for line in _summary([row for row in rows if row["kinematics"] == kind])
-    ]
-
-
-def _summary(rows: Sequence[Mapping[str, str]]) -> list[dict[str, str]]:
+    """Shares of outcomes and the costliest scene, from rows of outcomes as text (a table that was read)."""
     total = len(rows)
     done = [row for row in rows if row["outcome"] == SOLVED]
     cut = [row for row in done if int(row["cuts"])]

@@ -10,7 +10,7 @@ from fingerpad.scenefile import load_scene, recordings
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
 
-SETTINGS = ("scenes", "stress_scenes")  # what --config takes
+SETTINGS = ("scenes", "stress_scenes", "stress_scenes_finite")  # what --config takes
 if unknown := [name for name in config if name not in SETTINGS]:
     raise WorkflowError(f"--config: found {', '.join(unknown)}; allowed: {', '.join(SETTINGS)}")
 
