@@ -99,21 +99,30 @@ def test_pages_say_what_the_tables_say(coarse: Scene, stated: list[dict[str, Any
     switches, always = pd.DataFrame(skip_rows(coarse, stated, 1)), pd.DataFrame(always_rows(coarse, 1))
     switches = switches.astype({"largest_difference": float, "smallest_stated_error": float})
     page = filled((PAGES / "skipping.md").read_text(), skipping_values(switches, always))
-    assert "| device2 | inactive_nodes |" in page
+    assert "| small | device2 | inactive_nodes |" in page
     assert "${" not in page
 
 
 def test_the_accuracy_page_counts_and_compares() -> None:
-    case = {"device": "d", "interface": "shear", "readout": "strain"}
+    case = {"kinematics": "small", "device": "d", "interface": "shear", "readout": "strain"}
     scores = [
         case | {"condition": "a", "stated": 0.004, "error": -0.006, "error_over_stated": 1.5},
         case | {"condition": "b", "stated": 0.001, "error": 0.003, "error_over_stated": 3.0},
     ]
-    rung = {"coarsening": 1.0, "unknowns": 10, "warm_s": 1.0, "stimulus_s": 0.5, "error_strain": 0.001}
+    rung = {
+        "kinematics": "small",
+        "coarsening": 1.0,
+        "unknowns": 10,
+        "warm_s": 1.0,
+        "stimulus_s": 0.5,
+        "error_strain": 0.001,
+    }
     ladder = [
         rung | {"solver": "fingerpad", "cold_s": 2.0, "error_change_of_strain": 0.009},
         rung | {"solver": "CalculiX", "cold_s": 5.0, "error_change_of_strain": 0.03},
         rung | {"solver": "CalculiX", "cold_s": 300.0, "warm_s": 300.0, "error_change_of_strain": 0.008},
+        rung | {"kinematics": "finite", "solver": "fingerpad", "cold_s": 10.0, "error_change_of_strain": 0.008},
+        rung | {"kinematics": "finite", "solver": "CalculiX", "cold_s": 400.0, "error_change_of_strain": 0.009},
     ]
     increments = {"device": "d", "readout": "strain", "times_the_increments": 2, "scores": 3, "largest_change": 1e-4}
     increments |= {"largest_change_over_stated_error": 0.1, "beyond_stated_error": 0}
@@ -121,7 +130,15 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     forms = [form | {"quantity": "strain", "tolerance": 0.005}]
     forms += [form | {"quantity": "order, strain", "computed": 2.04, "tolerance": None}]
     graph = {"cores": 2, "empty_s": 10.0, "real_s": 38.0, "again_s": 3.0, "ratio": 3.8}
-    timing = {"device": "d", "step": "set-up", "n": 5, "median_s": 1.6, "lowest_s": 1.5, "highest_s": 1.9}
+    timing = {
+        "kinematics": "small",
+        "device": "d",
+        "step": "set-up",
+        "n": 5,
+        "median_s": 1.6,
+        "lowest_s": 1.5,
+        "highest_s": 1.9,
+    }
     tables = {
         "scores": scores,
         "increments": [increments],
@@ -137,7 +154,8 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     page = filled((PAGES / "accuracy.md").read_text(), values)
     assert re.search(r"1 of 2 scores lie within 2 times their stated error; the worst lies at 3.00", page)
     assert "1 of 2 scores miss 0.5 %" in page
-    assert "| CalculiX | 150 | 300 | 1 |" in page
+    assert "| small | CalculiX | 150 | 300 | 1 |" in page
+    assert "| finite | CalculiX | 40 | 1 | 1 |" in page
     assert "| c | strain | 2.04 |" in page.replace("order, ", "")
     assert "skipped: ccx not installed" in page
 

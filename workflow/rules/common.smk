@@ -41,6 +41,8 @@ except FingerpadError as error:
 
 ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
 KINEMATICS = [str(each) for each in SCENE[DEVICES[0]].model.tissue.computed]
+DEFORMED_DEVICES = ["device2"] if Kinematics.FINITE in KINEMATICS else []  # whose finite solutions long targets study
+DEFORMED_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEFORMED_DEVICES]
 MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
