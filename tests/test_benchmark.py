@@ -19,7 +19,7 @@ from fingerpad.benchmark.timing import exponent
 from fingerpad.errors import SceneError
 from fingerpad.pages import accuracy_values, filled, skipping_values, table
 from fingerpad.prediction import rows_at
-from fingerpad.scene import Scene, Skips
+from fingerpad.scene import Control, Kinematics, Scene, Skips
 from scenes import scene
 
 COARSE = 4.0  # times the shipped sizes [1]: seconds instead of minutes
@@ -77,10 +77,41 @@ def test_a_row_of_many_fits_under_the_finger() -> None:
     assert row.positions[1] - row.positions[0] > row.width
 
 
-def test_skips_move_no_score_beyond_its_error(coarse: Scene, stated: list[dict[str, Any]]) -> None:
+@pytest.fixture(scope="module")
+def switches(coarse: Scene, stated: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The ledger of the coarse scene."""
+    return list(skip_rows(coarse, stated, 1))
+
+
+@pytest.fixture(scope="module")
+def pair() -> Scene:
+    """Two pins with shear, finite kinematics, one condition, on a coarse mesh: seconds."""
+    base = scene("device2")
+    last = base.device.conditions[-1]
+    last = replace(last, normal=last.normal[:, 1:3], tangential=last.tangential[:, 1:3])
+    row = replace(base.device.actuators, positions=base.device.actuators.positions[1:3])
+    device = replace(base.device, actuators=row, control=Control.FORCE, conditions=(last,))
+    return replace(base, device=device).with_kinematics(Kinematics.FINITE).coarsened(2.0 * COARSE)
+
+
+def test_finite_kinematics_are_in_ladder_and_ledger(pair: Scene) -> None:
+    """What switches mean there is exact but for the solver's tolerance; the others are left out."""
+    rows = [{**row, "score_error": 0.01 * row["score"]} for row in rows_at(pair, 1.0)]
+    (rung,) = own_ladder(pair, pair.device.conditions[0], [1.0], rows, 1)
+    assert rung["kinematics"] == "finite"
+    assert float(rung["error_strain"]) < 1e-9
+    assert rung["cold_s"] > rung["warm_s"] > rung["stimulus_s"]
+    found = {row["skip"]: row for row in skip_rows(pair, rows, 1)}
+    assert set(found) == {"equal_stimuli", "shared_indentation", "mirrored_half", "inactive_nodes"}
+    for row in found.values():
+        assert row["kinematics"] == "finite"
+        assert float(row["largest_difference"]) < 1e-7  # as with small kinematics, below
+
+
+def test_skips_move_no_score_beyond_its_error(switches: list[dict[str, Any]]) -> None:
     """Each switch is turned off once. What is exact moves scores by rounding and the solver's tolerance alone: 1e-9 in
     forces, which a change of strain multiplies by some hundred; increments leave less than the stated error."""
-    found = {row["skip"]: row for row in skip_rows(coarse, stated, 1)}
+    found = {row["skip"]: row for row in switches}
     assert set(found) == {field.name for field in fields(Skips)}
     for name, row in found.items():
         limit = float(row["smallest_stated_error"]) if name == "frictionless_path" else 1e-7
@@ -94,11 +125,10 @@ def test_increments_leave_no_trace(stated: list[dict[str, Any]], coarse: Scene) 
         assert row["beyond_stated_error"] == 0
 
 
-def test_pages_say_what_the_tables_say(coarse: Scene, stated: list[dict[str, Any]]) -> None:
+def test_pages_say_what_the_tables_say(coarse: Scene, switches: list[dict[str, Any]]) -> None:
     """Templates and code ask for the same values, and figures of the tables stand on the page."""
-    switches, always = pd.DataFrame(skip_rows(coarse, stated, 1)), pd.DataFrame(always_rows(coarse, 1))
-    switches = switches.astype({"largest_difference": float, "smallest_stated_error": float})
-    page = filled((PAGES / "skipping.md").read_text(), skipping_values(switches, always))
+    ledger = pd.DataFrame(switches).astype({"largest_difference": float, "smallest_stated_error": float})
+    page = filled((PAGES / "skipping.md").read_text(), skipping_values(ledger, pd.DataFrame(always_rows(coarse, 1))))
     assert "| small | device2 | inactive_nodes |" in page
     assert "${" not in page
 
