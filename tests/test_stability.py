@@ -18,6 +18,7 @@ from fingerpad.figures.kinematics import NO_LIMITS, kinematics_figure
 from fingerpad.force_curve import limit_points
 from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
 from fingerpad.pressing import Pressed, press
+from fingerpad.randomscene import STILL
 from fingerpad.scene import (
     ActuatorRow,
     Condition,
@@ -52,6 +53,7 @@ def arch(width: float, nail: float) -> Scene:
         base.model,
         finger=Finger(width, 12.0, 3.0, nail, pad, dorsal),
         readout=replace(base.model.readout, layer_above="shell"),
+        vibration=STILL,
         numerics=replace(base.model.numerics, **sizes, indentation_increments=12, max_cuts=2),
     )
     still = Condition("still", "test", 0.0, np.array([1.0]), np.zeros((1, 1)), np.zeros((1, 1)))
