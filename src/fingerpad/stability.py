@@ -27,8 +27,8 @@ def unstable_directions(problem: ContactProblem, status: np.ndarray, place: Floa
     active = np.flatnonzero(status != Status.OPEN)
     if negative == 0 or active.size == 0:
         return negative
-    count = status.size
-    compliance = problem.by_component[np.ix_(*2 * [np.concatenate([active, count + active])])]
+    unknowns = np.concatenate([2 * active, 2 * active + 1])
+    compliance = problem.compliance[np.ix_(unknowns, unknowns)]
     there = touch(problem, place)
     if there is not None:
         compliance = compliance + face_compliance(problem, there, active)
