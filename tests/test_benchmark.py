@@ -58,7 +58,7 @@ def test_the_plain_solver_refuses_deformable_actuators() -> None:
 
 
 def test_growth_is_fitted_over_sizes() -> None:
-    rows = list(growth(scene("device2"), [COARSE, 2.0], [2, 4], 1))
+    rows = list(growth(scene("device2").coarsened(2.0), [2.0, 1.0], [2, 4], 1))
     found = {(row["seconds"], row["against"]): row["exponent"] for row in exponents(rows)}
     assert len(found) == 5
     sizes = [row["unknowns"] for row in rows if row["varied"] == "mesh"]
