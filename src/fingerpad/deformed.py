@@ -143,8 +143,13 @@ def _require_near(
     """Raise NotConvergedError if a state is not one that the path leads to: tissue is unstable there, or has moved
     (size,) [mm] much farther than the actuators, by `length` [mm] under a load of `scale` [mm].
     """
-    if np.abs(moved).max() > FARTHEST * length + SLIGHT * scale or _is_unstable(problem, found, tangent):
+    if is_far(float(np.abs(moved).max()), length, scale) or _is_unstable(problem, found, tangent):
         raise NotConvergedError(found.residual, snaps=True)
+
+
+def is_far(moved: float, length: float, load: float) -> bool:
+    """Whether tissue jumped: it moved [mm] much farther than the actuators, by `length` under a load [mm]."""
+    return moved > FARTHEST * length + SLIGHT * load
 
 
 def _is_unstable(problem: ContactProblem, state: ContactState, tangent: Tangent) -> bool:

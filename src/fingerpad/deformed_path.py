@@ -17,7 +17,7 @@ from scipy.sparse.linalg import SuperLU
 from .condensation import factorise
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import Span, Tangent, deformed, solver_on, undeformed
+from .deformed import Span, Tangent, deformed, is_far, solver_on, undeformed
 from .errors import ContactError
 from .increment import Patch, solve_increment
 from .path import advance
@@ -108,6 +108,8 @@ def _corrected(
         displacement = displacement.copy()
         displacement[free] = reached
         if defect <= EQUILIBRIUM:
+            if is_far(moved, float(np.abs(target - start.state.actuator).max()), float(np.abs(target).max())):
+                raise _UnsettledError
             defect = max(start.defect, defect)
             return Move(state, displacement, last, start.corrections + correction, start.tangents, defect)
         if len(steps) > 1:
