@@ -19,7 +19,7 @@ from fingerpad.benchmark.timing import exponent
 from fingerpad.errors import SceneError
 from fingerpad.pages import accuracy_values, filled, skipping_values, table
 from fingerpad.prediction import rows_at
-from fingerpad.scene import Scene, Skips
+from fingerpad.scene import Control, Kinematics, Scene, Skips
 from scenes import scene
 
 COARSE = 4.0  # times the shipped sizes [1]: seconds instead of minutes
@@ -58,7 +58,7 @@ def test_the_plain_solver_refuses_deformable_actuators() -> None:
 
 
 def test_growth_is_fitted_over_sizes() -> None:
-    rows = list(growth(scene("device2"), [COARSE, 2.0], [2, 4], 1))
+    rows = list(growth(scene("device2").coarsened(2.0), [2.0, 1.0], [2, 4], 1))
     found = {(row["seconds"], row["against"]): row["exponent"] for row in exponents(rows)}
     assert len(found) == 5
     sizes = [row["unknowns"] for row in rows if row["varied"] == "mesh"]
@@ -77,10 +77,41 @@ def test_a_row_of_many_fits_under_the_finger() -> None:
     assert row.positions[1] - row.positions[0] > row.width
 
 
-def test_skips_move_no_score_beyond_its_error(coarse: Scene, stated: list[dict[str, Any]]) -> None:
+@pytest.fixture(scope="module")
+def switches(coarse: Scene, stated: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The ledger of the coarse scene."""
+    return list(skip_rows(coarse, stated, 1))
+
+
+@pytest.fixture(scope="module")
+def pair() -> Scene:
+    """Two pins with shear, finite kinematics, one condition, on a coarse mesh: seconds."""
+    base = scene("device2")
+    last = base.device.conditions[-1]
+    last = replace(last, normal=last.normal[:, 1:3], tangential=last.tangential[:, 1:3])
+    row = replace(base.device.actuators, positions=base.device.actuators.positions[1:3])
+    device = replace(base.device, actuators=row, control=Control.FORCE, conditions=(last,))
+    return replace(base, device=device).with_kinematics(Kinematics.FINITE).coarsened(2.0 * COARSE)
+
+
+def test_finite_kinematics_are_in_ladder_and_ledger(pair: Scene) -> None:
+    """What switches mean there is exact but for the solver's tolerance; the others are left out."""
+    rows = [{**row, "score_error": 0.01 * row["score"]} for row in rows_at(pair, 1.0)]
+    (rung,) = own_ladder(pair, pair.device.conditions[0], [1.0], rows, 1)
+    assert rung["kinematics"] == "finite"
+    assert float(rung["error_strain"]) < 1e-9
+    assert rung["cold_s"] > rung["warm_s"] > rung["stimulus_s"]
+    found = {row["skip"]: row for row in skip_rows(pair, rows, 1)}
+    assert set(found) == {"equal_stimuli", "shared_indentation", "mirrored_half", "inactive_nodes"}
+    for row in found.values():
+        assert row["kinematics"] == "finite"
+        assert float(row["largest_difference"]) < 1e-7  # as with small kinematics, below
+
+
+def test_skips_move_no_score_beyond_its_error(switches: list[dict[str, Any]]) -> None:
     """Each switch is turned off once. What is exact moves scores by rounding and the solver's tolerance alone: 1e-9 in
     forces, which a change of strain multiplies by some hundred; increments leave less than the stated error."""
-    found = {row["skip"]: row for row in skip_rows(coarse, stated, 1)}
+    found = {row["skip"]: row for row in switches}
     assert set(found) == {field.name for field in fields(Skips)}
     for name, row in found.items():
         limit = float(row["smallest_stated_error"]) if name == "frictionless_path" else 1e-7
@@ -94,26 +125,34 @@ def test_increments_leave_no_trace(stated: list[dict[str, Any]], coarse: Scene) 
         assert row["beyond_stated_error"] == 0
 
 
-def test_pages_say_what_the_tables_say(coarse: Scene, stated: list[dict[str, Any]]) -> None:
+def test_pages_say_what_the_tables_say(coarse: Scene, switches: list[dict[str, Any]]) -> None:
     """Templates and code ask for the same values, and figures of the tables stand on the page."""
-    switches, always = pd.DataFrame(skip_rows(coarse, stated, 1)), pd.DataFrame(always_rows(coarse, 1))
-    switches = switches.astype({"largest_difference": float, "smallest_stated_error": float})
-    page = filled((PAGES / "skipping.md").read_text(), skipping_values(switches, always))
-    assert "| device2 | inactive_nodes |" in page
+    ledger = pd.DataFrame(switches).astype({"largest_difference": float, "smallest_stated_error": float})
+    page = filled((PAGES / "skipping.md").read_text(), skipping_values(ledger, pd.DataFrame(always_rows(coarse, 1))))
+    assert "| small | device2 | inactive_nodes |" in page
     assert "${" not in page
 
 
 def test_the_accuracy_page_counts_and_compares() -> None:
-    case = {"device": "d", "interface": "shear", "readout": "strain"}
+    case = {"kinematics": "small", "device": "d", "interface": "shear", "readout": "strain"}
     scores = [
         case | {"condition": "a", "stated": 0.004, "error": -0.006, "error_over_stated": 1.5},
         case | {"condition": "b", "stated": 0.001, "error": 0.003, "error_over_stated": 3.0},
     ]
-    rung = {"coarsening": 1.0, "unknowns": 10, "warm_s": 1.0, "stimulus_s": 0.5, "error_strain": 0.001}
+    rung = {
+        "kinematics": "small",
+        "coarsening": 1.0,
+        "unknowns": 10,
+        "warm_s": 1.0,
+        "stimulus_s": 0.5,
+        "error_strain": 0.001,
+    }
     ladder = [
         rung | {"solver": "fingerpad", "cold_s": 2.0, "error_change_of_strain": 0.009},
         rung | {"solver": "CalculiX", "cold_s": 5.0, "error_change_of_strain": 0.03},
         rung | {"solver": "CalculiX", "cold_s": 300.0, "warm_s": 300.0, "error_change_of_strain": 0.008},
+        rung | {"kinematics": "finite", "solver": "fingerpad", "cold_s": 10.0, "error_change_of_strain": 0.008},
+        rung | {"kinematics": "finite", "solver": "CalculiX", "cold_s": 400.0, "error_change_of_strain": 0.009},
     ]
     increments = {"device": "d", "readout": "strain", "times_the_increments": 2, "scores": 3, "largest_change": 1e-4}
     increments |= {"largest_change_over_stated_error": 0.1, "beyond_stated_error": 0}
@@ -121,7 +160,15 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     forms = [form | {"quantity": "strain", "tolerance": 0.005}]
     forms += [form | {"quantity": "order, strain", "computed": 2.04, "tolerance": None}]
     graph = {"cores": 2, "empty_s": 10.0, "real_s": 38.0, "again_s": 3.0, "ratio": 3.8}
-    timing = {"device": "d", "step": "set-up", "n": 5, "median_s": 1.6, "lowest_s": 1.5, "highest_s": 1.9}
+    timing = {
+        "kinematics": "small",
+        "device": "d",
+        "step": "set-up",
+        "n": 5,
+        "median_s": 1.6,
+        "lowest_s": 1.5,
+        "highest_s": 1.9,
+    }
     tables = {
         "scores": scores,
         "increments": [increments],
@@ -137,7 +184,8 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     page = filled((PAGES / "accuracy.md").read_text(), values)
     assert re.search(r"1 of 2 scores lie within 2 times their stated error; the worst lies at 3.00", page)
     assert "1 of 2 scores miss 0.5 %" in page
-    assert "| CalculiX | 150 | 300 | 1 |" in page
+    assert "| small | CalculiX | 150 | 300 | 1 |" in page
+    assert "| finite | CalculiX | 40 | 1 | 1 |" in page
     assert "| c | strain | 2.04 |" in page.replace("order, ", "")
     assert "skipped: ccx not installed" in page
 

@@ -19,12 +19,33 @@ from fingerpad.closedforms.blocks import half_plane
 from fingerpad.compliance import CondensedSection
 from fingerpad.errors import FingerpadError, MeshError
 from fingerpad.indentation import indent
-from fingerpad.randomscene import FRICTION, GROUP, MODULUS, PITCH, POISSON, THICKNESS, random_group, random_scene
+from fingerpad.randomscene import (
+    FRICTION,
+    GROUP,
+    LARGEST_POISSON,
+    LAWS,
+    MODULUS,
+    PITCH,
+    POISSON,
+    THICKNESS,
+    random_deformed_scene,
+    random_group,
+    random_scene,
+)
 from fingerpad.scene import ActuatorRow, Condition, Criterion, Interface
 from fingerpad.solution import contact_problem, solve_condition
-from fingerpad.stress import SOLVED, Outcome, condensed_group, outcome, outcomes, summary
+from fingerpad.stress import (
+    SOLVED,
+    Outcome,
+    condensed_group,
+    deformed_outcomes,
+    outcome,
+    outcomes,
+    summary,
+)
 
 GROUPS = range(8)
+DEFORMED = [3, 6, 9, 29, 40, 48]  # a second each
 SCENES = [GROUP * group + member for group in GROUPS for member in range(25)]  # 200
 PROPERTIES = settings(
     max_examples=30, deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
@@ -50,6 +71,28 @@ def test_every_scene_ends_in_a_solution_or_a_named_error() -> None:
     assert {row.outcome for row in found()} <= NAMES | {SOLVED}
     assert all(row.message for row in found() if row.outcome != SOLVED)
     assert sum(row.outcome == SOLVED for row in found()) > len(SCENES) / 2
+
+
+def test_every_deformed_scene_ends_so_too() -> None:
+    """Some of those of `snakemake stress` with finite kinematics: none moves, all move, skin leaves its nodes, a state
+    is not unique."""
+    found_deformed = list(deformed_outcomes(DEFORMED))
+    assert [row.number for row in found_deformed] == DEFORMED
+    assert {row.kinematics for row in found_deformed} == {"finite"}
+    assert {row.outcome for row in found_deformed} <= NAMES | {SOLVED}
+    assert sum(row.outcome == SOLVED for row in found_deformed) > len(DEFORMED) / 2
+    assert all(row.message for row in found_deformed if row.outcome != SOLVED)
+
+
+def test_deformed_scenes_span_what_they_promise() -> None:
+    """All laws but Green's, fingers of their own, Poisson's ratios up to the largest, few actuators."""
+    scenes = [random_deformed_scene(number) for number in range(40)]
+    assert {scene.model.tissue.law for scene in scenes} == set(LAWS)
+    assert len({scene.model.finger.width for scene in scenes}) == len(scenes)
+    layers = [layer for scene in scenes for layer in (*scene.model.finger.pad, *scene.model.finger.dorsal)]
+    assert max(layer.material.poisson for layer in layers) == LARGEST_POISSON
+    assert max(len(scene.device.actuators.positions) for scene in scenes) > 4
+    assert random_deformed_scene(7).device.actuators == scenes[7].device.actuators
 
 
 def test_increments_that_fail_for_no_known_reason_are_rare() -> None:

@@ -13,8 +13,11 @@ from collections.abc import Mapping, Sequence
 from statistics import median
 from typing import Any
 
+from .scene import Kinematics
+
 COARSENING = 1.5  # [1]; source: the cheapest mesh whose errors still fall regularly (measured)
-REFINEMENT = 4.5  # of a reference [1]: 20 times the unknowns; source: errors are then a twentieth at second order
+# of a reference [1]: 20 times the unknowns, and errors a twentieth at second order; finite strain affords 4 times
+REFINEMENT = {Kinematics.SMALL: 4.5, Kinematics.FINITE: 2.0}
 CASE = ("kinematics", "device", "condition", "interface", "readout")
 GROUP = ("kinematics", "device", "readout")
 
@@ -53,13 +56,15 @@ def with_error(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:
 
 
 def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of all scores with the error that they state and the one against a reference, both over the score [1], and
-    the ratio of the second to the first. Raises KeyError if the reference lacks a score.
+    """Rows of all scores of the kinematics and devices that a reference has, with the error that they state and the one
+    against the reference, both over the score [1], and the ratio of the second to the first. Raises KeyError if the
+    reference lacks a score.
     """
+    known = {(row["kinematics"], row["device"]) for row in reference}
     finer = {_of(row, CASE): float(row["score"]) for row in reference}
     table = []
     for row in scores:
-        if _is_scored(row):
+        if _is_scored(row) and (row["kinematics"], row["device"]) in known:
             score, stated = float(row["score"]), float(row["score_error"])
             error = score - finer[_of(row, CASE)]
             case = dict(zip(CASE, _of(row, CASE), strict=True))

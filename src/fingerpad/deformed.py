@@ -24,13 +24,17 @@ from scipy.sparse.linalg import SuperLU
 from .condensation import factorise, trailing_compliance
 from .contact import ContactProblem, ContactState
 from .deformation import Elements, internal_force, internal_force_and_tangent
-from .errors import CondensationError, InvertedError
+from .errors import CondensationError, InvertedError, SnapError
 from .increment import NotConvergedError, Patch, solve_increment
 from .path import SolveIncrement
 from .scene import FloatArray
+from .stability import unstable_directions
 
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
 LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
+FARTHEST = 4.0  # way of tissue [1] over that of the actuators in an increment; source: 1 in devices, 3.1 before a snap
+FAST = 2.0  # the same [1], beyond which a path that ends is said to snap; source: the way grows there without bound
+SLIGHT = 1e-3  # of the load [1], by which tissue may move besides; source: equilibrium where corrected moves end
 CONTRACTION = 0.4  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
 CONTACT_INCREMENTS = 4  # in one of the tissue [1], at most; source: scores move by 0.15 of their errors at most
 TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; source: fewer are halved too often
@@ -136,11 +140,13 @@ def solve_deformed_increment(
     changes: list[float] = []
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
+    unstable = float(np.abs(start.rate).max()) > FAST
     try:
         while len(changes) < MAX_ITERATIONS:
             if tangent is None:
                 tangent, made = tangent_at(span, displacement), made + 1
                 steps, ends = [], []
+                unstable = unstable or _is_unstable(problem, start, tangent)
             back = -tangent.factors.solve(internal_force(span.elements, displacement)[free])
             last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = (span.loads.T @ start.displacement[free]).reshape(-1, 2)
@@ -150,6 +156,7 @@ def solve_deformed_increment(
             displacement[free] += step
             changes.append(float(np.abs(step).max()) / scale)
             if changes[-1] <= problem.tolerance:
+                _require_near(problem, found, tangent, displacement - start.displacement, length, scale)
                 reached = deformed(replace(found, iterations=start.iterations + iterations), displacement)
                 rate = (displacement - start.displacement) / length
                 made += start.tangents
@@ -166,8 +173,39 @@ def solve_deformed_increment(
     except InvertedError as error:
         raise NotConvergedError(float("inf"), inverted=str(error)) from error
     except CondensationError as error:
-        raise NotConvergedError(float("inf")) from error
-    raise NotConvergedError(changes[-1])
+        raise NotConvergedError(float("inf"), snaps=unstable) from error
+    except NotConvergedError as failure:
+        raise NotConvergedError(failure.residual, failure.turned, snaps=failure.snaps or unstable) from failure
+    raise NotConvergedError(changes[-1], snaps=unstable)
+
+
+def _require_near(
+    problem: ContactProblem, found: ContactState, tangent: Tangent, moved: FloatArray, length: float, scale: float
+) -> None:
+    """Raise NotConvergedError if a state is not one that the path leads to: tissue is unstable there, or has moved
+    (size,) [mm] much farther than the actuators, by `length` [mm] under a load of `scale` [mm].
+    """
+    if is_far(float(np.abs(moved).max()), length, scale) or _is_unstable(problem, found, tangent):
+        raise NotConvergedError(found.residual, snaps=True)
+
+
+def is_far(moved: float, length: float, load: float) -> bool:
+    """Whether tissue jumped: it moved [mm] much farther than the actuators, by `length` under a load [mm]."""
+    return moved > FARTHEST * length + SLIGHT * load
+
+
+def _is_unstable(problem: ContactProblem, state: ContactState, tangent: Tangent) -> bool:
+    """Whether tissue with that tangent is unstable while contact holds it as in that state."""
+    condensed = replace(problem, compliance=tangent.compliance)
+    return unstable_directions(condensed, state.status, state.place, tangent.factors) > 0
+
+
+def require_stable(problem: ContactProblem, state: ContactState, tangent: Tangent) -> None:
+    """Raise SnapError if tissue with that tangent is unstable while contact holds it as in that state: also against
+    movements that a path on half of the section cannot make.
+    """
+    if _is_unstable(problem, state, tangent):
+        raise SnapError("the tissue has no stable state here: another branches off; try less indentation")
 
 
 def tangent_at(span: Span, displacement: FloatArray) -> Tangent:

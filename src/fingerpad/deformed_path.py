@@ -22,10 +22,10 @@ from scipy.sparse.linalg import SuperLU
 from .condensation import factorise
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import MEMORY, Span, accelerated, deformed, increments_of, solver_on, undeformed
+from .deformed import MEMORY, Span, accelerated, deformed, increments_of, is_far, solver_on, undeformed
 from .errors import ContactError
-from .increment import Patch, solve_increment
-from .path import advance
+from .increment import Patch
+from .path import advance, drifting_to
 from .scene import FloatArray
 
 MAX_CORRECTIONS = 30  # of one move [1] before new tangents are made on the way; source: usual count is 2-24 (measured)
@@ -146,19 +146,22 @@ def _corrected(
             back = -tissue.solve(internal_force(span.elements, displacement)[free])
             last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
-            drift = last - first
-            state, patch = _followed(problem, start.state, target, increments, first, drift, power, patch)
+            state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
         except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
             raise _UnsettledError from error
         step = back + tissue.solve(span.loads @ state.force.ravel())
         reached = displacement[free] + step
-        defect = float(np.abs(step).max() / np.abs(reached - start.displacement[free]).max())
+        moved = float(np.abs(reached - start.displacement[free]).max())
+        # a stimulus that never touches moves nothing
+        defect = float(np.abs(step).max()) / moved if moved > 0.0 else 0.0
         if correction > 0:  # the first is no correction, but the move itself
             steps.append(step)
             ends.append(reached)
         displacement = displacement.copy()
         displacement[free] = reached
         if defect <= EQUILIBRIUM:
+            if is_far(moved, float(np.abs(target - start.state.actuator).max()), float(np.abs(target).max())):
+                raise _UnsettledError
             defect = max(start.defect, defect)
             return Move(state, displacement, last, start.corrections + correction, start.tangents, defect)
         if len(steps) > 1:
@@ -191,19 +194,12 @@ def _followed(
     target: FloatArray,
     increments: int,
     first: FloatArray,
-    drift: FloatArray,
+    last: FloatArray,
     power: int,
     patch: Patch | None,
 ) -> tuple[ContactState, Patch]:
-    """State at the end of a move along which contact nodes without forces drift from `first` by `drift` (m, 2) [mm],
-    and the last patch.
+    """State at the end of a move along which contact nodes without forces drift from `first` to `last` (m, 2) [mm], and
+    the last patch.
     """
-    length = float(np.abs(target - start.actuator).max())
-
-    def solve(
-        problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
-    ) -> tuple[ContactState, Patch]:
-        way = float(np.abs(actuator - start.actuator).max()) / length
-        return solve_increment(replace(problem, free=first + way**power * drift), state, actuator, patch)
-
-    return advance(problem, start, target, increments, patch, solve)
+    solve = drifting_to(last, start.actuator, target, power)
+    return advance(replace(problem, free=first), start, target, increments, patch, solve)

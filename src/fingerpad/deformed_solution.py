@@ -20,6 +20,7 @@ from .finite_strain import logarithmic_strain
 from .mesh import SectionMesh
 from .pressing import Pressed, whole_span
 from .scene import Condition, FloatArray, Interface, Scene
+from .skin import Skin, require_uncrossed, skin_of
 from .solution import Certificate, Solution, certify, contact_problem, increments, named, solution
 from .strain import receptor_readouts
 
@@ -39,6 +40,7 @@ class PressedFinger:
     start: Move
     gradient: csr_matrix
     dofs: np.ndarray
+    skin: Skin
 
 
 def pressed_finger(
@@ -48,6 +50,7 @@ def pressed_finger(
     dofs = node_dofs(displacement_basis(section.mesh))
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement
+    skin = skin_of(section, dofs, halved=False)
     problem, free = contact_problem(scene, pressed.section, body, interface), pressed.free
     sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
     condensing = partial(whole_span, scene, section, True)
@@ -57,7 +60,7 @@ def pressed_finger(
         problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
     start = Move(pressed.state, displacement, free, 0, 0, 0.0)
     gradient = receptor_gradient(section, scene)[1]
-    return PressedFinger(interface, pressed, replace(problem, free=free), tissue, start, gradient, dofs)
+    return PressedFinger(interface, pressed, replace(problem, free=free), tissue, start, gradient, dofs, skin)
 
 
 def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:
@@ -88,6 +91,7 @@ def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) ->
     for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
         target = before.actuator + np.stack([tangential, normal], axis=1)
         moves.append(move(finger.tissue, finger.problem, moves[-1], target, count))
+        require_uncrossed(finger.skin, moves[-1].displacement, f"after move {len(moves) - 1} of the stimulus")
     return moves
 
 

@@ -45,6 +45,14 @@ class InvertedError(ContactError):
     """Tissue is turned inside out: an element would be pressed to nothing."""
 
 
+class SnapError(ContactError):
+    """Tissue has no stable state near: it would snap to one far away, or two ways branch off."""
+
+
+class CrossingError(ContactError):
+    """The deformed skin crosses itself: it would touch itself, which contact does not know."""
+
+
 class CriterionError(ContactError):
     """Pre-indentation did not bring about the contact that was asked for."""
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .contact import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
@@ -14,8 +15,10 @@ from .path import SolveIncrement, State
 from .scene import FloatArray, Scene
 from .solution import increments
 
+RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction
 
-def recording(solve: SolveIncrement[State], note: Callable[[ContactState], object]) -> SolveIncrement[State]:
+
+def recording(solve: SolveIncrement[State], note: Callable[[State], object]) -> SolveIncrement[State]:
     """An increment's solver that shows every state it finds."""
 
     def solve_and_note(problem: ContactProblem, start: State, actuator: FloatArray, carried: Any) -> tuple[State, Any]:
@@ -30,6 +33,24 @@ def curve_of(states: list[ContactState], touch: float) -> FloatArray:
     """Heights above first touch [mm] and pressing forces of all actuators [N/mm] (k, 2), by ascending height."""
     points = sorted((float(state.actuator[0, 1]) - touch, float(state.force[:, 1].sum())) for state in states)
     return np.array([(0.0, 0.0), *points])
+
+
+def limit_points(curve: FloatArray) -> NDArray[np.bool_]:
+    """Where (k,) the force of a curve (k, 2) has a maximum before it falls, by more than RIPPLE of the largest.
+
+    >>> limit_points(np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 1.0], [3.0, 4.0]])).tolist()
+    [False, True, False, False]
+    """
+    force = curve[:, 1]
+    ripple, found = RIPPLE * float(np.abs(force).max()), np.zeros(force.size, dtype=bool)
+    turn, rising = 0, True  # where force was last as high, or as low, as it has been since the last limit
+    for place in range(force.size):
+        change = float(force[place] - force[turn]) * (1.0 if rising else -1.0)
+        if change > 0.0:
+            turn = place
+        elif change < -ripple:
+            found[turn], turn, rising = rising, place, not rising
+    return found
 
 
 def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:

@@ -44,14 +44,15 @@ SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 class NotConvergedError(Exception):
     """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign.
-    inverted: where tissue was turned inside out, if it was.
+    inverted: where tissue was turned inside out, if it was. snaps: whether tissue was unstable on the way.
     """
 
-    def __init__(self, residual: float, turned: bool = False, inverted: str = "") -> None:
-        super().__init__(residual, turned, inverted)
+    def __init__(self, residual: float, turned: bool = False, inverted: str = "", snaps: bool = False) -> None:
+        super().__init__(residual, turned, inverted, snaps)
         self.residual = residual
         self.turned = turned
         self.inverted = inverted
+        self.snaps = snaps
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ AIM = 0.005  # error [1] that every score should keep; source: the project's aim
 COMPARED_AT = 0.01  # error [1] at which run times are compared
 BOUND = 2.0  # times the stated error [1] within which the true one should lie
 PERCENT = 100.0
-GROUP = ["device", "interface", "readout"]
+GROUP = ["kinematics", "device", "interface", "readout"]
 CALCULIX_COLUMNS = ["strain_indented", "pressing_indented", "strain_actuated", "force_actuated", "change_of_strain"]
 
 
@@ -85,7 +85,7 @@ def _of_scores(scores: pd.DataFrame) -> dict[str, object]:
         "aim": f"{PERCENT * AIM:g} %",
         "beyond": len(beyond),
         "missed": table(
-            beyond[["device", "condition", "interface", "readout"]].assign(
+            beyond[["kinematics", "device", "condition", "interface", "readout"]].assign(
                 stated=_percent(beyond["stated"]), true=_percent(beyond["error"])
             )
         ),
@@ -136,13 +136,13 @@ def _of_graph(graph: pd.DataFrame) -> dict[str, object]:
 
 def _of_run_time(timings: pd.DataFrame, ladder: pd.DataFrame, exponents: pd.DataFrame) -> dict[str, object]:
     error = ladder[["error_strain", "error_change_of_strain"]].max(axis=1)
-    rungs = ladder[["solver", "coarsening", "unknowns"]].assign(
+    rungs = ladder[["kinematics", "solver", "coarsening", "unknowns"]].assign(
         error=_percent(error),
         **{name: ladder[name].map("{:.3g}".format) for name in ("cold_s", "warm_s", "stimulus_s")},
     )
     names = {"cold_s": "scene to score", "warm_s": "further condition", "stimulus_s": "further stimulus"}
     return {
-        "timings": table(timings[["device", "step", "n", "median_s", "lowest_s", "highest_s"]]),
+        "timings": table(timings[["kinematics", "device", "step", "n", "median_s", "lowest_s", "highest_s"]]),
         "ladder": table(rungs.rename(columns=names)),
         "compared": _compared(ladder, error),
         "exponents": table(exponents),
@@ -150,18 +150,15 @@ def _of_run_time(timings: pd.DataFrame, ladder: pd.DataFrame, exponents: pd.Data
 
 
 def _compared(ladder: pd.DataFrame, error: pd.Series) -> str:
-    """How much longer the others take, each on its cheapest mesh with an error of at most COMPARED_AT."""
+    """How much longer the others take, each on its cheapest mesh with an error of at most COMPARED_AT, beside fingerpad
+    with the same kinematics.
+    """
     good = ladder[error <= COMPARED_AT]
-    cheapest = good.loc[good.groupby("solver")["cold_s"].idxmin()].set_index("solver")
-    own = cheapest.loc[OWN_LADDER]
+    cheapest = good.loc[good.groupby(["kinematics", "solver"])["cold_s"].idxmin()]
     rows = [
-        {
-            "solver": solver,
-            "scene_to_score": f"{other['cold_s'] / own['cold_s']:.0f}",
-            "further_condition": f"{other['warm_s'] / own['warm_s']:.0f}",
-            "further_stimulus": f"{other['stimulus_s'] / own['stimulus_s']:.0f}",
-        }
-        for solver, other in cheapest.drop(OWN_LADDER).iterrows()
+        row
+        for kinematics, solvers in cheapest.groupby("kinematics", sort=False)
+        for row in _ratios(kinematics, solvers)
     ]
     if not rows:
         return f"No other solver reached an error of {PERCENT * COMPARED_AT:g} %."
@@ -169,6 +166,24 @@ def _compared(ladder: pd.DataFrame, error: pd.Series) -> str:
         "Times as long as fingerpad, each on its cheapest mesh with an error of at most"
         f" {PERCENT * COMPARED_AT:g} %:\n\n{table(pd.DataFrame(rows))}"
     )
+
+
+def _ratios(kinematics: object, cheapest: pd.DataFrame) -> list[dict[str, object]]:
+    """A row for every other solver, if fingerpad is among them."""
+    solvers = cheapest.set_index("solver")
+    if OWN_LADDER not in solvers.index:
+        return []
+    own = solvers.loc[OWN_LADDER]
+    return [
+        {
+            "kinematics": kinematics,
+            "solver": solver,
+            "scene_to_score": f"{other['cold_s'] / own['cold_s']:.0f}",
+            "further_condition": f"{other['warm_s'] / own['warm_s']:.0f}",
+            "further_stimulus": f"{other['stimulus_s'] / own['stimulus_s']:.0f}",
+        }
+        for solver, other in solvers.drop(OWN_LADDER).iterrows()
+    ]
 
 
 def frequency_values(frequencies: pd.DataFrame, variants: pd.DataFrame) -> dict[str, object]:

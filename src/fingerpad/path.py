@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from .contact import ContactProblem, ContactState
-from .errors import ContactError, ConvergenceError, InvertedError, UniquenessError
+from .errors import ContactError, ConvergenceError, InvertedError, SnapError, UniquenessError
 from .increment import NotConvergedError, Patch, solve_increment
 from .scene import FloatArray
 
@@ -99,6 +99,8 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     """Class and advice of the error that ends a path."""
     if failure.inverted:
         return InvertedError, f"{failure.inverted}; try less indentation"
+    if failure.snaps:
+        return SnapError, "there the tissue has no stable state near, and would snap; try less indentation"
     if failure.turned:
         return UniquenessError, "there the states of contact have no unique solution; try less friction, less movement"
     return ConvergenceError, "try more increments"

@@ -29,7 +29,16 @@ from .condensation import (
 )
 from .contact import ContactState, rest, touching_height
 from .deformation import elements_of
-from .deformed import Span, deformed, increments_of, solver_on, tangent_at, undeformed
+from .deformed import (
+    DeformedState,
+    Span,
+    deformed,
+    increments_of,
+    require_stable,
+    solver_on,
+    tangent_at,
+    undeformed,
+)
 from .elasticity import displacement_basis
 from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
@@ -37,6 +46,7 @@ from .indentation import raise_until
 from .mesh import SectionMesh
 from .path import advance
 from .scene import FloatArray, Interface, Kinematics, Scene
+from .skin import require_uncrossed, skin_of
 from .solution import contact_problem, increments, indent_device, named
 from .symmetry import MIRROR, half_of, mirrors, unfolded
 
@@ -82,17 +92,25 @@ def press(
     spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
     pressing = half_of(problem) if mirrored else problem
     touch, states = touching_height(pressing), list[ContactState]()
+    skin = skin_of(section, parts.dofs, mirrored)
+
+    def note(state: DeformedState) -> None:
+        states.append(state)
+        require_uncrossed(skin, state.displacement, f"with the faces at {state.actuator[0, 1]:.4g} mm")
+
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
         start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
         count, within = increments_of(increments(scene, problem)[0])
-        solve = recording(solver_on(spans[0], within), states.append)
+        solve = recording(solver_on(spans[0], within), note)
         if height is None:
             criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
             reached = raise_until(pressing, criterion, count, limit, start, solve)
         else:
             target = np.full_like(start.actuator, height) * [0.0, 1.0]
             reached, _ = advance(pressing, start, target, count, None, solve)
-    tangents = [tangent_at(span, reached.displacement) for span in spans]
+        tangents = [tangent_at(span, reached.displacement) for span in spans]
+        for tangent in tangents:
+            require_stable(pressing, reached, tangent)
     displacement = reached.displacement[parts.dofs]
     state = undeformed(reached)
     compliance = tangents[0].compliance

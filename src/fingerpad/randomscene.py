@@ -67,6 +67,12 @@ CYCLES = 10  # most in a stimulus [1]
 ROWS_A_CYCLE = 6  # [1]
 STILL = VibrationRule(Relaxation((), (), ()), 1e-9, 1.0, 8)  # nothing vibrates
 TOLERANCE, MAX_CUTS = 1e-9, 10  # of the shipped model (config/config.yaml)
+# with finite kinematics
+LAWS = (Law.HENCKY, Law.NEO_HOOKEAN, Law.OGDEN)
+OGDEN_EXPONENT = (1.0, 12.0)  # [1]
+LARGEST_POISSON = 0.49  # [1]
+FEW = 8  # actuators [1], where a group has scenes with as few; coarse meshes have no nodes for more
+CONTRAST = 2.0 / 3.0  # power of the modulus [1]: a contrast of 1e4
 
 
 class Stimulus(StrEnum):
@@ -99,6 +105,27 @@ def random_scene(number: int) -> Scene:
     stroke = float(np.abs(group.device.conditions[0].tangential).max())
     condition = _condition(rng, len(row.positions), stroke)
     return Scene(model, Device(f"stress_{number:05d}", "random", Control.DISPLACEMENT, row, (condition,)))
+
+
+def random_deformed_scene(number: int) -> Scene:
+    """The scene of that number with finite kinematics, a finger of its own, few actuators and a law drawn for it."""
+    members = (random_scene(GROUP * number + member) for member in range(GROUP))
+    scene = next(
+        (each for each in members if len(each.device.actuators.positions) <= FEW), random_scene(GROUP * number)
+    )
+    rng = np.random.default_rng([number, 2])
+    law, exponent = Law(rng.choice(list(LAWS))), _decades(rng, OGDEN_EXPONENT)
+    tissue = TissueLaw(Kinematics.FINITE, (Kinematics.FINITE,), law, exponent)
+    finger = scene.model.finger
+    pad, dorsal = (tuple(_milder(rng, layer) for layer in stack) for stack in (finger.pad, finger.dorsal))
+    model = replace(scene.model, finger=replace(finger, pad=pad, dorsal=dorsal), tissue=tissue)
+    return Scene(model, replace(scene.device, name=f"deformed_{number:05d}"))
+
+
+def _milder(rng: np.random.Generator, layer: Layer) -> Layer:
+    """The layer with less contrast, and another Poisson's ratio."""
+    poisson = LARGEST_POISSON if rng.random() < 0.5 else rng.uniform(POISSON[0], LARGEST_POISSON)
+    return replace(layer, material=Material(layer.material.modulus**CONTRAST, poisson))
 
 
 def random_group(number: int) -> Scene:

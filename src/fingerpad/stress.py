@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 
 import numpy as np
 
 from .compliance import CondensedSection
 from .condensation import body_of, condense_section, contact_tractions
+from .deformed_solution import pressed_finger, stimulate_deformed
 from .errors import CertificateError, FingerpadError, MeshError
-from .mesh import mesh_section, nominal_edges
-from .randomscene import GROUP, random_group, random_scene
+from .mesh import SectionMesh, mesh_section, nominal_edges
+from .pressing import press
+from .randomscene import GROUP, random_deformed_scene, random_group, random_scene
 from .scene import ActuatorRow, Condition, Interface, Scene
 from .solution import Solution, solve_condition
 
 SOLVED = "solved"
 MOST_CONTACT = 400  # skin nodes that may come into contact [1]; source: a scene then takes about a second
+# with finite kinematics; source: a scene then takes some seconds
+MOST_DEFORMED_CONTACT = 100  # skin nodes that may come into contact [1]
+MOST_DEFORMED_UNKNOWNS = 4000  # [1]
 COARSENINGS = (1.0, 2.0, 4.0, 8.0, 16.0)  # times the sizes that a random finger asks for [1]
 
 
@@ -27,11 +32,12 @@ COARSENINGS = (1.0, 2.0, 4.0, 8.0, 16.0)  # times the sizes that a random finger
 class Outcome:
     """What became of a scene.
 
-    number: of the scene. friction [1], actuators, deformable, criterion, stimulus: what it is. contact_nodes: on the
-    skin. outcome: SOLVED, or the class of the error; message: its text. iterations, cuts, searches: of the solution
-    (see ContactState), zero without one. largest_strain: at the receptors [1].
+    kinematics, number: of the scene. friction [1], actuators, deformable, criterion, stimulus: what it is.
+    contact_nodes: on the skin. outcome: SOLVED, or the class of the error; message: its text. iterations, cuts,
+    searches: of the solution (see ContactState), zero without one. largest_strain: at the receptors [1].
     """
 
+    kinematics: str
     number: int
     friction: float
     actuators: int
@@ -47,13 +53,24 @@ class Outcome:
     largest_strain: float
 
 
+@dataclass(frozen=True)
+class DeformedOutcome(Outcome):
+    """What became of a scene with finite kinematics.
+
+    law: of its tissue. poisson: largest [1]. unknowns: of its mesh.
+    """
+
+    law: str
+    poisson: float
+    unknowns: int
+
+
 def outcomes(numbers: Sequence[int]) -> Iterator[Outcome]:
     """Outcomes of the scenes of these numbers; neighbours share what is condensed.
 
     Anything but a solution or a FingerpadError goes up to the caller, warnings and invalid numbers included.
     """
-    with warnings.catch_warnings(), np.errstate(divide="raise", over="raise", invalid="raise"):
-        warnings.simplefilter("error")
+    with strict():
         for group, members in groupby(numbers, lambda number: number // GROUP):
             try:
                 section: CondensedSection | FingerpadError = condensed_group(group)
@@ -61,6 +78,63 @@ def outcomes(numbers: Sequence[int]) -> Iterator[Outcome]:
                 section = error
             for number in members:
                 yield outcome(number, section)
+
+
+@contextmanager
+def strict() -> Iterator[None]:
+    """Make errors of warnings and invalid numbers."""
+    with warnings.catch_warnings(), np.errstate(divide="raise", over="raise", invalid="raise"):
+        warnings.simplefilter("error")
+        yield
+
+
+def deformed_outcomes(numbers: Sequence[int]) -> Iterator[DeformedOutcome]:
+    """`outcomes` of the scenes with finite kinematics of these numbers, each meshed, pressed and stimulated."""
+    with strict():
+        for number in numbers:
+            yield deformed_outcome(random_deformed_scene(number), number)
+
+
+def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
+    """The outcome of a scene with finite kinematics."""
+    section: SectionMesh | None = None
+    result: Solution | FingerpadError
+    try:
+        section = coarse_section(scene)
+        result = deformed_solution(scene, section)
+    except FingerpadError as error:
+        result = error
+    nodes = contact_tractions(section, scene).weight.size if section else 0
+    layers = (*scene.model.finger.pad, *scene.model.finger.dorsal)
+    return DeformedOutcome(
+        **asdict(_outcome(number, scene, nodes, result)),
+        law=str(scene.model.tissue.law),
+        poisson=max(layer.material.poisson for layer in layers),
+        unknowns=2 * int(section.mesh.doflocs.shape[1]) if section else 0,
+    )
+
+
+def coarse_section(scene: Scene) -> SectionMesh:
+    """The section of a scene on a mesh that is coarsened until it has few unknowns, or as far as elements allow.
+
+    Raises MeshError.
+    """
+    edges, section = nominal_edges(scene.device.actuators), None
+    for coarsening in COARSENINGS:
+        with suppress(MeshError):
+            section = mesh_section(scene.coarsened(coarsening), edges)
+            few = contact_tractions(section, scene).weight.size <= MOST_DEFORMED_CONTACT
+            if few and 2 * section.mesh.doflocs.shape[1] <= MOST_DEFORMED_UNKNOWNS:
+                break
+    return section or mesh_section(scene.coarsened(COARSENINGS[-1]), edges)
+
+
+def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:
+    """The solution with friction of a scene with finite kinematics. Raises FingerpadError."""
+    body, (condition,) = body_of(scene), scene.device.conditions
+    pressed = press(scene, section, body, Interface.SHEAR)
+    finger = pressed_finger(scene, section, body, pressed, Interface.SHEAR)
+    return with_numbers(stimulate_deformed(scene, finger, condition))
 
 
 def condensed_group(number: int) -> CondensedSection:
@@ -93,15 +167,21 @@ def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:
             result = solved(scene, section, condition)
         except FingerpadError as error:
             result = error
+    nodes = section.position.shape[0] if isinstance(section, CondensedSection) else 0
+    return _outcome(number, scene, nodes, result)
+
+
+def _outcome(number: int, scene: Scene, contact_nodes: int, result: Solution | FingerpadError) -> Outcome:
     found = isinstance(result, Solution)
     return Outcome(
+        str(scene.kinematics),
         number,
         scene.model.contact.friction,
         len(scene.device.actuators.positions),
         scene.device.actuators.body is not None,
         str(scene.model.contact.criterion),
-        condition.name,
-        section.position.shape[0] if isinstance(section, CondensedSection) else 0,
+        scene.device.conditions[0].name,
+        contact_nodes,
         SOLVED if found else type(result).__name__,
         "" if found else str(result),
         result.iterations if isinstance(result, Solution) else 0,
@@ -114,7 +194,11 @@ def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:
 def solved(scene: Scene, section: CondensedSection, condition: Condition) -> Solution:
     """The scene's solution with friction. Raises FingerpadError, also if a number in it is not finite."""
     body = body_of(scene)
-    solution = solve_condition(scene, section, body, condition, Interface.SHEAR)
+    return with_numbers(solve_condition(scene, section, body, condition, Interface.SHEAR))
+
+
+def with_numbers(solution: Solution) -> Solution:
+    """The solution. Raises CertificateError if a number in it is not finite."""
     for name in ("force", "pressure", "shear", "place", "strain", "change_of_strain"):
         if not np.all(np.isfinite(getattr(solution, name))):
             raise CertificateError(f"{name} is not finite")

@@ -1,5 +1,6 @@
 # How far the library is off closed forms: contact, partial slip, layers, near incompressibility, orders of convergence.
-# And how far scores are off a reference of 20 times the unknowns, and whether their stated errors are honest.
+# And how far scores are off a reference of 20 times the unknowns (4 times for finite kinematics of one device), and
+# whether their stated errors are honest.
 # Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (a quarter of an hour, 5 GB).
 # REQUIRED INPUTS: scene files, results/scores.csv.
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms.{png,pdf}, results/accuracy/scores.csv
@@ -16,7 +17,8 @@ rule accuracy:
 rule honesty:
     input:
         scores="results/scores.csv",
-        references=expand("results/small/{device}/reference.csv", device=DEVICES),
+        references=[f"results/small/{name}/reference.csv" for name in DEVICES]
+        + [f"results/finite/{name}/reference.csv" for name in DEFORMED_DEVICES],
         code=code("honesty.py"),
     output:
         table="results/accuracy/scores.csv",
@@ -35,11 +37,11 @@ rule reference:
         recordings=ancient(recordings_of),
         code=code("reference.py"),
     output:
-        scores="results/small/{device}/reference.csv",
+        scores="results/{kinematics}/{device}/reference.csv",
     log:
-        "results/logs/small/{device}/reference.log",
+        "results/logs/{kinematics}/{device}/reference.log",
     benchmark:
-        "results/benchmarks/small/{device}/reference.tsv"
+        "results/benchmarks/{kinematics}/{device}/reference.tsv"
     conda:
         ENVIRONMENT
     resources:

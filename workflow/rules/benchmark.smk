@@ -1,7 +1,7 @@
 # Run times: of set-up and of a condition in one process, of the whole graph against empty scripts, against error on ladders
 # of meshes (beside CalculiX where ccx is installed), with the size of a scene, and with every skip off.
 # Not part of `all`: ask for them with `snakemake benchmark`, alone on the machine (half an hour).
-# REQUIRED INPUTS: scene files, results/scores.csv, results/small/device2/reference.csv.
+# REQUIRED INPUTS: scene files, results/scores.csv, results/{kinematics}/device2/reference.csv.
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
 
@@ -18,6 +18,7 @@ rule benchmark_steps:
     input:
         config=CONFIG,
         devices=DEVICE_FILES,
+        finite=DEVICE_FILES if Kinematics.FINITE in KINEMATICS else [],
         recordings=ALL_RECORDINGS,
         code=code("benchmark_steps.py"),
     output:
@@ -31,7 +32,7 @@ rule benchmark_steps:
         mem_mb=6000,
         runtime=60,
     params:
-        repeats=5,
+        repeats={"small": 5, "finite": 3},
     script:
         "../scripts/benchmark_steps.py"
 
@@ -62,7 +63,7 @@ rule benchmark_ladder:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
         recordings=lambda w: RECORDINGS["device2"],
-        reference="results/small/device2/reference.csv",
+        references=[f"results/{kinematics}/device2/reference.csv" for kinematics in KINEMATICS],
         code=code("benchmark_ladder.py"),
     output:
         table="results/benchmark/ladder.csv",
@@ -77,14 +78,18 @@ rule benchmark_ladder:
         runtime=60,
     params:
         condition="alternate_180",
+        kinematics=KINEMATICS,
         factors={
-            "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5],
-            "plain": [6.0, 4.0, 3.0, 2.0],
-            "calculix": [8.0, 5.6, 4.0, 2.8, 2.0],
+            "small": {
+                "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5],
+                "plain": [6.0, 4.0, 3.0, 2.0],
+                "calculix": [8.0, 5.6, 4.0, 2.8, 2.0],
+            },
+            "finite": {"fingerpad": [6.0, 4.0, 2.0, 1.0], "plain": [], "calculix": [8.0, 4.0, 2.0]},
         },
-        case=CALCULIX_CASE,
+        cases={"small": CALCULIX_CASE, "finite": CALCULIX_FINITE_CASE},
         limit=1800,
-        repeats=3,
+        repeats={"small": 3, "finite": 1},
     script:
         "../scripts/benchmark_ladder.py"
 
@@ -118,6 +123,7 @@ rule skipping:
     input:
         config=CONFIG,
         devices=DEVICE_FILES,
+        finite=DEFORMED_FILES,
         recordings=ALL_RECORDINGS,
         scores="results/scores.csv",
         code=code("skipping.py"),
@@ -133,7 +139,7 @@ rule skipping:
         mem_mb=6000,
         runtime=60,
     params:
-        repeats=3,
+        repeats={"small": 3, "finite": 1},
     script:
         "../scripts/skipping.py"
 

@@ -10,7 +10,7 @@ from fingerpad.scenefile import load_scene, recordings
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
 
-SETTINGS = ("scenes", "stress_scenes")  # what --config takes
+SETTINGS = ("scenes", "stress_scenes", "stress_scenes_finite")  # what --config takes
 if unknown := [name for name in config if name not in SETTINGS]:
     raise WorkflowError(f"--config: found {', '.join(unknown)}; allowed: {', '.join(SETTINGS)}")
 
@@ -41,6 +41,8 @@ except FingerpadError as error:
 
 ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
 KINEMATICS = [str(each) for each in SCENE[DEVICES[0]].model.tissue.computed]
+DEFORMED_DEVICES = ["device2"] if Kinematics.FINITE in KINEMATICS else []  # whose finite solutions long targets study
+DEFORMED_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEFORMED_DEVICES]
 MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.force_curve import small_strain_curve
+from fingerpad.force_curve import limit_points, small_strain_curve
 from fingerpad.pressing import Pressed
 from fingerpad.scene import FloatArray, Interface, Kinematics
 from fingerpad.scenefile import load_scene
@@ -33,7 +33,10 @@ def main(
 
 def _rows(device: str, interface: Interface, kinematics: Kinematics, curve: FloatArray) -> list[dict[str, object]]:
     case = {"kinematics": str(kinematics), "device": device, "interface": str(interface)}
-    return [case | {"indentation_mm": float(height), "force_N_per_mm": float(force)} for height, force in curve]
+    return [
+        case | {"indentation_mm": float(height), "force_N_per_mm": float(force), "limit_point": bool(limit)}
+        for (height, force), limit in zip(curve, limit_points(curve), strict=True)
+    ]
 
 
 if __name__ == "__main__":

@@ -3,16 +3,29 @@
 from pathlib import Path
 
 from fingerpad.benchmark.skipping import always_rows, skip_rows
+from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
 
 
-def main(config: Path, devices: list[Path], scores: Path, repeats: int, switches: Path, always: Path) -> None:
-    """Read scenes and scores, time every device with and without every skip, write two tables."""
+def main(
+    config: Path,
+    devices: list[Path],
+    finite: list[Path],
+    scores: Path,
+    repeats: dict[str, int],
+    switches: Path,
+    always: Path,
+) -> None:
+    """Read scenes and scores, time every device with and without every skip, some with finite kinematics too, write two
+    tables.
+    """
     stated = read_rows(scores)
     scenes = [load_scene(config, path) for path in devices]
-    write_rows(switches, [row for scene in scenes for row in skip_rows(scene, stated, repeats)])
-    write_rows(always, [row for scene in scenes for row in always_rows(scene, repeats)])
+    deformed = [load_scene(config, path, Kinematics.FINITE) for path in finite]
+    rows = [row for scene in scenes + deformed for row in skip_rows(scene, stated, repeats[scene.kinematics])]
+    write_rows(switches, rows)
+    write_rows(always, [row for scene in scenes for row in always_rows(scene, repeats[scene.kinematics])])
 
 
 if __name__ == "__main__":
@@ -20,6 +33,7 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         [Path(path) for path in job.input.devices],
+        [Path(path) for path in job.input.finite],
         Path(job.input.scores),
         job.params.repeats,
         Path(job.output.switches),

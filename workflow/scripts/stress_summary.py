@@ -1,21 +1,22 @@
 """Sum up what became of random scenes."""
 
-import csv
 from pathlib import Path
 
-from fingerpad.store import write_rows
+from fingerpad.scene import Kinematics
+from fingerpad.store import read_rows, write_rows
 from fingerpad.stress import summary
 
 
-def main(scenes: list[Path], table: Path) -> None:
-    """Read the outcomes, write shares of solutions and of each named error."""
-    rows: list[dict[str, str]] = []
-    for path in scenes:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows.extend(csv.DictReader(file))
-    write_rows(table, summary(rows))
+def main(scenes: dict[str, list[Path]], table: Path) -> None:
+    """Read the outcomes by kinematics, write shares of solutions and of each named error."""
+    rows = []
+    for kinematics, paths in scenes.items():
+        found = summary([row for path in paths for row in read_rows(path)])
+        rows += [{"kinematics": kinematics, **row} for row in found]
+    write_rows(table, rows)
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main([Path(path) for path in job.input.scenes], Path(job.output.summary))
+    scenes = {Kinematics.SMALL: job.input.scenes, Kinematics.FINITE: job.input.finite}
+    main({kinematics: [Path(path) for path in paths] for kinematics, paths in scenes.items()}, Path(job.output.summary))

@@ -32,6 +32,7 @@ def calculix_ladder(
         apart = differences(outcome, finest)
         rows.append(
             {
+                "kinematics": case["kinematics"],
                 "solver": "CalculiX",
                 "coarsening": factor,
                 "unknowns": 2 * int(section.mesh.doflocs.shape[1]),

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from ..compliance import CondensedSection
+from ..condensation import contact_tractions
 from ..edges import edge_intervals
 from ..errors import SceneError
 from ..mesh import SectionMesh, mesh_section
-from ..prediction import Condensed, condense_scene, read_out
+from ..prediction import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out
 from ..roughness import score_rows
-from ..scene import Condition, Interface, Readout, Scene
-from ..solution import Indented, increments, indent_device, stimulate
+from ..scene import Condition, Interface, Kinematics, Readout, Scene
+from ..solution import Solution, increments, indent_device
 from .plain import plain_scores
 from .timing import fewest, peak_memory
 
@@ -30,13 +30,13 @@ def own_ladder(
     """
     for factor in factors:
         other = scene.coarsened(factor)
-        condensed, cold = fewest(repeats, partial(_condensed, other))
-        indenting = partial(indent_device, other, condensed.section, condensed.body, Interface.SHEAR)
-        indented, pressing = fewest(repeats, indenting)
-        found, stimulating = fewest(repeats, partial(_scores, other, condensed, indented, condition))
+        condensed, cold = fewest(repeats, partial(_prepared, other))
+        solve, pressing = fewest(repeats, partial(pressed_device, other, condensed, Interface.SHEAR))
+        found, stimulating = fewest(repeats, partial(_scores, other, condensed, solve, condition))
         seconds = cold + pressing + stimulating, pressing + stimulating, stimulating
         section = mesh_section(other, edge_intervals(other))
-        yield _row(OWN_LADDER, factor, section, condensed.section, seconds, _errors(found, reference))
+        nodes = contact_tractions(section, other).weight.size
+        yield _row(scene.kinematics, OWN_LADDER, factor, section, nodes, seconds, _errors(found, reference))
 
 
 def plain_ladder(
@@ -47,7 +47,7 @@ def plain_ladder(
     """
     if scene.device.actuators.body is not None:
         raise SceneError(f"{scene.device.name}: the plain solver knows rigid actuators only")
-    condensed = _condensed(scene)
+    condensed = condense_scene(scene, edge_intervals(scene))
     indented = indent_device(scene, condensed.section, None, Interface.SHEAR)
     depth, edges = float(indented.state.actuator[0, 1]), edge_intervals(scene)
     for factor in factors:
@@ -56,16 +56,18 @@ def plain_ladder(
         counts = round(PATH * pressing), stimulating
         section = mesh_section(other, edges)
         (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, depth, counts))
-        yield _row(PLAIN_LADDER, factor, section, last, (cold, cold, cold), _errors(found, reference))
+        seconds, nodes = (cold, cold, cold), last.position.shape[0]
+        yield _row(scene.kinematics, PLAIN_LADDER, factor, section, nodes, seconds, _errors(found, reference))
 
 
-def _condensed(scene: Scene) -> Condensed:
-    return condense_scene(scene, edge_intervals(scene))
+def _prepared(scene: Scene) -> Condensed | Meshed:
+    return prepared(scene, edge_intervals(scene))
 
 
-def _scores(scene: Scene, condensed: Condensed, indented: Indented, condition: Condition) -> list[Row]:
-    solution = stimulate(scene, condensed.section, indented, condition)
-    return score_rows(scene, condition, indented.interface, read_out(scene, condensed, solution))
+def _scores(
+    scene: Scene, condensed: Condensed | Meshed, solve: Callable[[Condition], Solution], condition: Condition
+) -> list[Row]:
+    return score_rows(scene, condition, Interface.SHEAR, read_out(scene, condensed, solve(condition)))
 
 
 def _errors(found: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> dict[str, float]:
@@ -77,19 +79,21 @@ def _errors(found: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str,
 
 
 def _row(
+    kinematics: Kinematics,
     solver: str,
     factor: float,
     section: SectionMesh,
-    condensed: CondensedSection,
+    contact_nodes: int,
     seconds: tuple[float, float, float],
     errors: Mapping[str, float],
 ) -> Row:
     cold, warm, stimulus = seconds
     return {
+        "kinematics": str(kinematics),
         "solver": solver,
         "coarsening": factor,
         "unknowns": 2 * int(section.mesh.doflocs.shape[1]),
-        "contact_nodes": condensed.position.shape[0],
+        "contact_nodes": contact_nodes,
         "cold_s": round(cold, 4),
         "warm_s": round(warm, 4),
         "stimulus_s": round(stimulus, 4),

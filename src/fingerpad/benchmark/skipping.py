@@ -12,9 +12,9 @@ import numpy as np
 from ..accuracy import CASE
 from ..edges import edge_intervals
 from ..mesh import SectionMesh, mesh_section
-from ..prediction import condense_scene, predicted_rows
+from ..prediction import condense_scene, predicted_rows, prepared
 from ..recovery import recover_fields
-from ..scene import Interface, Scene, Skips
+from ..scene import Interface, Kinematics, Scene, Skips
 from ..solution import indent_device, stimulate
 from ..strain import receptor_readouts
 from .timing import fewest
@@ -22,24 +22,32 @@ from .timing import fewest
 Row = dict[str, Any]
 
 
-def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -> Iterator[Row]:
-    """A row for each switch of `skips`: seconds of set-up and of all conditions with it off, over those with all on;
-    the largest relative difference of any score; and the smallest error that a score of the device states.
+NOT_FINITE = ("halved_condensation", "frictionless_path")  # nothing is condensed at rest, and every path is followed
 
-    stated: rows of the score table.
+
+def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -> Iterator[Row]:
+    """A row for each switch of `skips` that the scene's kinematics know: seconds of set-up and of all conditions with
+    it off, over those with all on; the largest relative difference of any score; and the smallest error that a score
+    of the device states.
+
+    stated: rows of the score table. With finite kinematics set-up is the mesh alone.
     """
     edges = edge_intervals(scene)
     smallest = min(
         float(row["score_error"]) / float(row["score"])
         for row in stated
-        if row["device"] == scene.device.name and row["score"] not in {None, ""}
+        if (row["kinematics"], row["device"]) == (scene.kinematics, scene.device.name)
+        and row["score"] not in {None, ""}
     )
-    _, setup, conditions, scores = _measured(scene, edges, repeats)
+    setup, conditions, scores = _measured(scene, edges, repeats)
     for switch in fields(Skips):
+        if scene.kinematics is Kinematics.FINITE and switch.name in NOT_FINITE:
+            continue
         skips = replace(scene.model.skips, **{switch.name: False})
         other = replace(scene, model=replace(scene.model, skips=skips))
-        _, setup_without, conditions_without, moved = _measured(other, edges, repeats)
+        setup_without, conditions_without, moved = _measured(other, edges, repeats)
         yield {
+            "kinematics": str(scene.kinematics),
             "device": scene.device.name,
             "skip": switch.name,
             "setup_ratio": round(setup_without / setup, 2),
@@ -80,8 +88,8 @@ def _dorsal_share(section: SectionMesh, scene: Scene) -> float:
     return round(float((section.mesh.doflocs[1] > scene.model.finger.height / 2.0).mean()), 3)
 
 
-def _measured(scene: Scene, edges: Any, repeats: int) -> tuple[Any, float, float, dict[tuple[str, ...], float]]:
-    """Condensed maps, seconds of set-up and of all conditions, and scores by case."""
-    condensed, setup = fewest(repeats, partial(condense_scene, scene, edges))
+def _measured(scene: Scene, edges: Any, repeats: int) -> tuple[float, float, dict[tuple[str, ...], float]]:
+    """Seconds of set-up and of all conditions, and scores by case."""
+    condensed, setup = fewest(repeats, partial(prepared, scene, edges))
     rows, conditions = fewest(repeats, partial(predicted_rows, scene, condensed))
-    return condensed, setup, conditions, {tuple(str(row[key]) for key in CASE): row["score"] for row in rows}
+    return setup, conditions, {tuple(str(row[key]) for key in CASE): row["score"] for row in rows}

@@ -2,11 +2,27 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILLION, WIDE, legend_below, letter, new_figure, styled
+from ..scene import Kinematics
+from .style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    VERMILLION,
+    WIDE,
+    legend_below,
+    letter,
+    new_figure,
+    rows_with,
+    styled,
+)
 
 HEIGHT = 78.0  # mm
 LETTER_OFFSET = (-26.0, 4.0)  # pt
@@ -18,6 +34,11 @@ LADDERS = (  # solver, column, label, colour, marker
     ("fingerpad", "warm_s", "fingerpad, a further condition", ORANGE, "s"),
     ("fingerpad", "stimulus_s", "fingerpad, a further stimulus", GREEN, "v"),
 )
+LINES: dict[Kinematics, dict[str, Any]] = {
+    Kinematics.SMALL: {},
+    Kinematics.FINITE: {"linestyle": "--", "markerfacecolor": "white"},
+}
+FINITE = "Dashed, open marks: finite strain."
 GROWTHS = (  # what is varied, size, seconds, label, colour, marker
     ("mesh", "unknowns", "setup_s", "set-up, unknowns", BLUE, "o"),
     ("mesh", "contact_nodes", "condition_s", "condition, contact nodes", ORANGE, "s"),
@@ -38,18 +59,20 @@ def benchmark_figure(ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFra
     _draw_growth(right, sizes, fits)
     for axes, name in ((left, "A"), (right, "B")):
         letter(axes, name, LETTER_OFFSET)
-    legend_below(figure, handles)
+    legend_below(figure, handles, FINITE if (ladder["kinematics"] == Kinematics.FINITE).any() else "")
     return figure
 
 
 def _draw_ladders(axes: Axes, ladder: pd.DataFrame) -> list[object]:
     handles: list[object] = []
     for solver, column, label, colour, marker in LADDERS:
-        own = ladder[ladder["solver"] == solver]
-        if own.empty:
-            continue
-        error = own[["error_strain", "error_change_of_strain"]].max(axis=1)
-        handles += axes.plot(error, own[column], color=colour, marker=marker, label=label)
+        for kinematics, line in LINES.items():
+            own = rows_with(ladder[ladder["solver"] == solver], kinematics)
+            if own.empty:
+                continue
+            error = own[["error_strain", "error_change_of_strain"]].max(axis=1)
+            drawn = axes.plot(error, own[column], color=colour, marker=marker, label=label, **line)
+            handles += drawn if kinematics is Kinematics.SMALL else []
     axes.axvline(AIM, color=GREY, linestyle="--", zorder=0)
     axes.set(xscale="log", yscale="log", xlabel="Error of the score (relative)", ylabel="Wall time (s)")
     axes.set_title("Time against error", loc="left")

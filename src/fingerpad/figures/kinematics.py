@@ -42,6 +42,8 @@ LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, 
 MANY = 6  # conditions beyond which their phases are written smaller
 SMALL_TEXT = 5.0  # pt
 GROUP_GAP = 2.0  # between the dispersions' names and the axis' [pt]
+LIMIT = "x"  # marks a limit point
+NO_LIMITS = "No force falls on the way: there are no limit points."
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
 CAPTION = (
     "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin."
@@ -70,7 +72,10 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
     handles += [
         Line2D([], [], color="black", linestyle=LINE[each], label=f"force {INTERFACE_NAME[each]}") for each in Interface
     ]
-    legend_below(figure, handles, CAPTION)
+    limits = curves["limit_point"].astype(bool)
+    if limits.any():
+        handles.append(Line2D([], [], color="black", linestyle="", marker=LIMIT, label="limit point"))
+    legend_below(figure, handles, CAPTION if limits.any() else f"{CAPTION} {NO_LIMITS}")
     return figure
 
 
@@ -83,6 +88,8 @@ def _curves(axes: Axes, curves: pd.DataFrame) -> None:
             if len(own):
                 height, force = own["indentation_mm"].to_numpy(), own["force_N_per_mm"].to_numpy()
                 axes.plot(height, force, color=COLOUR[kinematics], linestyle=LINE[interface])
+                limit = own["limit_point"].to_numpy(bool)
+                axes.plot(height[limit], force[limit], color=COLOUR[kinematics], linestyle="", marker=LIMIT)
                 axes.plot(height[-1:], force[-1:], color=COLOUR[kinematics], marker=END[kinematics], fillstyle="none")
     axes.set_ylabel("Force (N/mm)")
     axes.set_xlim(left=0.0)

@@ -1,0 +1,17 @@
+"""Solve some random scenes with finite kinematics and write what becomes of each."""
+
+from dataclasses import asdict
+from pathlib import Path
+
+from fingerpad.store import write_rows
+from fingerpad.stress import deformed_outcomes
+
+
+def main(first: int, stop: int, scenes: Path) -> None:
+    """Solve the scenes from first to before stop, write one row a scene."""
+    write_rows(scenes, [asdict(outcome) for outcome in deformed_outcomes(range(first, stop))])
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(job.params.first, job.params.stop, Path(job.output.scenes))
