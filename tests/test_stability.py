@@ -54,7 +54,7 @@ def arch(width: float, nail: float) -> Scene:
         finger=Finger(width, 12.0, 3.0, nail, pad, dorsal),
         readout=replace(base.model.readout, layer_above="shell"),
         vibration=STILL,
-        numerics=replace(base.model.numerics, **sizes, indentation_increments=12, max_cuts=2),
+        numerics=replace(base.model.numerics, **sizes, indentation_increments=48, max_cuts=2),
     )
     still = Condition("still", "test", 0.0, np.array([1.0]), np.zeros((1, 1)), np.zeros((1, 1)))
     return Scene(model, Device("arch", "arch", Control.DISPLACEMENT, ActuatorRow((0.0,), 1.0, 0.5), (still,)))
