@@ -38,7 +38,7 @@ def test_device3_moves_as_in_table_1() -> None:
 def test_finger_has_the_layers_of_table_2() -> None:
     table = pd.read_csv(DATA / "table2_layers.csv").set_index("layer")
     finger = build_model(read_yaml(ROOT / "config/config.yaml")).finger
-    layers = [*finger.pad, *finger.dorsal]
+    layers = finger.layers
     assert sorted(layer.name for layer in layers) == sorted(table.index)
     for layer in layers:
         row = table.loc[layer.name]

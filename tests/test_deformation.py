@@ -50,7 +50,7 @@ def section(law: Law) -> Section:
     coarse = uniform(scene("device2"), SPACING)
     mesh = mesh_section(coarse, nominal_edges(coarse.device.actuators))
     finger = coarse.model.finger
-    materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
+    materials = [layer.material for layer in finger.layers]
     basis = displacement_basis(mesh.mesh)
     tissue = tissue_of(law, EXPONENT, materials, mesh.layer[:, None])
     mixed = np.random.default_rng(1).permutation(basis.N)

@@ -107,7 +107,7 @@ def test_every_layer_has_its_material() -> None:
     assert sections.keys() == {given["ELSET"] for _, given, _ in of_kind(blocks, "ELEMENT")}
     names = [given["NAME"] for _, given, _ in of_kind(blocks, "MATERIAL")]
     constants = dict(zip(names, (rows[0] for _, _, rows in of_kind(blocks, "ELASTIC")), strict=True))
-    for index, layer in enumerate((*finger.pad, *finger.dorsal)):
+    for index, layer in enumerate(finger.layers):
         found = [float(value) for value in constants[sections[f"LAYER_{index + 1}_{layer.name.upper()}"]]]
         assert found == [layer.material.modulus, layer.material.poisson]
 

@@ -304,7 +304,7 @@ def test_section_names_every_layer(section: SectionMesh) -> None:
     figure = section_figure(MODEL, section, DEVICES)
     require_legible(figure)
     text = words(figure)
-    for layer in (*MODEL.finger.pad, *MODEL.finger.dorsal):
+    for layer in MODEL.finger.layers:
         assert f"{layer.name.replace('_', ' ')}, {layer.thickness:g} mm" in text
     for said in ("bone, rigid", "receptors, 0.6 mm deep", "16 mm", "13 mm", *TITLES.values()):
         assert said in text

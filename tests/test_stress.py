@@ -89,7 +89,7 @@ def test_deformed_scenes_span_what_they_promise() -> None:
     scenes = [random_deformed_scene(number) for number in range(40)]
     assert {scene.model.tissue.law for scene in scenes} == set(LAWS)
     assert len({scene.model.finger.width for scene in scenes}) == len(scenes)
-    layers = [layer for scene in scenes for layer in (*scene.model.finger.pad, *scene.model.finger.dorsal)]
+    layers = [layer for scene in scenes for layer in scene.model.finger.layers]
     assert max(layer.material.poisson for layer in layers) == LARGEST_POISSON
     assert max(len(scene.device.actuators.positions) for scene in scenes) > 4
     assert random_deformed_scene(7).device.actuators == scenes[7].device.actuators
@@ -105,7 +105,7 @@ def test_scenes_span_what_they_promise() -> None:
     scenes = [random_scene(number) for number in range(0, 5000, 10)]
     rows = [scene.device.actuators for scene in scenes]
     frictions = [scene.model.contact.friction for scene in scenes]
-    layers = [layer for scene in scenes for layer in (*scene.model.finger.pad, *scene.model.finger.dorsal)]
+    layers = [layer for scene in scenes for layer in scene.model.finger.layers]
     assert min(frictions) == 0.0
     assert max(frictions) > FRICTION[1] / 2
     assert {len(row.positions) for row in rows} >= {1, 2, 4}

@@ -45,7 +45,7 @@ def coarse(device: str = "device2", layers: tuple[str, ...] | None = None, sharp
 def every_layer() -> tuple[str, ...]:
     """All layers, nail and nail bed included."""
     finger = scene("device2").model.finger
-    return tuple(layer.name for layer in (*finger.pad, *finger.dorsal))
+    return tuple(layer.name for layer in finger.layers)
 
 
 @cache

@@ -165,7 +165,7 @@ def skin_nodes() -> int:
 def test_stress_is_that_of_the_elements_layer(read: meshio.Mesh) -> None:
     """szz = lambda (exx + eyy), with the layer's own material, and the rest of Hooke's law."""
     finger = scene(DEVICE).model.finger
-    for number, layer in enumerate((*finger.pad, *finger.dorsal)):
+    for number, layer in enumerate(finger.layers):
         own = section(DEVICE).layer == number
         strain = by_element(read, read.point_data["strain"])[own].reshape(-1, 6)
         stresses = by_element(read, read.point_data["stress_MPa"])[own].reshape(-1, 6)

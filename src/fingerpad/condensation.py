@@ -59,7 +59,7 @@ def section_stiffness(
     """Stiffness of the section, or of some elements [N/mm per mm], and the unknowns (2, n_nodes) of its nodes."""
     basis = displacement_basis(section.mesh, elements)
     finger = scene.model.finger
-    materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
+    materials = [layer.material for layer in finger.layers]
     layer = section.layer if elements is None else section.layer[elements]
     return stiffness(basis, materials, layer), node_dofs(basis)
 

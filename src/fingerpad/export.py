@@ -233,7 +233,7 @@ def _finger(scene: Scene, section: SectionMesh) -> list[str]:
     lines = ["**", "** ---- the finger: nodes [mm] and second-order plane-strain triangles, layer by layer", "*NODE"]
     lines += _nodes(section.mesh.doflocs.T, 0)
     connectivity = triangles(section.mesh)
-    layers = (*finger.pad, *finger.dorsal)
+    layers = finger.layers
     for index, layer in enumerate(layers):
         members = np.flatnonzero(section.layer == index)
         lines.append(f"*ELEMENT, TYPE=CPE6, ELSET={_layer_name(index, layer)}")
@@ -274,7 +274,7 @@ def _materials(scene: Scene, part: _Part) -> list[str]:
         "** ---- materials: *ELASTIC Young's modulus [MPa], Poisson's ratio [1]; NEO HOOKE C10 [MPa], D1 [1/MPa];",
         "** OGDEN mu [MPa], alpha [1], D1 [1/MPa]; sections: thickness [mm]",
     ]
-    for index, layer in enumerate((*finger.pad, *finger.dorsal)):
+    for index, layer in enumerate(finger.layers):
         name = _layer_name(index, layer)
         # nail and nail bed hardly strain; CalculiX finds no equilibrium where such stiff tissue has the law of Ogden
         soft = index < len(finger.pad)

@@ -275,7 +275,7 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tup
         interfaces = np.cumsum([layer.thickness for layer in stack[:-1]])
         index[inside] = first + np.searchsorted(interfaces, zeta[inside])
         first += len(stack)
-    return index, tuple(layer.name for layer in (*finger.pad, *finger.dorsal))
+    return index, tuple(layer.name for layer in finger.layers)
 
 
 def _require_valid(mesh: MeshTri2, name: str) -> None:

@@ -175,6 +175,11 @@ class Finger:
         )
 
     @property
+    def layers(self) -> tuple[Layer, ...]:
+        """All layers, those of the pad first."""
+        return (*self.pad, *self.dorsal)
+
+    @property
     def pad_thickness(self) -> float:
         """Soft tissue between pad and bone on the mid-line [mm]."""
         return sum(layer.thickness for layer in self.pad)
@@ -196,7 +201,7 @@ class Finger:
 
     def layer(self, name: str) -> Layer:
         """The layer of that name. Raises SceneError if there is none."""
-        for layer in (*self.pad, *self.dorsal):
+        for layer in self.layers:
             if layer.name == name:
                 return layer
         raise SceneError(f"finger: no layer {name!r}")
@@ -558,7 +563,7 @@ class Model:
             self.readout.layer_above in names,
             f"readout: layer_above {self.readout.layer_above!r} must be one of {names}",
         )
-        every = [layer.name for layer in (*self.finger.pad, *self.finger.dorsal)]
+        every = [layer.name for layer in self.finger.layers]
         for name in self.vibration.relaxation.layers:
             _require(name in every, f"vibration: layers {name!r} must be among {every}")
 

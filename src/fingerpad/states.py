@@ -73,7 +73,7 @@ def stress_at(scene: Scene, section: SectionMesh, displacement: FloatArray, poin
     """Stress (n_elements k, 4) [MPa], xx, yy, zz, xy, of each element's own layer, where `strain_at` has strain."""
     gradient = gradient_at(section.mesh, displacement, points)
     finger, law = scene.model.finger, scene.model.tissue
-    materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
+    materials = [layer.material for layer in finger.layers]
     layer = np.repeat(section.layer, points.shape[1])
     if scene.kinematics is Kinematics.FINITE:
         return cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T

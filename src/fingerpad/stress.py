@@ -105,7 +105,7 @@ def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
     except FingerpadError as error:
         result = error
     nodes = contact_tractions(section, scene).weight.size if section else 0
-    layers = (*scene.model.finger.pad, *scene.model.finger.dorsal)
+    layers = scene.model.finger.layers
     return DeformedOutcome(
         **asdict(_outcome(number, scene, nodes, result)),
         law=str(scene.model.tissue.law),

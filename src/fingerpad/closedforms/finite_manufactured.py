@@ -55,7 +55,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     same = uniform(scene, spacing)
     section = mesh_section(same, nominal_edges(same.device.actuators))
     finger, law = scene.model.finger, scene.model.tissue
-    materials = [layer.material for layer in (*finger.pad, *finger.dorsal)]
+    materials = [layer.material for layer in finger.layers]
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[:, None])
     basis = displacement_basis(section.mesh)
     dofs = node_dofs(basis)

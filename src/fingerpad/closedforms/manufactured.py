@@ -59,7 +59,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     matrix, dofs = section_stiffness(section, scene)
     basis = Basis(section.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
     finger = scene.model.finger
-    layers = np.array([lame(layer.material) for layer in (*finger.pad, *finger.dorsal)])
+    layers = np.array([lame(layer.material) for layer in finger.layers])
     lam, mu = layers[section.layer].T[..., None]
     x, y = np.asarray(basis.global_coordinates())
     exact = gradient(x, y)
