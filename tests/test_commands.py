@@ -368,7 +368,7 @@ def test_what_cannot_be_solved_is_3(checkout: Path, monkeypatch: pytest.MonkeyPa
 
 def test_a_scene_without_solution_is_refused_with_3(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = checkout / "config/devices/device2.yaml"
-    far = path.read_text(encoding="utf-8").replace("value: 0.020, unit: mm", "value: 9.0, unit: mm")
+    far = path.read_text(encoding="utf-8").replace("pitch: {value: 2.5", "pitch: {value: 4.0")  # the pad curves away
     path.write_text(far, encoding="utf-8")
     assert main(["predict", "--no-error", str(path)]) == UNSOLVED
     assert "device=device2" in capsys.readouterr().err
