@@ -16,7 +16,8 @@ import support
 os.environ |= {"PYTHONPATH": str(SOURCE), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
 
 
-# priorities: 2 for what the tables wait for, 1 for what is long or what long jobs wait for; so that no core idles at the end
+# priorities: 3 for the longest, 2 for what the tables wait for, 1 for what is long or what long jobs wait for; so that no
+# core idles at the end
 include: "workflow/rules/common.smk"
 include: "workflow/rules/mesh.smk"
 include: "workflow/rules/condense.smk"

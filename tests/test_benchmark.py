@@ -16,6 +16,7 @@ from fingerpad.benchmark.increments import increment_rows
 from fingerpad.benchmark.ladder import own_ladder, plain_ladder
 from fingerpad.benchmark.skipping import always_rows, skip_rows
 from fingerpad.benchmark.timing import exponent
+from fingerpad.edges import edge_intervals
 from fingerpad.errors import SceneError
 from fingerpad.pages import accuracy_values, filled, skipping_values, table
 from fingerpad.prediction import rows_at
@@ -34,7 +35,7 @@ def coarse() -> Scene:
 @pytest.fixture(scope="module")
 def stated(coarse: Scene) -> list[dict[str, Any]]:
     """Score rows of the coarse scene with their errors, as text like those of a file."""
-    rows = with_errors(rows_at(coarse, 1.0), rows_at(coarse, 1.5))
+    rows = with_errors(rows_at(coarse, 1.0, edge_intervals(coarse)), rows_at(coarse, 1.5, edge_intervals(coarse)))
     return [{key: str(value) for key, value in row.items()} for row in rows]
 
 
@@ -96,7 +97,7 @@ def pair() -> Scene:
 
 def test_finite_kinematics_are_in_ladder_and_ledger(pair: Scene) -> None:
     """What switches mean there is exact but for the solver's tolerance; the others are left out."""
-    rows = [{**row, "score_error": 0.01 * row["score"]} for row in rows_at(pair, 1.0)]
+    rows = [{**row, "score_error": 0.01 * row["score"]} for row in rows_at(pair, 1.0, edge_intervals(pair))]
     (rung,) = own_ladder(pair, pair.device.conditions[0], [1.0], rows, 1)
     assert rung["kinematics"] == "finite"
     assert float(rung["error_strain"]) < 1e-9

@@ -52,7 +52,7 @@ def expected() -> dict[tuple[str, str, str], dict[str, Any]]:
     """Rows of the workflow's table, with errors, by condition, interface and read-out."""
     base = scene(DEVICE)
     scored = predicted_rows(base, condense_scene(base, edge_intervals(base)))
-    rows = with_errors(scored, rows_at(base, COARSENING))
+    rows = with_errors(scored, rows_at(base, COARSENING, edge_intervals(base)))
     return {(row["condition"], row["interface"], row["readout"]): row for row in rows}
 
 

@@ -7,6 +7,7 @@ up where undeformed skin lies over them. A coarse solution of all conditions fin
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -18,7 +19,9 @@ from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
 from .scene import Condition, FloatArray, Kinematics, Scene
 from .solution import contact_problem, follow_condition, indented_state
+from .store import read_rows, write_rows
 
+COLUMNS = ("start_mm", "stop_mm")  # of a table of intervals
 COARSER = 5.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.002 mm (measured)
 REACH = 0.3  # mm by which edges may lie off their nominal place; source: largest shift in the shipped devices
 
@@ -26,6 +29,16 @@ REACH = 0.3  # mm by which edges may lie off their nominal place; source: larges
 def mesh_device(scene: Scene) -> SectionMesh:
     """Mesh of the finger's section for a device, fine where the actuators' edges will lie. Raises MeshError."""
     return mesh_section(scene, edge_intervals(scene))
+
+
+def save_edges(path: Path, intervals: FloatArray) -> None:
+    """Write intervals (k, 2) [mm] as a CSV table."""
+    write_rows(path, [dict(zip(COLUMNS, map(float, interval), strict=True)) for interval in intervals])
+
+
+def load_edges(path: Path) -> FloatArray:
+    """Intervals (k, 2) [mm] that `save_edges` wrote."""
+    return np.array([[float(row[column]) for column in COLUMNS] for row in read_rows(path)])
 
 
 def edge_intervals(scene: Scene) -> FloatArray:

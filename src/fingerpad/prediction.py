@@ -10,7 +10,6 @@ from typing import Any
 from .compliance import CondensedBody, CondensedSection
 from .condensation import arc_length, body_of, condense_section, receptor_strain
 from .deformed_solution import pressed_finger, stimulate_deformed
-from .edges import edge_intervals
 from .gabor import filtered_readouts
 from .mesh import SectionMesh, mesh_section
 from .pressing import press
@@ -70,10 +69,10 @@ def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:
     return Meshed(section, body_of(scene), resampling_to_grid(arc, scene.model.gabor.spacing))
 
 
-def rows_at(scene: Scene, coarsening: float) -> list[dict[str, Any]]:
-    """Rows of the score table on sizes and increments `coarsening` times the scene's [1]; edges as for the scene."""
+def rows_at(scene: Scene, coarsening: float, edges: FloatArray) -> list[dict[str, Any]]:
+    """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm]."""
     other = scene.coarsened(coarsening)
-    return predicted_rows(other, prepared(other, edge_intervals(scene)))
+    return predicted_rows(other, prepared(other, edges))
 
 
 def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:

@@ -1,5 +1,5 @@
 # Mesh of the finger's section, graded for one device, and the resampling of its receptors to a uniform grid.
-# REQUIRED INPUTS: scene files. OUTPUTS: mesh.npz and resampling.npz in results/{kinematics}/{device}/
+# REQUIRED INPUTS: scene files. OUTPUTS: edges.csv, mesh.npz and resampling.npz in results/{kinematics}/{device}/
 
 
 rule mesh:
@@ -9,6 +9,7 @@ rule mesh:
         recordings=ancient(recordings_of),
         code=code("mesh.py"),
     output:
+        edges="results/{kinematics}/{device}/edges.csv",
         mesh="results/{kinematics}/{device}/mesh.npz",
         resampling="results/{kinematics}/{device}/resampling.npz",
     log:

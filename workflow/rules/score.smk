@@ -1,5 +1,5 @@
 # Roughness scores: of one device, condition and interface, the same from a coarser mesh, and the tidy table of all.
-# REQUIRED INPUTS: results/{kinematics}/{device}/{condition}/{interface}/filtered.npz.
+# REQUIRED INPUTS: results/{kinematics}/{device}/edges.csv, results/{kinematics}/{device}/{condition}/{interface}/filtered.npz.
 # OUTPUTS: score.csv beside it, results/{kinematics}/{device}/check.csv, results/scores.csv
 
 
@@ -33,6 +33,7 @@ rule check:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
+        edges="results/{kinematics}/{device}/edges.csv",
         code=code("check.py"),
     output:
         scores="results/{kinematics}/{device}/check.csv",
@@ -40,6 +41,7 @@ rule check:
         "results/logs/{kinematics}/{device}/check.log",
     benchmark:
         "results/benchmarks/{kinematics}/{device}/check.tsv"
+    priority: 3
     conda:
         ENVIRONMENT
     params:

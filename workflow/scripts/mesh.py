@@ -3,18 +3,20 @@
 from pathlib import Path
 
 from fingerpad.condensation import arc_length, receptor_strain
-from fingerpad.edges import mesh_device
-from fingerpad.mesh import save_section
+from fingerpad.edges import edge_intervals, save_edges
+from fingerpad.mesh import mesh_section, save_section
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import save
 
 
-def main(config: Path, device: Path, kinematics: str, mesh: Path, resampling: Path) -> None:
-    """Read the scene, mesh its section, write it, and what resamples the receptors' read-outs."""
+def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, resampling: Path) -> None:
+    """Read the scene, find its edges, mesh its section, write both, and what resamples the receptors' read-outs."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    section = mesh_device(scene)
+    intervals = edge_intervals(scene)
+    save_edges(edges, intervals)
+    section = mesh_section(scene, intervals)
     save_section(mesh, section)
     receptor, _ = receptor_strain(section, scene)
     save(resampling, resampling_to_grid(arc_length(receptor), scene.model.gabor.spacing))
@@ -26,6 +28,7 @@ if __name__ == "__main__":
         Path(job.input.config),
         Path(job.input.device),
         job.wildcards.kinematics,
+        Path(job.output.edges),
         Path(job.output.mesh),
         Path(job.output.resampling),
     )

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.accuracy import REFINEMENT
+from fingerpad.edges import edge_intervals
 from fingerpad.prediction import rows_at
 from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
@@ -10,8 +11,9 @@ from fingerpad.store import write_rows
 
 
 def main(config: Path, device: Path, kinematics: Kinematics, scores: Path) -> None:
-    """Read the scene, solve all its conditions finely, write their scores."""
-    write_rows(scores, rows_at(load_scene(config, device, kinematics), 1.0 / REFINEMENT[kinematics]))
+    """Read the scene, find its edges, solve all its conditions finely, write their scores."""
+    scene = load_scene(config, device, kinematics)
+    write_rows(scores, rows_at(scene, 1.0 / REFINEMENT[kinematics], edge_intervals(scene)))
 
 
 if __name__ == "__main__":
