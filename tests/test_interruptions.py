@@ -79,7 +79,9 @@ def test_a_second_run_in_one_folder_is_refused(
         while not list(tmp_path.glob(".snakemake/locks/*")):
             assert time.monotonic() < end, "the first run never locked its folder"
             time.sleep(0.02)
+        os.killpg(process.pid, signal.SIGSTOP)  # so that it is not at its end before the second has begun
         second = project.snakemake(*coarse_run(coarse_scenes, tmp_path))
+        os.killpg(process.pid, signal.SIGCONT)
         assert second.status != 0
         assert "cannot be locked" in second.text
         assert "--unlock" in second.text
