@@ -18,6 +18,7 @@ from fingerpad.frequency import condense_vibrating_at, cyclic_readouts, frequenc
 from fingerpad.inertia import condense_vibrating, inertia_effect
 from fingerpad.mesh import SectionMesh
 from fingerpad.path import follow
+from fingerpad.prediction import condense_mesh
 from fingerpad.scene import ActuatorRow, Cycle, Interface, Readout, Relaxation, Scene
 from fingerpad.solution import Indented, indent_device
 from fingerpad.viscoelasticity import retardation_times, stiffening
@@ -223,11 +224,11 @@ def test_table_says_where_inertia_forbids_a_prediction() -> None:
     given = coarse()
     device = replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1])
     careful = replace(given.model, vibration=replace(given.model.vibration, inertia_limit=1e-6))
-    section = condense_section(mesh(("device2", False)), given)
+    condensed = condense_mesh(given, mesh(("device2", False)))
     for model, predicted in ((given.model, True), (careful, False)):
         asked = Scene(model, device)
         vibrating = [condense_vibrating_at(mesh(("device2", False)), asked, 5.0)]
-        rows = frequency_rows(asked, section, None, creeping(), vibrating, Interface.SHEAR)
+        rows = frequency_rows(asked, condensed, creeping(), vibrating, Interface.SHEAR)
         assert [row["frequency_hz"] for row in rows] == [0.0, 0.0, 5.0, 5.0]
         assert all(row["score"] > 0.0 for row in rows[:2])  # slow cycles have no inertia
         assert all((row["score"] is not None) is predicted for row in rows[2:])

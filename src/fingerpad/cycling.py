@@ -54,8 +54,8 @@ class Moment:
 class Vibration:
     """The last cycle of a vibration.
 
-    states: of contact at the ends of its steps, the last at phase 0. strain: (n_times,
-    3m) at the receptors then [1]. cycles: that it took.
+    states: of contact at the ends of its steps, the last at phase 0. strain: (n_times, 3m) at the receptors then [1].
+    cycles: that it took.
     """
 
     states: list[ContactState]
@@ -112,9 +112,8 @@ def _repeated(now: FloatArray, then: FloatArray) -> bool:
 def displacement(cycle: Cycle, phase: float) -> FloatArray:
     """Displacement (n_actuators, 2) [mm] at a phase [rad] of the cycle."""
     turned = np.exp(1j * phase) * np.stack([cycle.tangential, cycle.normal], axis=1)
-    return np.asarray(
-        np.round(turned.real, 15)
-    )  # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
+    # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
+    return np.asarray(np.round(turned.real, 15))
 
 
 def _stepping(problem: ContactProblem, creep: Creep, step: float) -> Stepping:

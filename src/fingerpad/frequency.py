@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from .compliance import CondensedBody, CondensedSection
+from .compliance import CondensedSection
 from .creep import Creep, condense_creep
 from .cycling import vibrate
 from .errors import ContactError, InertiaError
 from .gabor import filtered_readouts
 from .inertia import condense_vibrating, highest_frequency, inertia_effect
 from .mesh import SectionMesh
-from .resampling import resampling_to_grid
+from .prediction import Condensed
 from .roughness import NO_PREDICTION, SCORE_UNIT, roughness_score, score_span
 from .scene import Cycle, FloatArray, Interface, Readout, Scene
 from .solution import Indented, indent_device, named
@@ -54,8 +54,7 @@ def condense_vibrating_at(section: SectionMesh, scene: Scene, frequency: float) 
 
 def frequency_rows(
     scene: Scene,
-    section: CondensedSection,
-    body: CondensedBody | None,
+    condensed: Condensed,
     creep: Creep,
     vibrating: Sequence[Vibrating],
     interface: Interface,
@@ -66,7 +65,7 @@ def frequency_rows(
     Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises ContactError if the
     device cannot be pressed onto the finger.
     """
-    indented = indent_device(scene, section, body, interface)
+    indented = indent_device(scene, condensed.section, condensed.body, interface)
     rows = []
     found: dict[tuple[bytes, bytes, float], Outcome] = {}
     for cycle in scene.device.cycles:
@@ -74,7 +73,7 @@ def frequency_rows(
             frequency = at.frequency if at else SLOWLY
             stimulus = cycle.normal.tobytes(), cycle.tangential.tobytes(), frequency
             if stimulus not in found:
-                found[stimulus] = _outcome(scene, section, creep, indented, cycle, at)
+                found[stimulus] = _outcome(scene, condensed, creep, indented, cycle, at)
             rows += [_row(scene, cycle, frequency, interface, each, found[stimulus]) for each in Readout]
             note()
     return rows
@@ -82,7 +81,7 @@ def frequency_rows(
 
 def _outcome(
     scene: Scene,
-    section: CondensedSection,
+    condensed: Condensed,
     creep: Creep,
     indented: Indented,
     cycle: Cycle,
@@ -94,7 +93,7 @@ def _outcome(
     )
     try:
         _require_no_inertia(scene, frequency, effect)
-        return Outcome(vibration_scores(scene, section, creep, indented, cycle, frequency), effect, "")
+        return Outcome(vibration_scores(scene, condensed, creep, indented, cycle, frequency), effect, "")
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
 
@@ -121,7 +120,7 @@ def relaxation_variants(scene: Scene) -> dict[str, Scene]:
 
 
 def variant_rows(
-    scene: Scene, section: SectionMesh, condensed: CondensedSection, indented: Indented, frequency: float
+    scene: Scene, section: SectionMesh, condensed: Condensed, indented: Indented, frequency: float
 ) -> list[dict[str, Any]]:
     """Scores of all conditions at a frequency [Hz] under other assumptions on how tissue relaxes, one row each; a note
     where a path cannot be followed. Raises CondensationError.
@@ -150,22 +149,16 @@ def variant_rows(
 
 
 def vibration_scores(
-    scene: Scene, section: CondensedSection, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
+    scene: Scene, condensed: Condensed, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
 ) -> dict[Readout, float]:
     """Both scores [mm2] of a condition at a frequency [Hz]. Raises ContactError, naming it."""
     what = f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {frequency:g} Hz"
     with named(what):
-        vibration = vibrate(
-            indented.problem, section, creep, indented.state, cycle, frequency, scene.model.vibration.steps
-        )
+        steps = scene.model.vibration.steps
+        vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
     readouts = cyclic_readouts(vibration.strain)
-    gabor = scene.model.gabor
-    filtered = filtered_readouts(
-        resampling_to_grid(section.arc, gabor.spacing),
-        readouts[Readout.STRAIN],
-        readouts[Readout.CHANGE_OF_STRAIN],
-        gabor,
-    )
+    strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
+    filtered = filtered_readouts(condensed.resampling, *strains, scene.model.gabor)
     span = score_span(scene.device.actuators, scene.model.readout.span_margin)
     return {each: roughness_score(filtered.arc, filtered.filtered(each), span) for each in Readout}
 

@@ -57,9 +57,13 @@ def prepared(scene: Scene, edges: FloatArray) -> Condensed | Meshed:
 
 def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
     """Mesh and condense the undeformed finger. Raises MeshError, CondensationError."""
-    section = condense_section(mesh_section(scene, edges), scene)
-    body = body_of(scene)
-    return Condensed(section, body, resampling_to_grid(section.arc, scene.model.gabor.spacing))
+    return condense_mesh(scene, mesh_section(scene, edges))
+
+
+def condense_mesh(scene: Scene, mesh: SectionMesh) -> Condensed:
+    """Condense the undeformed finger on a mesh. Raises CondensationError."""
+    section = condense_section(mesh, scene)
+    return Condensed(section, body_of(scene), resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 
 def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:

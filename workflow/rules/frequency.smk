@@ -1,6 +1,6 @@
 # Scores of the devices that name a frequency_hz as vibrations, at each frequency; on tissue that creeps, small kinematics.
 # Not part of `all`: ask for them with `snakemake frequency` (minutes).
-# REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz beside it, results/{device}/body.npz for deformable actuators.
+# REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz and resampling.npz beside it, results/{device}/body.npz for deformable actuators.
 # OUTPUTS: results/small/{device}/frequency.csv, frequency_variants.csv beside it, both of all devices in
 # results, results/figures/frequency.{png,pdf}
 
@@ -22,6 +22,7 @@ rule vibrate:
         mesh="results/small/{device}/mesh.npz",
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
+        resampling="results/small/{device}/resampling.npz",
         code=code("vibrate.py"),
     output:
         scores="results/small/{device}/frequency.csv",
@@ -48,6 +49,7 @@ rule frequency_variants:
         mesh="results/small/{device}/mesh.npz",
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
+        resampling="results/small/{device}/resampling.npz",
         code=code("frequency_variants.py"),
     output:
         table="results/small/{device}/frequency_variants.csv",

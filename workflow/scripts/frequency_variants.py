@@ -5,19 +5,31 @@ from pathlib import Path
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.frequency import variant_rows
 from fingerpad.mesh import load_section
+from fingerpad.prediction import Condensed
 from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import indent_device
 from fingerpad.store import load, write_rows
+from fingerpad.strain import Resampling
 
 
 def main(
-    config: Path, device: Path, mesh: Path, condensed: Path, body: Path | None, frequency: float, table: Path
+    config: Path,
+    device: Path,
+    mesh: Path,
+    condensed: Path,
+    body: Path | None,
+    resampling: Path,
+    frequency: float,
+    table: Path,
 ) -> None:
     """Read mesh and compliance, press, vibrate under each assumption, write the scores."""
-    scene, maps = load_scene(config, device), load(condensed, CondensedSection)
-    indented = indent_device(scene, maps, load(body, CondensedBody) if body else None, Interface.SHEAR)
-    write_rows(table, variant_rows(scene, load_section(mesh), maps, indented, frequency))
+    scene = load_scene(config, device)
+    shared = Condensed(
+        load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
+    )
+    indented = indent_device(scene, shared.section, shared.body, Interface.SHEAR)
+    write_rows(table, variant_rows(scene, load_section(mesh), shared, indented, frequency))
 
 
 if __name__ == "__main__":
@@ -28,6 +40,7 @@ if __name__ == "__main__":
         Path(job.input.mesh),
         Path(job.input.condensed),
         Path(job.input.body) if job.input.body else None,
+        Path(job.input.resampling),
         job.params.frequency,
         Path(job.output.table),
     )

@@ -6,14 +6,20 @@ from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.creep import condense_creep
 from fingerpad.frequency import condense_vibrating_at, frequency_rows
 from fingerpad.mesh import load_section
+from fingerpad.prediction import Condensed
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load, write_rows
+from fingerpad.strain import Resampling
 
 
-def main(config: Path, device: Path, mesh: Path, condensed: Path, body: Path | None, scores: Path) -> None:
+def main(
+    config: Path, device: Path, mesh: Path, condensed: Path, body: Path | None, resampling: Path, scores: Path
+) -> None:
     """Read mesh and compliance, condense what creeps and what inertia changes, vibrate, write the rows."""
     scene, section = load_scene(config, device), load_section(mesh)
-    maps, face = load(condensed, CondensedSection), load(body, CondensedBody) if body else None
+    shared = Condensed(
+        load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
+    )
     creep = condense_creep(section, scene)
     vibrating = [condense_vibrating_at(section, scene, each) for each in scene.device.frequencies]
     write_rows(
@@ -21,7 +27,7 @@ def main(config: Path, device: Path, mesh: Path, condensed: Path, body: Path | N
         [
             row
             for interface in scene.device.interfaces()
-            for row in frequency_rows(scene, maps, face, creep, vibrating, interface)
+            for row in frequency_rows(scene, shared, creep, vibrating, interface)
         ],
     )
 
@@ -34,5 +40,6 @@ if __name__ == "__main__":
         Path(job.input.mesh),
         Path(job.input.condensed),
         Path(job.input.body) if job.input.body else None,
+        Path(job.input.resampling),
         Path(job.output.scores),
     )

@@ -13,11 +13,11 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from ..condensation import body_of, condense_section
 from ..creep import condense_creep
 from ..edges import mesh_device
 from ..errors import UsageError
 from ..frequency import SLOWLY, condense_vibrating_at, frequency_rows
+from ..prediction import condense_mesh
 from ..scene import Scene
 from .options import add_scene_options, checked_scene
 from .printing import aligned, print_csv, titled
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> None:
     with tqdm(total=total, desc=device.name, leave=False, disable=None) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()
-        condensed, body = condense_section(section, scene), body_of(scene)
+        condensed = condense_mesh(scene, section)
         bar.update()
         creep = condense_creep(section, scene)
         bar.update()
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> None:
         rows = [
             row
             for interface in device.interfaces()
-            for row in frequency_rows(scene, condensed, body, creep, vibrating, interface, bar.update)
+            for row in frequency_rows(scene, condensed, creep, vibrating, interface, bar.update)
         ]
     if options.json:
         print(json.dumps(rows, indent=2))
