@@ -2,13 +2,15 @@
 
 Unknowns are the nodal forces of the actuators on the skin, f (n, 2) [N per mm of thickness]. The skin's contact nodes
 move by C f, and where a node then *is* relative to its actuator decides gap and slip (finite sliding):
-    q = X + C f - (actuator position),    gap g = q_y + d(q_x),    pressing force f_y,    shearing force f_x,
-    0 <= f_y  complementary to  g >= 0                                                   (unilateral contact)
-    |f_x| <= mu f_y,  and the skin slides (q_x leaves its reference) only against f_x = -+ mu f_y      (Coulomb)
+    q = X + C f - (actuator position),    gap g = q_y + d(q_x),
+    0 <= N  complementary to  g >= 0                                                     (unilateral contact)
+    |T| <= mu N,  and the skin slides (q_x leaves its reference) only against T = -+ mu N              (Coulomb)
 with d the actuator's profile and the reference of q_x its value at the end of the last increment, or where the node
-touched (backward Euler in slip). The force is resolved along the face, also on the rounded edges: their slope shapes
-the gap, as in Hertz's theory (docs/decisions/0002). A deformable actuator adds the compliance of its face, at the
-points where the skin touches it.
+touched (backward Euler in slip). Pressing force N and shearing force T are resolved
+    along the face, N = f_y, T = f_x: with small kinematics the slope of rounded edges shapes the gap alone, as in
+        Hertz's theory (docs/decisions/0002);
+    along the profile's own tangent where its normal is `turning`, with finite kinematics (docs/decisions/0021).
+A deformable actuator adds the compliance of its face, at the points where the skin touches it.
 
 `increment` solves one increment of a path, `path` follows it, `indentation` knows where pre-indentation ends.
 """
@@ -43,7 +45,7 @@ class ContactProblem:
     row: the actuators. body: condensed body of a deformable actuator, or None. friction: coefficient [1].
     tolerance: relative, on forces and gaps. max_cuts: halvings of an increment. patches: whether an increment takes
     only nodes in contact or about to be, or all. free: (n, 2) displacement of the nodes without contact forces [mm],
-    of tissue linearised about a deformed state; None is zero.
+    of tissue linearised about a deformed state; None is zero. turning: whether the normal turns on rounded edges.
     """
 
     position: FloatArray
@@ -55,6 +57,7 @@ class ContactProblem:
     max_cuts: int
     patches: bool = True
     free: FloatArray | None = None
+    turning: bool = False
 
     @cached_property
     def actuator_of(self) -> np.ndarray:
@@ -115,6 +118,25 @@ def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     centre = np.stack([np.asarray(problem.row.positions), np.zeros(len(problem.row.positions))], axis=1)
     position = problem.position if problem.free is None else problem.position + problem.free
     return np.asarray(position - (actuator + centre)[problem.actuator_of])
+
+
+def tilt(problem: ContactProblem, slope: FloatArray) -> FloatArray:
+    """Slope (n,) [1] of the direction along which shearing forces act, where the profile has a slope (n,) [1]."""
+    return slope if problem.turning else np.zeros_like(slope)
+
+
+def resolved(force: FloatArray, tilted: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Pressing and shearing forces (n,) [N/mm] of forces (n, 2) on the skin, across and along directions of a slope
+    (n,) [1].
+    """
+    shorter = 1.0 / np.sqrt(1.0 + tilted**2)
+    along, across = force.T
+    return shorter * (across + tilted * along), shorter * (along - tilted * across)
+
+
+def pressing_and_shearing(problem: ContactProblem, state: ContactState) -> tuple[FloatArray, FloatArray]:
+    """Pressing and shearing forces (n,) [N/mm] of a state."""
+    return resolved(state.force, tilt(problem, profile(problem.row, state.place)[1]))
 
 
 def switch_friction(state: ContactState) -> ContactState:

@@ -49,7 +49,9 @@ def deformed_outcome(
     last = settings.indentation / INDENTATION_INCREMENTS
     pressed = press(indenting, section, body, Interface.SHEAR, settings.indentation - last)
     finger = pressed_finger(_rubbing(scene, settings.friction_acting), section, body, pressed, Interface.SHEAR)
-    problem = replace(finger.problem, friction=settings.friction_indenting)
+    # a normal that turned from the stimulus on would move what was pressed without
+    rubbing = settings.friction_indenting > 0.0
+    problem = replace(finger.problem, friction=settings.friction_indenting, turning=rubbing)
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(pressed.section, settings)))
     before = move(finger.tissue, problem, finger.start, indented, 1)

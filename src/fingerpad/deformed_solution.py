@@ -72,7 +72,8 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
     moves, certificate = certified_moves(scene, finger, condition)
     section = finger.pressed.section
     strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
-    return solution(section, [each.state for each in moves], receptor_readouts(strains), certificate)
+    states = [each.state for each in moves]
+    return solution(finger.problem, section, states, receptor_readouts(strains), certificate)
 
 
 def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:

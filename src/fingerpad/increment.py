@@ -5,7 +5,7 @@ state (Alart and Curnier 1991; Christensen et al. 1998; Hueeber and Wohlmuth 200
 displacements: both components of a node that sticks, the one along the profile of a node that slips. So the equations
 are written with the stiffness K = C^-1 of a patch: the nodes in contact, and some that soon may be. Of the patch's
 forces f = K u only few unknowns remain,
-    slip:  f_x + z mu f_y = 0   for q_x, with u_y = -(y0 + d(q_x)) following the profile; z the sign of slip
+    slip:  T + z mu N = 0       for q_x, with u_y = -(y0 + d(q_x)) following the profile; z the sign of slip
     open:  f_x = f_y = 0        for u_x and u_y
 and a change of state costs a small dense system, while K serves until contact leaves the patch.
 
@@ -24,8 +24,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .contact import ContactProblem, ContactState, Status, Touch, displacement, face_compliance, touch, unloaded
-from .profile import profile
+from .contact import (
+    ContactProblem,
+    ContactState,
+    Status,
+    Touch,
+    displacement,
+    face_compliance,
+    resolved,
+    tilt,
+    touch,
+    unloaded,
+)
+from .profile import bend, profile
 from .scene import FloatArray
 
 MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: usual count is 2-6 (measured)
@@ -93,18 +104,25 @@ class _Trial:
     place: FloatArray
     gap: FloatArray
     slope: FloatArray
+    tilted: FloatArray
+    pressing: FloatArray
+    shearing: FloatArray
     largest: float
 
 
 @dataclass(frozen=True)
 class _Everywhere:
-    """Forces (n, 2) [N/mm], states (n,), displacements (n, 2), places (n,) and gaps (n,) [mm] of all contact nodes."""
+    """Forces (n, 2) and shearing forces (n,) [N/mm], states (n,), displacements (n, 2), places (n,), gaps (n,) [mm] and
+    slopes (n,) [1] of the direction of shear, of all contact nodes.
+    """
 
     force: FloatArray
+    shearing: FloatArray
     status: np.ndarray
     moved: FloatArray
     place: FloatArray
     gap: FloatArray
+    tilted: FloatArray
 
 
 def solve_increment(
@@ -148,7 +166,7 @@ def solve_increment(
             needed, ahead = np.flatnonzero(status != OPEN), ahead | missed
             continue
         slip = found.place - reference
-        residual = _residual(problem, gap_scale, found.force.T.ravel(), slip, found.gap, status)
+        residual = _residual(problem, gap_scale, found, slip)
         if residual > problem.tolerance:
             bias = bias + found.moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left
         elif _gives_elsewhere(problem, found, there, gap_scale):
@@ -167,11 +185,12 @@ def _everywhere(
 ) -> _Everywhere:
     """What a patch's trial means for all nodes, whose unloaded places are `origin` (n, 2) [mm]."""
     nodes = increment.patch.nodes
-    force, states = np.zeros(origin.shape), np.full(origin.shape[0], OPEN)
-    force[nodes], states[nodes] = trial.force.reshape(2, -1).T, status
+    force, shearing, states = np.zeros(origin.shape), np.zeros(origin.shape[0]), np.full(origin.shape[0], OPEN)
+    force[nodes], shearing[nodes], states[nodes] = trial.force.reshape(2, -1).T, trial.shearing, status
     moved = displacement(increment.problem, force, there)
     place, height = (origin + moved).T
-    return _Everywhere(force, states, moved, place, height + profile(increment.problem.row, place)[0])
+    drop, slope = profile(increment.problem.row, place)
+    return _Everywhere(force, shearing, states, moved, place, height + drop, tilt(increment.problem, slope))
 
 
 def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: Touch | None, gap_scale: float) -> bool:
@@ -188,7 +207,7 @@ def _accepted(
     """The converged state at the end of an increment, of which nodes slipped by `slip` (n,) [mm]."""
     length = float(np.abs(actuator - start.actuator).max())
     # backward Euler: friction works along the whole slip with the force at its end
-    work = -float(found.force[:, 0] @ np.where(found.status > STICK, slip, 0.0))
+    work = -float(found.shearing @ np.where(found.status > STICK, slip * np.sqrt(1.0 + found.tilted**2), 0.0))
     return replace(
         start,
         actuator=actuator,
@@ -217,10 +236,11 @@ def _foreseen(
             status[status > STICK] = STICK
         return status, (status != OPEN) | (start.gap < FORESIGHT * length)
     closing = start.gap + start.drift[:, 1] * length < 0.0
-    force = start.force + start.trend * length
-    opening = (status != OPEN) & (force[:, 1] < 0.0)
-    sliding = (status == STICK) & (np.abs(force[:, 0]) > problem.friction * force[:, 1])
-    status[sliding] = np.where(force[sliding, 0] < 0.0, SLIP_FORWARD, int(Status.SLIP_BACKWARD))
+    slope = profile(problem.row, start.place + start.drift[:, 0] * length)[1]
+    pressing, shearing = resolved(start.force + start.trend * length, tilt(problem, slope))
+    opening = (status != OPEN) & (pressing < 0.0)
+    sliding = (status == STICK) & (np.abs(shearing) > problem.friction * pressing)
+    status[sliding] = np.where(shearing[sliding] < 0.0, SLIP_FORWARD, int(Status.SLIP_BACKWARD))
     status[(status == OPEN) & closing] = _touched(problem)
     status[opening] = OPEN
     ahead = (status != OPEN) | (start.gap + FORESIGHT * start.drift[:, 1] * length < 0.0)
@@ -322,7 +342,7 @@ def _settle(
         slip = trial.place - reference[nodes]
         following = _next_status(increment, trial, slip, status, released)
         changed = np.flatnonzero(following != status)
-        left = np.abs(_cone(problem, trial.force, status, trial.largest))
+        left = np.abs(_cone(problem, trial, status))
         before, residual = residual, float(left.max(initial=0.0))
         if changed.size == 0:
             # a residual that one more step did not lower is rounding
@@ -370,7 +390,10 @@ def _at(increment: _Increment, moved: FloatArray, status: np.ndarray, reference:
     height = np.where(status == OPEN, moved[count:], touching)
     moved = np.concatenate([along, height])
     force = (moved - increment.bias) @ increment.patch.response
-    return _Trial(moved, force, place, height - touching, slope, _largest(force, increment.force_floor))
+    tilted = tilt(increment.problem, slope)
+    pressing, shearing = resolved(force.reshape(2, -1).T, tilted)
+    largest = _largest(force, increment.force_floor)
+    return _Trial(moved, force, place, height - touching, slope, tilted, pressing, shearing, largest)
 
 
 def _newton_equations(
@@ -379,7 +402,7 @@ def _newton_equations(
     """Matrix (m, m) and right side (m,) of one Newton step within the given states, and its unknowns (m,) among the
     displacements (2b,).
     """
-    response, force, count = increment.patch.response, trial.force, status.size
+    problem, response, force, count = increment.problem, increment.patch.response, trial.force, status.size
     slip, open_ = np.flatnonzero(status > STICK), np.flatnonzero(status == OPEN)
     unknown = np.concatenate([slip, open_, count + open_])
     pressing = count + slip
@@ -387,10 +410,16 @@ def _newton_equations(
     forces[: slip.size] -= trial.slope[slip, None] * response.take(pressing, 0)
     transposed = forces.take(unknown, 1)
     right = -force[unknown]
-    if increment.problem.friction > 0.0:
-        drag = SLIP_SIGN[status[slip]] * increment.problem.friction
-        transposed[:, : slip.size] += drag * forces.take(pressing, 1)
-        right[: slip.size] -= drag * force[pressing]
+    if problem.friction > 0.0 or problem.turning:  # T + z mu N in terms of f_x and f_y
+        drag, tilted = SLIP_SIGN[status[slip]] * problem.friction, trial.tilted[slip]
+        shorter = 1.0 / np.sqrt(1.0 + tilted**2)
+        along, across = shorter * (1.0 + drag * tilted), shorter * (drag - tilted)
+        transposed[:, : slip.size] *= along
+        transposed[:, : slip.size] += across * forces.take(pressing, 1)
+        right[: slip.size] = -along * force[slip] - across * force[pressing]
+        if problem.turning:
+            turned = shorter * bend(problem.row, trial.place[slip]) * (drag * force[slip] - force[pressing])
+            transposed[np.arange(slip.size), np.arange(slip.size)] += turned
     return transposed.T, right, unknown
 
 
@@ -420,40 +449,41 @@ def _searched(
     increment: _Increment, trial: _Trial, step: FloatArray, status: np.ndarray, reference: FloatArray
 ) -> _Trial:
     """The first point on the way back from `step` to `trial` where the residuals have become smaller."""
-    before = np.linalg.norm(_cone(increment.problem, trial.force, status, trial.largest))
+    before = np.linalg.norm(_cone(increment.problem, trial, status))
     for halvings in range(MAX_HALVINGS + 1):
         there = _at(increment, trial.moved + step / 2.0**halvings, status, reference)
-        if np.linalg.norm(_cone(increment.problem, there.force, status, there.largest)) < before:
+        if np.linalg.norm(_cone(increment.problem, there, status)) < before:
             break
     return there
 
 
 def _obeying(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> _Trial:
     """The trial with the forces that the states prescribe, to the last bit."""
-    shearing, pressing = np.where(status == OPEN, 0.0, trial.force.reshape(2, -1))
-    shearing = np.where(status > STICK, -SLIP_SIGN[status] * problem.friction * pressing, shearing)
-    return replace(trial, force=np.concatenate([shearing, pressing]))
+    pressing = np.where(status == OPEN, 0.0, trial.pressing)
+    shearing = np.where(status > STICK, -SLIP_SIGN[status] * problem.friction * pressing, trial.shearing)
+    shearing = np.where(status == OPEN, 0.0, shearing)
+    shorter = 1.0 / np.sqrt(1.0 + trial.tilted**2)
+    along, across = shorter * (shearing + trial.tilted * pressing), shorter * (pressing - trial.tilted * shearing)
+    return replace(trial, force=np.concatenate([along, across]), pressing=pressing, shearing=shearing)
 
 
-def _cone(problem: ContactProblem, force: FloatArray, status: np.ndarray, largest: float) -> FloatArray:
-    """Residuals of slipping and open nodes' equations [1], of forces (2n,) [N/mm]: over the `largest`."""
-    shearing, pressing = force.reshape(2, -1)
-    open_ = status == OPEN
+def _cone(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> FloatArray:
+    """Residuals of slipping and open nodes' equations [1]: forces over the largest."""
+    return _unbalanced(problem, trial.pressing, trial.shearing, status) / trial.largest
+
+
+def _unbalanced(problem: ContactProblem, pressing: FloatArray, shearing: FloatArray, status: np.ndarray) -> FloatArray:
+    """What slipping nodes' forces (n,) [N/mm] lack to the cone of friction, and open nodes' to zero."""
     excess = (shearing + SLIP_SIGN[status] * problem.friction * pressing)[status > STICK]
-    return np.concatenate([excess, shearing[open_], pressing[open_]]) / largest
+    return np.concatenate([excess, shearing[status == OPEN], pressing[status == OPEN]])
 
 
-def _residual(
-    problem: ContactProblem,
-    gap_scale: float,
-    force: FloatArray,
-    slip: FloatArray,
-    gap: FloatArray,
-    status: np.ndarray,
-) -> float:
-    """Largest residual of all equations [1]: gaps and slips over the load, forces over the largest."""
-    forces = _cone(problem, force, status, _largest(force, 0.0))
-    left = np.concatenate([gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, forces])
+def _residual(problem: ContactProblem, gap_scale: float, found: _Everywhere, slip: FloatArray) -> float:
+    """Largest residual of all equations [1]: gaps and slips (n,) [mm] over the load, forces over the largest."""
+    status = found.status
+    pressing, shearing = resolved(found.force, found.tilted)
+    forces = _unbalanced(problem, pressing, shearing, status) / _largest(found.force, 0.0)
+    left = np.concatenate([found.gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, forces])
     return float(np.abs(left).max(initial=0.0))
 
 
@@ -470,8 +500,7 @@ def _next_status(
     A node that touches sticks, unless it was released before in this increment (b,): then it was pulled along the
     face, and slips the way it went.
     """
-    problem = increment.problem
-    shearing, pressing = trial.force.reshape(2, -1)
+    problem, pressing, shearing = increment.problem, trial.pressing, trial.shearing
     small_force = problem.tolerance * trial.largest
     small_gap = problem.tolerance * increment.gap_scale
     following = status.copy()
@@ -493,8 +522,7 @@ def _next_status(
 
 def _violation(increment: _Increment, trial: _Trial, slip: FloatArray, status: np.ndarray) -> FloatArray:
     """How far (b,) [mm] each node is beyond its state: gaps and slips as such, forces as the motion they cause."""
-    friction = increment.problem.friction
-    shearing, pressing = trial.force.reshape(2, -1)
+    friction, pressing, shearing = increment.problem.friction, trial.pressing, trial.shearing
     along, across = 1.0 / np.diag(increment.patch.response).reshape(2, -1)
     tension = np.maximum(-pressing, 0.0) * across
     excess = np.maximum(np.abs(shearing) - friction * np.maximum(pressing, 0.0), 0.0) * along

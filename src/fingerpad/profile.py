@@ -24,11 +24,26 @@ def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     >>> float(drop[0]), bool(drop[1] > 0.09)
     (0.0, True)
     """
-    radius = max(row.edge_radius, SHARP_RADIUS)
-    beyond = np.maximum(np.abs(x) - (row.width / 2.0 - radius), 0.0)
-    wall = radius * np.sin(WALL_ANGLE)
+    radius, beyond, wall = _edge(row, x)
     on_circle = np.minimum(beyond, wall)
     root = np.sqrt(radius**2 - on_circle**2)
     steepness = on_circle / root
     drop = on_circle**2 / (radius + root) + (beyond - on_circle) * steepness  # r - root without its cancellation
     return drop, np.sign(x) * steepness
+
+
+def bend(row: ActuatorRow, x: FloatArray) -> FloatArray:
+    """Change of the slope along the face, d²d/dx² (n,) [1/mm], at x (n,) [mm]: r²(r² - b²)^(-3/2) on the circles.
+
+    >>> bend(ActuatorRow((0.0,), width=1.0, edge_radius=0.1), np.array([0.3, 0.401])).round(2).tolist()
+    [0.0, 10.0]
+    """
+    radius, beyond, wall = _edge(row, x)
+    on_circle = (beyond > 0.0) & (beyond < wall)
+    return np.where(on_circle, radius**2 * (radius**2 - np.minimum(beyond, wall) ** 2) ** -1.5, 0.0)
+
+
+def _edge(row: ActuatorRow, x: FloatArray) -> tuple[float, FloatArray, float]:
+    """Radius of the edges [mm], distance beyond the flat face (n,) [mm], and that at which the wall begins [mm]."""
+    radius = max(row.edge_radius, SHARP_RADIUS)
+    return radius, np.maximum(np.abs(x) - (row.width / 2.0 - radius), 0.0), float(radius * np.sin(WALL_ANGLE))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .compliance import CondensedBody, CondensedSection
-from .contact import ContactProblem, ContactState, Status, reevaluated_gap
+from .contact import ContactProblem, ContactState, Status, pressing_and_shearing, reevaluated_gap
 from .errors import CertificateError, ContactError, MeshError, ReachError
 from .indentation import indent
 from .path import follow
@@ -85,16 +85,18 @@ def contact_problem(
     scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
 ) -> ContactProblem:
     """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
-    numerics = scene.model.numerics
+    numerics, friction = scene.model.numerics, scene.model.contact.coefficient(interface)
     problem = ContactProblem(
         section.position,
         section.compliance,
         scene.device.actuators,
         body,
-        scene.model.contact.coefficient(interface),
+        friction,
         numerics.newton_tolerance,
         numerics.max_cuts,
         scene.model.skips.inactive_nodes,
+        # without friction the skin would slide off the edges' slopes sideways (docs/decisions/0021)
+        turning=scene.kinematics is Kinematics.FINITE and friction > 0.0,
     )
     centres = problem.row.positions
     missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
@@ -157,10 +159,11 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
         states = [before, *follow_condition(scene, problem, before, condition)]
         certificate = certify(problem, section, states[-1])
     strains = section.receptor_strain(np.array([state.force for state in states]))
-    return solution(section, states, receptor_readouts(strains), certificate)
+    return solution(problem, section, states, receptor_readouts(strains), certificate)
 
 
 def solution(
+    problem: ContactProblem,
     section: CondensedSection,
     states: Sequence[ContactState],
     readouts: Mapping[Readout, FloatArray],
@@ -168,12 +171,13 @@ def solution(
 ) -> Solution:
     """Gather a solution from the pre-indented state and those at the stimulus's times."""
     before, last = states[0], states[-1]
+    pressing, shearing = pressing_and_shearing(problem, last)
     return Solution(
         float(before.actuator[0, 1]),
         before.force,
         np.array([state.force for state in states[1:]]),
-        last.force[:, 1] / section.weight,
-        last.force[:, 0] / section.weight,
+        pressing / section.weight,
+        shearing / section.weight,
         last.place,
         last.status,
         section.arc,
@@ -210,10 +214,11 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     """Check a state against the laws it was solved for. Raises CertificateError, with the figures, beyond a limit, and
     ReachError if contact comes to the last node considered."""
     active = state.status != Status.OPEN
-    pressure = state.force[:, 1] / section.weight
+    pressing, shearing = pressing_and_shearing(problem, state)
+    pressure = pressing / section.weight
     largest = float(pressure.max(initial=0.0))
-    friction_limit = problem.friction * float(state.force[:, 1].max(initial=0.0))
-    excess = np.abs(state.force[:, 0]) - problem.friction * state.force[:, 1]
+    friction_limit = problem.friction * float(pressing.max(initial=0.0))
+    excess = np.abs(shearing) - problem.friction * pressing
     certificate = Certificate(
         section.residual,
         state.residual,

@@ -12,6 +12,7 @@ import numpy as np
 from skfem import MeshTri2
 
 from .condensation import body_of, condense_section
+from .contact import pressing_and_shearing
 from .deformed_solution import PressedFinger, certified_moves, pressed_finger
 from .fields import Fields
 from .finite_strain import logarithmic_strain
@@ -28,11 +29,12 @@ from .solution import Solution, solve_condition
 class States:
     """The pre-indented state, and those at a stimulus's times.
 
-    displacement: (n_states, 2, n_nodes) [mm]. force: (n_states, n_contact, 2) on the skin [N/mm].
+    displacement: (n_states, 2, n_nodes) [mm]. contact: (n_states, n_contact, 2) shearing and pressing forces on the
+    skin [N/mm].
     """
 
     displacement: FloatArray
-    force: FloatArray
+    contact: FloatArray
 
 
 def solved_states(scene: Scene, section: SectionMesh, condition: Condition, interface: Interface) -> States:
@@ -56,8 +58,10 @@ def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -
     ContactError.
     """
     moves, _ = certified_moves(scene, finger, condition)
+    pressed = [pressing_and_shearing(finger.problem, each.state) for each in moves]
     return States(
-        np.array([each.displacement[finger.dofs] for each in moves]), np.array([each.state.force for each in moves])
+        np.array([each.displacement[finger.dofs] for each in moves]),
+        np.array([np.stack([shearing, pressing], axis=1) for pressing, shearing in pressed]),
     )
 
 

@@ -41,7 +41,7 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
     own = np.take_along_axis(nodes.T, order, axis=1).ravel()
     point = (len(NODES[0]) * np.arange(len(order))[:, None] + order).ravel()
     cells = [("triangle6", np.arange(own.size).reshape(order.shape))]
-    tractions = skin_tractions(section, scene, states.force)
+    tractions = skin_tractions(section, scene, states.contact)
     found = []
     for moved, traction in zip(states.displacement, tractions, strict=True):
         components = strain_at(scene, mesh, moved, NODES)[point]
@@ -61,7 +61,7 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
 
 
 def skin_tractions(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
-    """Tractions of the actuators on all nodes (n_states, 2, n_nodes) [MPa], along x and y: linear between the skin's
+    """Shear and pressure of the actuators on all nodes (n_states, 2, n_nodes) [MPa]: linear between the skin's
     vertices, zero off the skin that an actuator can reach.
     """
     tractions = contact_tractions(section, scene)

@@ -50,6 +50,8 @@ rule calculix:
             "finite_neo_hookean": CALCULIX_FINITE_CASE,
             "finite_finer_mesh": CALCULIX_FINITE_CASE | {"coarsening": 2.0},
             "finite_sharp": CALCULIX_FINITE_CASE | {"edges": "sharp", "coarsening": 2.0},
+            "finite_rubbing": CALCULIX_FINITE_CASE
+            | {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8},
             "finite_ogden": CALCULIX_FINITE_CASE | {"law": "ogden"},
             # deeper down this law turns tissue inside out
             "finite_green": CALCULIX_FINITE_CASE | {"law": "green", "indentation": 0.8},
