@@ -6,15 +6,23 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
 from fingerpad.contact import ContactProblem, ContactState, Status, pressing_and_shearing, rest, touching_height
 from fingerpad.path import follow
 from fingerpad.penalty import PenaltyLaw, press, untouched
 from fingerpad.profile import bend, profile
-from fingerpad.scene import ActuatorRow, FloatArray, Interface, Kinematics, Material
-from fingerpad.solution import contact_problem
-from scenes import condensed, scene
+from fingerpad.scene import (
+    ActuatorRow,
+    ContactLaw,
+    Criterion,
+    FloatArray,
+    Interface,
+    Kinematics,
+    Material,
+    TurningNormal,
+)
 
 DEPTH, WAY = 0.1, 0.05  # mm
 FRICTION = 0.5
@@ -122,13 +130,16 @@ def test_the_bend_is_the_change_of_the_slope() -> None:
     assert np.allclose(bend(row, x), change, rtol=1e-5, atol=1e-8)
 
 
-def test_it_turns_with_finite_kinematics_and_friction_alone() -> None:
-    section, body = condensed("device2")
-    turning = {
-        (kinematics, interface): contact_problem(
-            scene("device2").with_kinematics(kinematics), section, body, interface
-        ).turning
-        for kinematics in Kinematics
-        for interface in Interface
-    }
-    assert [case for case, turns in turning.items() if turns] == [(Kinematics.FINITE, Interface.SHEAR)]
+@pytest.mark.parametrize(
+    ("turning", "kinematics"),
+    [
+        (TurningNormal.NEVER, set()),
+        (TurningNormal.FINITE, {Kinematics.FINITE}),
+        (TurningNormal.ALWAYS, set(Kinematics)),
+    ],
+)
+def test_it_turns_where_asked_and_where_friction_acts(turning: TurningNormal, kinematics: set[Kinematics]) -> None:
+    law = ContactLaw(FRICTION, turning, Criterion.FULL)
+    assert {each for each in Kinematics if law.turns(each, Interface.SHEAR)} == kinematics
+    assert not any(law.turns(each, Interface.FRICTIONLESS) for each in Kinematics)
+    assert not any(replace(law, friction=0.0).turns(each, Interface.SHEAR) for each in Kinematics)

@@ -7,9 +7,9 @@ move by C f, and where a node then *is* relative to its actuator decides gap and
     |T| <= mu N,  and the skin slides (q_x leaves its reference) only against T = -+ mu N              (Coulomb)
 with d the actuator's profile and the reference of q_x its value at the end of the last increment, or where the node
 touched (backward Euler in slip). Pressing force N and shearing force T are resolved
-    along the face, N = f_y, T = f_x: with small kinematics the slope of rounded edges shapes the gap alone, as in
-        Hertz's theory (docs/decisions/0002);
-    along the profile's own tangent where its normal is `turning`, with finite kinematics (docs/decisions/0021).
+    along the face, N = f_y, T = f_x: the slope of rounded edges shapes the gap alone, as in Hertz's theory, which is
+        consistent with small kinematics (docs/decisions/0002);
+    along the profile's own tangent where the normal is `turning` (docs/decisions/0021).
 A deformable actuator adds the compliance of its face, at the points where the skin touches it.
 
 `increment` solves one increment of a path, `path` follows it, `indentation` knows where pre-indentation ends.

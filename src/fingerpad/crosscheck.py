@@ -132,6 +132,8 @@ def fingerpad_outcome(
     """Outcome of the same path on the condensed maps of undeformed tissue. Raises ContactError if it cannot be
     followed, or the turning normal is asked of a deformable body."""
     problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
+    # a normal that turned from the stimulus on would move what was pressed without
+    problem = replace(problem, turning=problem.turning and settings.friction_indenting > 0.0)
     follow_path = _turning_forces if contact is ContactModel.TURNING else _own_forces
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(section, settings)))

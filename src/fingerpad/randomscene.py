@@ -37,6 +37,7 @@ from .scene import (
     Side,
     Skips,
     TissueLaw,
+    TurningNormal,
     VibrationRule,
 )
 
@@ -101,7 +102,9 @@ def random_scene(number: int) -> Scene:
         indentation_increments=_whole(rng, INDENTATION_INCREMENTS),
         stimulus_increments=_whole(rng, STIMULUS_INCREMENTS),
     )
-    model = replace(group.model, contact=ContactLaw(friction, criterion), numerics=numerics)
+    model = replace(
+        group.model, contact=replace(group.model.contact, friction=friction, criterion=criterion), numerics=numerics
+    )
     stroke = float(np.abs(group.device.conditions[0].tangential).max())
     condition = _condition(rng, len(row.positions), stroke)
     return Scene(model, Device(f"stress_{number:05d}", "random", Control.DISPLACEMENT, row, (condition,)))
@@ -165,7 +168,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     model = Model(
         finger,
         TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
-        ContactLaw(0.0, Criterion.TOUCH),
+        ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH),
         GaborFilter(2.8, 1.15, 1.12, 0.02),
         ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
         STILL,

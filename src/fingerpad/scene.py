@@ -362,11 +362,20 @@ class Device:
         return (Interface.SHEAR,) if self.control is Control.FORCE else tuple(Interface)
 
 
+class TurningNormal(StrEnum):
+    """With which kinematics the contact normal turns on rounded edges, where friction acts."""
+
+    NEVER = "never"
+    FINITE = "finite"
+    ALWAYS = "always"
+
+
 @dataclass(frozen=True)
 class ContactLaw:
-    """Coulomb friction coefficient [1] and the criterion that ends pre-indentation."""
+    """Coulomb friction coefficient [1], where the contact normal turns, and the criterion that ends pre-indentation."""
 
     friction: float
+    turning_normal: TurningNormal
     criterion: Criterion
 
     def __post_init__(self) -> None:
@@ -375,6 +384,12 @@ class ContactLaw:
     def coefficient(self, interface: Interface) -> float:
         """Friction coefficient [1] of an interface: 0 with shear off."""
         return self.friction if interface is Interface.SHEAR else 0.0
+
+    def turns(self, kinematics: Kinematics, interface: Interface) -> bool:
+        """Whether the contact normal turns. Never without friction: skin would slide off the edges' slopes sideways."""
+        chosen = {TurningNormal.NEVER: False, TurningNormal.ALWAYS: True}
+        with_these = chosen.get(self.turning_normal, kinematics is Kinematics.FINITE)
+        return with_these and self.coefficient(interface) > 0.0
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ from .scene import (
     Side,
     Skips,
     TissueLaw,
+    TurningNormal,
     VibrationRule,
 )
 from .stimuli import CYCLES, KINDS
@@ -149,7 +150,7 @@ def build_model(config: dict[str, Any]) -> Model:
             tuple(_layer(entry) for entry in finger["dorsal"]),
         ),
         TissueLaw(Kinematics.SMALL, computed, Law(tissue["law"]), tissue["ogden_exponent"]),
-        ContactLaw(contact["friction"], Criterion(contact["criterion"])),
+        ContactLaw(contact["friction"], TurningNormal(contact["turning_normal"]), Criterion(contact["criterion"])),
         GaborFilter(**_values(config["filter"])),
         ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
         VibrationRule(

@@ -85,18 +85,17 @@ def contact_problem(
     scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
 ) -> ContactProblem:
     """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
-    numerics, friction = scene.model.numerics, scene.model.contact.coefficient(interface)
+    numerics, law = scene.model.numerics, scene.model.contact
     problem = ContactProblem(
         section.position,
         section.compliance,
         scene.device.actuators,
         body,
-        friction,
+        law.coefficient(interface),
         numerics.newton_tolerance,
         numerics.max_cuts,
         scene.model.skips.inactive_nodes,
-        # without friction the skin would slide off the edges' slopes sideways (docs/decisions/0021)
-        turning=scene.kinematics is Kinematics.FINITE and friction > 0.0,
+        turning=law.turns(scene.kinematics, interface),
     )
     centres = problem.row.positions
     missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
