@@ -103,9 +103,9 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "unknown key": (
         {"contact.colour": quantity(1.0, "1")},
         "contact.colour",
-        ["an unknown key", "the keys friction, criterion ("],
+        ["an unknown key", "the keys friction, turning_normal, criterion ("],
     ),
-    "key that is a number": ({"contact": {1: 2}}, "contact[1]", ["an unknown key", "friction, criterion"]),
+    "key that is a number": ({"contact": {1: 2}}, "contact[1]", ["an unknown key", "friction, turning_normal, criterion"]),
     "missing key": (
         {"numerics.growth": DELETED},
         "numerics.growth",
