@@ -1,7 +1,7 @@
 """States of the whole section on the way of a stimulus: displacement, strain and stress of small and finite kinematics.
 
 Strain is the linear one, or Hencky's, ln U; stress is Hooke's, or Cauchy's. Both are read at points of every element,
-as they jump between elements.
+as they jump between elements: the stress's deviator where it is, its mean as `mean_stress` recovers it.
 """
 
 from __future__ import annotations
@@ -14,9 +14,11 @@ from skfem import MeshTri2
 from .condensation import body_of, condense_section
 from .contact import pressing_and_shearing
 from .deformed_solution import PressedFinger, certified_moves, pressed_finger
+from .elasticity import displacement_basis
 from .fields import Fields
 from .finite_strain import logarithmic_strain
 from .hyperelasticity import cauchy_stress, tissue_of
+from .mean_stress import element_means, recover_linear
 from .measures import stress
 from .mesh import SectionMesh
 from .pressing import press
@@ -74,13 +76,31 @@ def strain_at(scene: Scene, mesh: MeshTri2, displacement: FloatArray, points: Fl
 
 
 def stress_at(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
-    """Stress (n_elements k, 4) [MPa], xx, yy, zz, xy, of each element's own layer, where `strain_at` has strain."""
+    """Stress (n_elements k, 4) [MPa], xx, yy, zz, xy, of each element's own layer, where `strain_at` has strain.
+
+    sigma + (m - tr sigma / 3) I with sigma that of the strain there, and m from means of tr sigma / 3 over elements.
+    """
+    basis = displacement_basis(section.mesh)
+    means = element_means(basis, _mean(_stress(scene, section, displacement, basis.X)).reshape(section.layer.size, -1))
+    found = _stress(scene, section, displacement, points)
+    recovered = recover_linear(basis, section.layer, means, section.mesh.mapping().F(points))
+    found[:, :3] += (recovered.ravel() - _mean(found))[:, None]
+    return found
+
+
+def _mean(stresses: FloatArray) -> FloatArray:
+    """Mean stress (n,) [MPa] of stresses (n, 4)."""
+    return np.asarray(stresses[:, :3].mean(axis=1))
+
+
+def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
+    """Stress (n_elements k, 4) [MPa] that belongs to the strain of each point."""
     gradient = gradient_at(section.mesh, displacement, points)
     finger, law = scene.model.finger, scene.model.tissue
     materials = [layer.material for layer in finger.layers]
     layer = np.repeat(section.layer, points.shape[1])
     if scene.kinematics is Kinematics.FINITE:
-        return cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T
+        return np.asarray(cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T)
     found = np.empty((layer.size, 4))
     for number, material in enumerate(materials):
         inside = layer == number
