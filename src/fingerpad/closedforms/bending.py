@@ -13,8 +13,8 @@ mean stress as `mean_stress` recovers it to a tolerance; what the points of an e
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.polynomial import Chebyshev
@@ -26,7 +26,7 @@ from ..elasticity import displacement_basis, lame, node_dofs
 from ..hyperelasticity import tissue_of
 from ..mean_stress import element_means, recover_linear
 from ..scene import FloatArray, Law, Material
-from .comparison import Comparison, compare, orders
+from .comparison import Comparison, compare, on_two_meshes
 from .equilibrium import equilibrium
 from .layers import TOLERANCE
 
@@ -115,12 +115,8 @@ class Bent:
 
 def rows() -> list[Comparison]:
     """Errors at every Poisson's ratio, and the orders with which they fall."""
-    found = []
-    for poisson in RATIOS:
-        coarse, fine = (bent(poisson, divisions) for divisions in DIVISIONS)
-        held = [replace(row, tolerance=TOLERANCE) for row in fine]
-        found += [*coarse, *held, *orders(coarse, fine, DIVISIONS[1] / DIVISIONS[0], ORDERS, SHORTFALL)]
-    return found
+    cases = (partial(bent, poisson) for poisson in RATIOS)
+    return [row for case in cases for row in on_two_meshes(case, DIVISIONS, TOLERANCE, ORDERS, SHORTFALL)]
 
 
 def bent(poisson: float, divisions: int) -> list[Comparison]:

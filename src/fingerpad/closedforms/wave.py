@@ -9,7 +9,7 @@ symmetry, and its base moves as the half-plane does there.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.sparse.linalg import spsolve
@@ -19,7 +19,7 @@ from ..elasticity import displacement_basis, lame, node_dofs, stiffness
 from ..mean_stress import element_means, recover_linear
 from ..recovery import gradient_at
 from ..scene import FloatArray, Material
-from .comparison import Comparison, compare, orders
+from .comparison import Comparison, compare, on_two_meshes
 from .punch import TOLERANCE
 
 SIDE = 1.0  # of the square block, half a period [mm]
@@ -33,12 +33,8 @@ EXACT_ORDER = 8  # of quadrature; source: as the bent block's
 
 def rows() -> list[Comparison]:
     """Errors at every Poisson's ratio, and the orders with which they fall."""
-    found = []
-    for poisson in RATIOS:
-        coarse, fine = (wave(poisson, divisions) for divisions in DIVISIONS)
-        held = [replace(row, tolerance=TOLERANCE) for row in fine]
-        found += [*coarse, *held, *orders(coarse, fine, DIVISIONS[1] / DIVISIONS[0], ORDERS, SHORTFALL)]
-    return found
+    cases = (partial(wave, poisson) for poisson in RATIOS)
+    return [row for case in cases for row in on_two_meshes(case, DIVISIONS, TOLERANCE, ORDERS, SHORTFALL)]
 
 
 def wave(poisson: float, divisions: int) -> list[Comparison]:
