@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import MeshTri2
 
-from .condensation import body_of, condense_section
+from .condensation import body_of, condense_section, contact_tractions
 from .contact import pressing_and_shearing
 from .deformed_solution import PressedFinger, certified_moves, pressed_finger
 from .elasticity import displacement_basis
@@ -22,9 +22,12 @@ from .mean_stress import element_means, recover_linear
 from .measures import stress
 from .mesh import SectionMesh
 from .pressing import press
-from .recovery import CORNERS, fields_of, gradient_at, recover_displacement, strain_of
+from .recovery import gradient_at, recover_displacement, strain_of
 from .scene import Condition, FloatArray, Interface, Kinematics, Scene
 from .solution import Solution, solve_condition
+from .strain import maximum_principal
+
+CORNERS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # of the reference triangle
 
 
 @dataclass(frozen=True)
@@ -110,5 +113,18 @@ def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points
 
 def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) -> Fields:
     """What maps draw of states with those displacements (n_states, 2, n_nodes) [mm]."""
-    strain = np.array([strain_at(scene, section.mesh, each, CORNERS) for each in displacement])
-    return fields_of(section, scene, displacement, strain)
+    corners = section.mesh.t.T.ravel()
+    one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
+    one_of[corners] = np.arange(corners.size)
+    interface, boundary = (
+        one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
+    )
+    strains = [strain_at(scene, section.mesh, each, CORNERS).ravel() for each in displacement]
+    return Fields(
+        section.mesh.doflocs[:, corners],
+        interface,
+        boundary,
+        displacement[:, :, corners],
+        np.array([maximum_principal(each) for each in strains]),
+        contact_tractions(section, scene).position[:, 0],
+    )
