@@ -25,7 +25,7 @@ from .punch import TOLERANCE
 SIDE = 1.0  # of the square block, half a period [mm]
 NUMBER = np.pi / SIDE  # k [1/mm]
 RATIOS = (0.48, 0.4999)  # Poisson's [1]; source: the tissue's, and towards incompressibility
-DIVISIONS = (16, 32)  # of the side [1]; source: as the bent block's
+DIVISIONS = (8, 32)  # of the side [1]; source: the finer as the bent block's
 ORDERS = {"mean stress": 2.0}  # of linear fields [1]; source: what they miss is a field's curvature
 SHORTFALL = 0.05  # of an order [1]; source: as the bent block's
 EXACT_ORDER = 8  # of quadrature; source: as the bent block's
