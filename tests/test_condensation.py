@@ -9,8 +9,9 @@ from scipy.sparse.linalg import spsolve
 
 from fingerpad.condensation import condense, contact_tractions, receptor_strain, section_stiffness, unit_loads
 from fingerpad.errors import CondensationError
-from fingerpad.recovery import recover_fields
+from fingerpad.recovery import recover_displacement
 from fingerpad.scene import Interface
+from fingerpad.states import states_fields
 from fingerpad.strain import maximum_principal
 from scenes import condensed, scene, section, solved
 
@@ -74,7 +75,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     """The recovered field near the receptors has the strain that the condensed map gave."""
     mesh, base = section("device2"), scene("device2")
     solution = solved("device2", "alternate_180", Interface.SHEAR)
-    fields = recover_fields(mesh, base, solution.force[-1:])
+    fields = states_fields(base, mesh, recover_displacement(mesh, base, solution.force[-1:]))
     found, _ = condensed("device2")
     strain = maximum_principal(found.strain @ solution.force[-1].ravel())
     dermis = mesh.layer_names.index("dermis")

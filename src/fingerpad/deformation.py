@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 from skfem import Basis
 
 from .compliance import VOIGT
@@ -50,18 +50,9 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
     """Elements of a basis; `free` orders the tangent's rows and columns."""
     gradient = np.array([basis.basis[2 * node][0].grad[0] for node in range(NODES)])  # (6, 2, n_elements, n_points)
     unknowns = basis.element_dofs.T
-    place = np.full(basis.N, -1, dtype=np.int64)
+    place = np.full(basis.N, free.size, dtype=np.int32)
     place[free] = np.arange(free.size)
-    own = place[unknowns]
-    row, column = (
-        np.broadcast_to(each, (own.shape[0], own.shape[1], own.shape[1])) for each in (own[:, :, None], own[:, None, :])
-    )
-    held = (row < 0) | (column < 0)
-    key = np.where(held, -1, column * free.size + row).ravel()
-    known, entry = np.unique(key, return_inverse=True)
-    entry = entry - int(known[0] < 0)
-    known = known[known >= 0]
-    starts = np.searchsorted(known, np.arange(free.size + 1) * free.size)
+    rows, starts, entry = _tangent_pattern(place[unknowns], free.size)
     return Elements(
         basis.global_coordinates().mean(axis=-1).T,
         np.ascontiguousarray(gradient.transpose(2, 3, 0, 1)),
@@ -70,10 +61,33 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
         tissue,
         basis.N,
         free,
-        (known % free.size).astype(np.int32),
-        starts.astype(np.int32),
-        np.where(entry < 0, known.size, entry),
+        rows,
+        starts,
+        entry,
     )
+
+
+def _tangent_pattern(place: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """`rows`, `starts` and `entry` of elements whose unknowns have these places (n_elements, 12), `size` for none.
+
+    Entries are gathered by rows, as a matrix with repeated entries that holds their numbers; storing that by columns
+    sorts them, in a time that does not grow faster than their number.
+    """
+    count = place.shape[1]
+    order = np.argsort(place, axis=None, kind="stable")
+    below = np.concatenate([[0], np.cumsum(np.bincount(place.ravel(), minlength=size + 1))])
+    number = (count * order[:, None] + np.arange(count)).ravel()
+    repeated = csr_matrix((number, place[order // count].ravel(), count * below), shape=(size + 1, size + 1)).tocsc()
+    end = int(repeated.indptr[size])  # of what moves, but for the last rows
+    row, number = repeated.indices[:end], repeated.data[:end]
+    new = np.ones(end, dtype=bool)
+    new[1:] = row[1:] != row[:-1]
+    new[repeated.indptr[:size]] = True
+    new &= row < size
+    known = np.concatenate([[0], np.cumsum(new)])
+    entry = np.full(place.size * count, known[-1])
+    entry[number] = np.where(row < size, known[1:] - 1, known[-1])
+    return row[new], known[repeated.indptr[: size + 1]].astype(np.int32), entry
 
 
 def displacement_gradient(elements: Elements, displacement: FloatArray) -> FloatArray:

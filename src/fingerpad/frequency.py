@@ -7,13 +7,13 @@ these afferents answer change, not what stays.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from .compliance import CondensedSection
-from .creep import Creep, condense_creep
+from .creep import Creep
 from .cycling import vibrate
 from .errors import ContactError, InertiaError
 from .gabor import filtered_readouts
@@ -96,56 +96,6 @@ def _outcome(
         return Outcome(vibration_scores(scene, condensed, creep, indented, cycle, frequency), effect, "")
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
-
-
-def relaxation_variants(scene: Scene) -> dict[str, Scene]:
-    """The scene with other assumptions on how tissue relaxes, by name; the scene itself first."""
-    relaxation, pad = scene.model.vibration.relaxation, [layer.name for layer in scene.model.finger.pad]
-    deep = tuple(pad[pad.index(scene.model.readout.layer_above) + 1 :])
-    left = 1.0 - sum(relaxation.shares)
-    more = (1.0 - left / 2.0) / (1.0 - left)
-    variants = {
-        "as in config.yaml": relaxation,
-        "only layers below the receptors relax": replace(relaxation, layers=deep),
-        "half as much relaxes": replace(relaxation, shares=tuple(share / 2.0 for share in relaxation.shares)),
-        "half as much is left": replace(relaxation, shares=tuple(more * share for share in relaxation.shares)),
-        "the fastest alone relaxes": replace(
-            relaxation, shares=(sum(relaxation.shares),), times=(min(relaxation.times),)
-        ),
-    }
-    return {
-        name: replace(scene, model=replace(scene.model, vibration=replace(scene.model.vibration, relaxation=variant)))
-        for name, variant in variants.items()
-    }
-
-
-def variant_rows(
-    scene: Scene, section: SectionMesh, condensed: Condensed, indented: Indented, frequency: float
-) -> list[dict[str, Any]]:
-    """Scores of all conditions at a frequency [Hz] under other assumptions on how tissue relaxes, one row each; a note
-    where a path cannot be followed. Raises CondensationError.
-    """
-    rows = []
-    for name, variant in relaxation_variants(scene).items():
-        creep = condense_creep(section, variant)
-        for cycle in scene.device.cycles:
-            scores: dict[Readout, float] = {}
-            note = ""
-            try:
-                scores = vibration_scores(variant, condensed, creep, indented, cycle, frequency)
-            except ContactError as error:
-                note = f"{NO_PREDICTION}: {error}"
-            rows.append(
-                {
-                    "device": scene.device.name,
-                    "condition": cycle.name,
-                    "frequency_hz": frequency,
-                    "assumption": name,
-                    **{str(each): scores.get(each) for each in Readout},
-                    "note": note,
-                }
-            )
-    return rows
 
 
 def vibration_scores(

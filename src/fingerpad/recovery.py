@@ -1,4 +1,4 @@
-"""Recovery of the section's full fields from contact forces on linear tissue."""
+"""Recovery of the whole section's displacement from contact forces on linear tissue, and its gradient."""
 
 from __future__ import annotations
 
@@ -9,12 +9,8 @@ from skfem import MeshTri2
 
 from .condensation import contact_tractions, section_stiffness
 from .elasticity import displacement_basis, node_dofs
-from .fields import Fields
 from .mesh import SectionMesh
 from .scene import FloatArray, Scene
-from .strain import maximum_principal
-
-CORNERS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # of the reference triangle
 
 
 def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
@@ -51,28 +47,3 @@ def gradient_at(mesh: MeshTri2, displacement: FloatArray, points: FloatArray) ->
 def strain_of(gradient: FloatArray) -> FloatArray:
     """Strain (n, 3) [1], exx, eyy, gxy, of displacement gradients (2, 2, n)."""
     return np.stack([gradient[0, 0], gradient[1, 1], gradient[0, 1] + gradient[1, 0]], axis=-1)
-
-
-def recover_fields(section: SectionMesh, scene: Scene, forces: FloatArray) -> Fields:
-    """Fields of linear tissue under contact forces (n_loadings, n_contact, 2) [N/mm]."""
-    displacement = recover_displacement(section, scene, forces)
-    strain = np.array([strain_of(gradient_at(section.mesh, each, CORNERS)) for each in displacement])
-    return fields_of(section, scene, displacement, strain)
-
-
-def fields_of(section: SectionMesh, scene: Scene, displacement: FloatArray, strain: FloatArray) -> Fields:
-    """What maps draw of displacements (n_loadings, 2, n_nodes) [mm] and strains (n_loadings, n, 3) [1] at corners."""
-    corners = section.mesh.t.T.ravel()
-    one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
-    one_of[corners] = np.arange(corners.size)
-    interface, boundary = (
-        one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
-    )
-    return Fields(
-        section.mesh.doflocs[:, corners],
-        interface,
-        boundary,
-        displacement[:, :, corners],
-        np.array([maximum_principal(components.ravel()) for components in strain]),
-        contact_tractions(section, scene).position[:, 0],
-    )

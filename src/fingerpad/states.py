@@ -1,7 +1,7 @@
 """States of the whole section on the way of a stimulus: displacement, strain and stress of small and finite kinematics.
 
 Strain is the linear one, or Hencky's, ln U; stress is Hooke's, or Cauchy's. Both are read at points of every element,
-as they jump between elements.
+as they jump between elements: the stress's deviator where it is, its mean as `mean_stress` recovers it.
 """
 
 from __future__ import annotations
@@ -11,18 +11,23 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import MeshTri2
 
-from .condensation import body_of, condense_section
+from .condensation import body_of, condense_section, contact_tractions
 from .contact import pressing_and_shearing
 from .deformed_solution import PressedFinger, certified_moves, pressed_finger
+from .elasticity import displacement_basis
 from .fields import Fields
 from .finite_strain import logarithmic_strain
 from .hyperelasticity import cauchy_stress, tissue_of
+from .mean_stress import element_means, recover_linear
 from .measures import stress
 from .mesh import SectionMesh
 from .pressing import press
-from .recovery import CORNERS, fields_of, gradient_at, recover_displacement, strain_of
+from .recovery import gradient_at, recover_displacement, strain_of
 from .scene import Condition, FloatArray, Interface, Kinematics, Scene
 from .solution import Solution, solve_condition
+from .strain import maximum_principal
+
+CORNERS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # of the reference triangle
 
 
 @dataclass(frozen=True)
@@ -74,13 +79,31 @@ def strain_at(scene: Scene, mesh: MeshTri2, displacement: FloatArray, points: Fl
 
 
 def stress_at(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
-    """Stress (n_elements k, 4) [MPa], xx, yy, zz, xy, of each element's own layer, where `strain_at` has strain."""
+    """Stress (n_elements k, 4) [MPa], xx, yy, zz, xy, of each element's own layer, where `strain_at` has strain.
+
+    sigma + (m - tr sigma / 3) I with sigma that of the strain there, and m from means of tr sigma / 3 over elements.
+    """
+    basis = displacement_basis(section.mesh)
+    means = element_means(basis, _mean(_stress(scene, section, displacement, basis.X)).reshape(section.layer.size, -1))
+    found = _stress(scene, section, displacement, points)
+    recovered = recover_linear(basis, section.layer, means, section.mesh.mapping().F(points))
+    found[:, :3] += (recovered.ravel() - _mean(found))[:, None]
+    return found
+
+
+def _mean(stresses: FloatArray) -> FloatArray:
+    """Mean stress (n,) [MPa] of stresses (n, 4)."""
+    return np.asarray(stresses[:, :3].mean(axis=1))
+
+
+def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
+    """Stress (n_elements k, 4) [MPa] that belongs to the strain of each point."""
     gradient = gradient_at(section.mesh, displacement, points)
     finger, law = scene.model.finger, scene.model.tissue
     materials = [layer.material for layer in finger.layers]
     layer = np.repeat(section.layer, points.shape[1])
     if scene.kinematics is Kinematics.FINITE:
-        return cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T
+        return np.asarray(cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T)
     found = np.empty((layer.size, 4))
     for number, material in enumerate(materials):
         inside = layer == number
@@ -90,5 +113,18 @@ def stress_at(scene: Scene, section: SectionMesh, displacement: FloatArray, poin
 
 def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) -> Fields:
     """What maps draw of states with those displacements (n_states, 2, n_nodes) [mm]."""
-    strain = np.array([strain_at(scene, section.mesh, each, CORNERS) for each in displacement])
-    return fields_of(section, scene, displacement, strain)
+    corners = section.mesh.t.T.ravel()
+    one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
+    one_of[corners] = np.arange(corners.size)
+    interface, boundary = (
+        one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
+    )
+    strains = [strain_at(scene, section.mesh, each, CORNERS).ravel() for each in displacement]
+    return Fields(
+        section.mesh.doflocs[:, corners],
+        interface,
+        boundary,
+        displacement[:, :, corners],
+        np.array([maximum_principal(each) for each in strains]),
+        contact_tractions(section, scene).position[:, 0],
+    )

@@ -8,7 +8,7 @@ from fingerpad.compliance import CondensedBody
 from fingerpad.deformed_solution import pressed_finger
 from fingerpad.mesh import load_section
 from fingerpad.pressing import Pressed
-from fingerpad.recovery import recover_fields
+from fingerpad.recovery import recover_displacement
 from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
@@ -36,9 +36,11 @@ def main(
         finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
         names = [path.parent.parent.name for path in solutions]
         ends = [deformed_states(scene, finger, scene.device.condition(name)).displacement[-1] for name in names]
-        save(fields, states_fields(scene, section, np.array(ends)))
+        displacement = np.array(ends)
     else:
-        save(fields, recover_fields(section, scene, np.array([load(path, Solution).force[-1] for path in solutions])))
+        forces = np.array([load(path, Solution).force[-1] for path in solutions])
+        displacement = recover_displacement(section, scene, forces)
+    save(fields, states_fields(scene, section, displacement))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.frequency import variant_rows
+from fingerpad.frequency_variants import variant_rows
 from fingerpad.mesh import load_section
 from fingerpad.prediction import Condensed
 from fingerpad.scene import Interface

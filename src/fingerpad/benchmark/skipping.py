@@ -13,9 +13,10 @@ from ..accuracy import CASE
 from ..edges import edge_intervals
 from ..mesh import SectionMesh, mesh_section
 from ..prediction import condense_scene, predicted_rows, prepared
-from ..recovery import recover_fields
+from ..recovery import recover_displacement
 from ..scene import Interface, Kinematics, Scene, Skips
 from ..solution import indent_device, stimulate
+from ..states import states_fields
 from ..strain import receptor_readouts
 from .timing import fewest
 
@@ -65,7 +66,9 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     indented = indent_device(scene, condensed.section, condensed.body, Interface.SHEAR)
     condition = scene.device.conditions[-1]
     solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
-    _, recovering = fewest(repeats, partial(recover_fields, section, scene, solution.force[-1:]))
+    _, recovering = fewest(
+        repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.force[-1:]))
+    )
     forces = np.stack([solution.indented_force, *solution.force])
     _, reading_both = fewest(repeats, lambda: receptor_readouts(condensed.section.receptor_strain(forces)))
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):

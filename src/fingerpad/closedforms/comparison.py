@@ -76,3 +76,16 @@ def refined(case: Callable[[float], list[Comparison]], spacings: Iterable[float]
     """A case on ever finer meshes: tolerances hold on the finest, the others show how the error falls."""
     rows = [case(spacing) for spacing in sorted(spacings, reverse=True)]
     return [replace(row, tolerance=None) for coarse in rows[:-1] for row in coarse] + rows[-1]
+
+
+def on_two_meshes(
+    case: Callable[[int], list[Comparison]],
+    divisions: tuple[int, int],
+    tolerance: float,
+    wanted: dict[str, float],
+    shortfall: float,
+) -> list[Comparison]:
+    """A case on two meshes: the tolerance, and the orders with which some errors fall, hold on the finer."""
+    coarse, fine = (case(each) for each in divisions)
+    held = [replace(row, tolerance=tolerance) for row in fine]
+    return [*coarse, *held, *orders(coarse, fine, divisions[1] / divisions[0], wanted, shortfall)]

@@ -17,6 +17,7 @@ from . import (
     patch,
     punch,
     spence,
+    wave,
 )
 from .comparison import Comparison
 
@@ -29,6 +30,7 @@ CASES: dict[str, Callable[[Scene], list[Comparison]]] = {
     "spence": lambda scene: spence.rows(),
     "layers": lambda scene: layers.rows(scene.model),
     "incompressible": lambda scene: incompressible.rows(scene.model),
+    "wave": lambda scene: wave.rows(),
     "finite_patch": lambda scene: finite_patch.rows(),
     "finite_manufactured": finite_manufactured.rows,
     "bending": lambda scene: bending.rows(),
