@@ -105,7 +105,11 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
         "contact.colour",
         ["an unknown key", "the keys friction, turning_normal, criterion ("],
     ),
-    "key that is a number": ({"contact": {1: 2}}, "contact[1]", ["an unknown key", "friction, turning_normal, criterion"]),
+    "key that is a number": (
+        {"contact": {1: 2}},
+        "contact[1]",
+        ["an unknown key", "friction, turning_normal, criterion"],
+    ),
     "missing key": (
         {"numerics.growth": DELETED},
         "numerics.growth",

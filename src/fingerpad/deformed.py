@@ -17,7 +17,6 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU
 
@@ -243,7 +242,7 @@ def _followed(
     here = Passed(0.0, first, start.force)
     known = [here] if start.passed is None else [start.passed, here]
     free = [each.moved - _moved(tangent, each.force) for each in known]
-    drift = BarycentricInterpolator([*(-each.before for each in known), length], np.array([*free, last]))
+    drift = partial(_through, np.array([*(-each.before for each in known), length]), np.array([*free, last]))
     condensed = replace(problem, compliance=tangent.compliance)
     state: ContactState = start
     patch, passed = tangent.patch, here
@@ -253,6 +252,15 @@ def _followed(
         state, patch = solve_increment(replace(condensed, free=drift(way)), state, target, patch)
         here = Passed(0.0, drift(way) + _moved(tangent, state.force), state.force)
     return state, passed, replace(tangent, patch=patch)
+
+
+def _through(places: FloatArray, values: FloatArray, place: float) -> FloatArray:
+    """Lagrange's polynomial through values (k, n, 2) at some places (k,), at a place; to import scipy.interpolate for it
+    would take each job longer than all else that it does with it.
+    """
+    others = ~np.eye(places.size, dtype=bool)
+    weights = [np.prod((place - places[each]) / (own - places[each])) for own, each in zip(places, others, strict=True)]
+    return np.tensordot(weights, values, axes=1)
 
 
 def _moved(tangent: Tangent, force: FloatArray) -> FloatArray:
