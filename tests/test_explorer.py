@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
+from typing import Any
 
-from fingerpad.design import condense_pad
+import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from fingerpad.design import Answer, answer, condense_pad
 from fingerpad.errors import ContactError
 from fingerpad.explorer import LIMITS, START, Explorer, reach
 from scenes import scene
@@ -45,6 +48,20 @@ def test_direction_draws_anew(explorer: Explorer) -> None:
     before = bytes(explorer.picture.value)
     explorer.direction.value = "normal"
     assert bytes(explorer.picture.value) != before
+
+
+def test_contact_is_solved_on_one_thread(explorer: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A notebook's kernel has as many as the machine has cores, with which small systems take several times as long."""
+    seen = []
+
+    def answer_on(*given: Any) -> Answer:
+        seen.extend(library["num_threads"] for library in threadpool_info())
+        return answer(*given)
+
+    monkeypatch.setattr("fingerpad.explorer.answer", answer_on)
+    with threadpool_limits(2):
+        explorer.sliders["phase"].value = 60.0
+    assert set(seen) == {1}
 
 
 def test_design_without_an_answer_is_a_message(explorer: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:

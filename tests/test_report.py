@@ -16,7 +16,14 @@ from fingerpad.digraph import layers, placed, read_dot, reduced
 from fingerpad.report.captions import Results, Words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
-from fingerpad.report.tables import accuracy_summary, measured, p_value, score_grid
+from fingerpad.report.tables import (
+    CORRELATION_COLUMNS,
+    accuracy_summary,
+    correlation_bodies,
+    measured,
+    p_value,
+    score_grid,
+)
 from fingerpad.scene import Interface, Readout
 from fingerpad.scenefile import load_scene, read_yaml
 from fingerpad.sources import Origin, page, quantities
@@ -190,7 +197,7 @@ def test_page_says_what_the_tables_say(html: str) -> None:
     text = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
     assert "0.4321 ± 0.0012" in text
     assert "1 of n = 2 statements" in text
-    assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, p = 0.03, n = 3" in text  # noqa: RUF001  # as typeset
+    assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, p = 0.030, n = 3" in text  # noqa: RUF001  # as typeset
     assert text.count("no prediction") > 12
     assert "Ratings are ordinal surrogates." in text
     assert "0123abc" in text
@@ -236,6 +243,7 @@ def test_value_ends_where_its_error_does(value: float, error: float, scale: floa
 def test_small_p_is_a_bound() -> None:
     assert p_value("0.0005").startswith("<")
     assert p_value("0.0493") == "0.049"
+    assert p_value("0.2") == "0.20"
 
 
 def test_devices_that_come_in_parts_are_one_body(results: Results) -> None:
@@ -243,6 +251,14 @@ def test_devices_that_come_in_parts_are_one_body(results: Results) -> None:
     grid = score_grid(results.scores, titles)
     assert [body.title for body in grid.bodies] == list(titles.values())
     assert all(len(cells) == 4 for body in grid.bodies for _, cells in body.rows)
+
+
+def test_correlations_without_a_prediction_stand_with_their_device(results: Results) -> None:
+    titles = {scene.device.name: scene.device.title for scene in results.scenes}
+    bodies = correlation_bodies(results.correlations, titles)
+    assert len({body.title for body in bodies}) == len(bodies)
+    assert sum(len(body.rows) for body in bodies) == len(results.correlations)
+    assert all(len(cells) + 1 == len(CORRELATION_COLUMNS) for body in bodies for _, cells in body.rows)
 
 
 def test_accuracy_counts_only_what_has_a_score(results: Results) -> None:

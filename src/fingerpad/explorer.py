@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from functools import lru_cache
 from html import escape
+from math import floor, log10
 from time import perf_counter, process_time
 from typing import Any
 
 import ipywidgets
+from threadpoolctl import threadpool_limits
 
 from .design import Answer, Pad, Pressed, answer, press
 from .errors import FingerpadError
@@ -30,6 +32,9 @@ LABELS = {
     "amplitude": "amplitude [mm]",
 }
 START = {"pitch": 2.5, "width": 1.0, "friction": 0.6, "phase": 180.0, "amplitude": 0.02}  # Device 2
+STYLE = {"description_width": "9em"}  # of controls: labels are whole
+LAYOUT = {"width": "29em"}  # of controls: two are as wide as the picture
+ROWS = 3  # of controls: what a pin is, and how it moves; a laptop shows them and the picture at once
 KEPT = 32  # pressed rows that are remembered [1]: moving a slider back takes no time
 
 
@@ -53,17 +58,19 @@ class Explorer:
         self.sliders: dict[str, Any] = {
             name: ipywidgets.FloatSlider(
                 value=START[name], min=low, max=high, step=step, description=LABELS[name], continuous_update=False,
-                readout_format=".3f" if high < 1.0 else ".2f", style={"description_width": "7em"},
+                readout_format=f".{max(0, -floor(log10(step)))}f", style=STYLE, layout=LAYOUT,
             )
             for name, (low, high, step) in LIMITS.items()
         }  # fmt: skip
-        self.direction: Any = ipywidgets.ToggleButtons(options=["lateral", "normal"], description="motion")
-        self.picture: Any = ipywidgets.Image(format="png")
-        self.message: Any = ipywidgets.HTML()
-        self.view: Any = ipywidgets.VBox(
-            [ipywidgets.VBox([*self.sliders.values(), self.direction]), self.picture, self.message]
+        self.direction: Any = ipywidgets.Dropdown(
+            options=["lateral", "normal"], description="motion", style=STYLE, layout=LAYOUT
         )
-        for control in (*self.sliders.values(), self.direction):
+        self.picture: Any = ipywidgets.Image(format="png", layout={"align_self": "flex-start"})  # in its own size
+        self.message: Any = ipywidgets.HTML()
+        controls = [*self.sliders.values(), self.direction]
+        columns = [ipywidgets.VBox(controls[:ROWS]), ipywidgets.VBox(controls[ROWS:])]
+        self.view: Any = ipywidgets.VBox([ipywidgets.HBox(columns), self.message, self.picture])
+        for control in controls:
             control.observe(lambda _: self.redraw(), names="value")
         self.redraw()
 
@@ -72,7 +79,8 @@ class Explorer:
         start, processor_start = perf_counter(), process_time()
         values = {name: slider.value for name, slider in self.sliders.items()}
         try:
-            found = self._answer(**values)
+            with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
+                found = self._answer(**values)
         except FingerpadError as error:
             self.message.value = f"No answer: {escape(str(error))}. The picture is that of the design before."
         else:

@@ -9,6 +9,14 @@ from nbconvert import HTMLExporter
 
 from fingerpad.files import write_text
 
+# of a page that needs nothing else: without scripts for formulas and diagrams, which notebooks here have none of
+TEMPLATE = """\
+{% extends "lab/index.html.j2" %}
+{% block html_head_js %}{% endblock %}
+{% block html_head_js_mathjax %}{% endblock %}
+{% block html_head_js_mermaidjs %}{% endblock %}
+"""
+
 
 def main(notebook: Path, page: Path) -> None:
     """Read the notebook, run all of its cells here, write the page; a failing cell fails the job."""
@@ -16,7 +24,8 @@ def main(notebook: Path, page: Path) -> None:
     folder = {"metadata": {"path": str(Path.cwd())}}
     # a page has no kernel, so widgets on it could not move: their state is left out, and what would be loaded for it
     NotebookClient(document, record_timing=False, store_widget_state=False, resources=folder).execute()
-    text, _ = HTMLExporter(exclude_input_prompt=True, exclude_output_prompt=True).from_notebook_node(document)
+    exporter = HTMLExporter(raw_template=TEMPLATE, exclude_input_prompt=True, exclude_output_prompt=True)
+    text, _ = exporter.from_notebook_node(document)
     write_text(page, text)
 
 

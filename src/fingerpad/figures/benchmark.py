@@ -15,6 +15,7 @@ from .style import (
     GREEN,
     GREY,
     ORANGE,
+    PERCENT,
     VERMILLION,
     WIDE,
     legend_below,
@@ -73,7 +74,7 @@ def _draw_ladders(axes: Axes, ladder: pd.DataFrame) -> list[object]:
             error = own[["error_strain", "error_change_of_strain"]].max(axis=1)
             drawn = axes.plot(error, own[column], color=colour, marker=marker, label=label, **line)
             handles += drawn if kinematics is Kinematics.SMALL else []
-    axes.axvline(AIM, color=GREY, linestyle="--", zorder=0)
+    handles.append(axes.axvline(AIM, color=GREY, linestyle=":", zorder=0, label=f"error of {PERCENT * AIM:g} %"))
     axes.set(xscale="log", yscale="log", xlabel="Error of the score (relative)", ylabel="Wall time (s)")
     axes.set_title("Time against error", loc="left")
     return handles

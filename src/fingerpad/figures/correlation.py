@@ -140,7 +140,7 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     if pd.notna(row["r2_lowest"]):
         lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
     if pd.notna(row["r2"]):
-        p = f"= {row['p']:.2g}" if row["p"] >= SMALLEST_P else f"< {SMALLEST_P:g}"
+        p = f"= {row['p']:#.2g}" if row["p"] >= SMALLEST_P else f"< {SMALLEST_P:g}"
         lines.append(f"τ = {row['kendall_tau']:.2f}, p {p}".replace("-", MINUS))
     if pd.notna(row["published_r2"]):
         lines.append(f"published R² {row['published_r2']:g}")

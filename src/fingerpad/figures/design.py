@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from io import BytesIO
+from math import floor, log10
 from typing import Any
 
 import numpy as np
@@ -44,6 +45,7 @@ EDGES = {"left": 0.09, "right": 0.985, "bottom": 0.1, "top": 0.94, "wspace": 0.3
 WIDTHS = (3.2, 1.0)  # of the columns, relative
 KILO = 1e3  # kPa in a MPa
 HEADROOM = 1.25  # of the scores' axis beyond the larger [1]
+SCORE_DIGITS = 3  # of a score without an error [1]
 BAR = 0.7  # width of a score's bar, of the distance between both [1]
 NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]
 LOCATOR = MaxNLocator(4, steps=[1.0, 2.0, 2.5, 5.0, 10.0])  # of vertical axes: intervals at most, and their lengths [1]
@@ -91,8 +93,8 @@ class DesignPicture:
             for _ in range(pins)
         ]
         self._label_axes()
-        self._before = self._design("before", (GREY, GREY, GREY))
-        self._now = self._design("now", (BLUE, VERMILLION, BLUE))
+        self._before = self._design("before", (GREY, GREY, GREY), THIN)
+        self._now = self._design("now", (BLUE, VERMILLION, BLUE), LINE)
         self._note = self.figure.text(*NOTE, "", color=GREY, va="top")
         self._moving = [*self._faces, *self._before.artists(), *self._now.artists(), self._note]
         for artist in self._moving:
@@ -108,7 +110,7 @@ class DesignPicture:
             handles=[
                 Line2D([], [], color=BLUE, label="pressure"),
                 Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear"),
-                Line2D([], [], color=GREY, label="design before"),
+                Line2D([], [], color=GREY, linewidth=THIN, label="design before"),
             ],
             loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=3, borderaxespad=0.0,
         )  # fmt: skip
@@ -122,13 +124,15 @@ class DesignPicture:
         right[-1].set_xticks(list(PLACES.values()), list(PLACES))
         left[-1].set_xlabel("x on the skin, arc length along the receptor line (mm)")
 
-    def _design(self, name: str, colours: tuple[str, str, str]) -> _Design:
-        """Artists without data, in the colours of pressure, shear and read-outs."""
+    def _design(self, name: str, colours: tuple[str, str, str], width: float) -> _Design:
+        """Artists without data, in the colours of pressure, shear and read-outs; width: of lines [pt], which tells
+        designs apart where colours do not.
+        """
         pressure, shear, read = colours
         return _Design(
-            self._tractions.plot([], [], color=pressure)[0],
-            self._tractions.plot([], [], color=shear, linestyle=DASHED)[0],
-            {each: axes.plot([], [], color=read)[0] for each, axes in self._strains.items()},
+            self._tractions.plot([], [], color=pressure, linewidth=width)[0],
+            self._tractions.plot([], [], color=shear, linewidth=width, linestyle=DASHED)[0],
+            {each: axes.plot([], [], color=read, linewidth=width)[0] for each, axes in self._strains.items()},
             {each: axes.bar(PLACES[name], 0.0, color=read, width=BAR)[0] for each, axes in self._scores.items()},
             {each: axes.plot([], [], color="black", linewidth=LINE)[0] for each, axes in self._scores.items()},
             {each: axes.text(PLACES[name], 0.0, "", ha="center", va="bottom") for each, axes in self._scores.items()},
@@ -186,9 +190,7 @@ def _set(artists: _Design, place: float, answer: Answer) -> None:
         artists.curves[readout].set_data(answer.readouts.arc, PERCENT * _read(answer, readout))
         artists.bars[readout].set_height(score)
         artists.errors[readout].set_data([place, place], [score - error, score + error])
-        artists.numbers[readout].set(
-            position=(place, score + error), text=f"{score:.3g}\n±{f'{error:.1g}' if known else '?'}"
-        )
+        artists.numbers[readout].set(position=(place, score + error), text=_number(score, error if known else None))
 
 
 def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -200,6 +202,14 @@ def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
     touched = np.flatnonzero(solution.pressure > 0.0)
     found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
     return tuple(np.insert(found, np.flatnonzero(np.diff(nearest[touched])) + 1, np.nan, axis=1))
+
+
+def _number(score: float, error: float | None) -> str:
+    """A score over its error, whose one digit ends those of the score; over a question mark if the error is unknown."""
+    if not error:
+        return f"{score:.{SCORE_DIGITS}g}\n±{'?' if error is None else 0}"
+    decimals = max(-floor(log10(error)), 0)
+    return f"{score:.{decimals}f}\n±{error:.{decimals}f}"
 
 
 def _read(answer: Answer, readout: Readout) -> FloatArray:

@@ -18,7 +18,7 @@ from .tables import (
     Row,
     accuracy_grid,
     accuracy_summary,
-    correlation_rows,
+    correlation_bodies,
     score_grid,
 )
 
@@ -65,7 +65,7 @@ def report(
         accuracy=accuracy_grid(results.scores, titles),
         accuracy_summary=accuracy_summary(results.scores),
         correlation_columns=CORRELATION_COLUMNS,
-        correlations=correlation_rows(results.correlations, titles),
+        correlations=correlation_bodies(results.correlations, titles),
         surrogates=any(row["rating_kind"] == RatingKind.SURROGATE.label for row in results.correlations),
         claims=claims,
         borne_out=sum(row["holds"] == "True" for row in claims),

@@ -21,7 +21,7 @@ SMALLEST_P = 0.001  # below it p is given as a bound
 
 @dataclass(frozen=True)
 class Body:
-    """Rows of one device: its title, and for each condition its name and cells."""
+    """Rows of one device: its title, and the name and cells of each."""
 
     title: str
     rows: tuple[tuple[str, tuple[str, ...]], ...]
@@ -85,45 +85,41 @@ def accuracy_summary(scores: Sequence[Row]) -> str:
     )
 
 
-def correlation_rows(correlations: Sequence[Row], titles: Mapping[str, str]) -> list[tuple[str, ...]]:
-    """Cells of the table of correlations, headed by CORRELATION_COLUMNS."""
-    rows: list[tuple[str, ...]] = []
+def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -> list[Body]:
+    """The table of correlations, headed by CORRELATION_COLUMNS. correlations: rows of correlations.csv."""
+    found: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
     for row in correlations:
         spread = f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}" if row["r2_lowest"] else NOTHING
         published = f"{float(row['published_r2']):g}" if row["published_r2"] else row["published_words"] or NOTHING
-        rows.append(
-            (
-                _titled(titles, row),
-                INTERFACE_NAME[Interface(row["interface"])],
-                READOUT_NAME[Readout(row["readout"])],
-                row["n"],
-                f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
-                spread,
-                SLOPES.get(row["slope_sign"], NOTHING),
-                f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
-                p_value(row["p"]) if row["p"] else NOTHING,
-                row["rating_kind"] or NOTHING,
-                published,
-                row["note"] or NOTHING,
-            )
+        cells = (
+            READOUT_NAME[Readout(row["readout"])],
+            row["n"],
+            f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
+            spread,
+            SLOPES.get(row["slope_sign"], NOTHING),
+            f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
+            p_value(row["p"]) if row["p"] else NOTHING,
+            row["rating_kind"] or NOTHING,
+            published,
+            row["note"] or NOTHING,
         )
-    return rows
+        found.setdefault(_titled(titles, row), []).append((INTERFACE_NAME[Interface(row["interface"])], cells))
+    return [Body(title, tuple(rows)) for title, rows in found.items()]
 
 
 CORRELATION_COLUMNS = (
-    "Device", "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings",
-    "Published R²", "Note",
+    "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published R²", "Note",
 )  # fmt: skip
 
 
 def p_value(text: str) -> str:
     r"""A p as it is shown: two digits, or a bound.
 
-    >>> p_value("1.9e-06"), p_value("0.0493")
-    ('<\xa00.001', '0.049')
+    >>> p_value("1.9e-06"), p_value("0.0493"), p_value("0.199")
+    ('<\xa00.001', '0.049', '0.20')
     """
     p = float(text)
-    return f"{p:.2g}" if p >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
+    return f"{p:#.2g}" if p >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
 
 
 def _titled(titles: Mapping[str, str], row: Row) -> str:
