@@ -255,7 +255,7 @@ def _followed(
 
 
 def _through(places: FloatArray, values: FloatArray, place: float) -> FloatArray:
-    """Lagrange's polynomial through values (k, n, 2) at some places (k,), at a place; to import scipy.interpolate for it
+    """Lagrange's polynomial through values (k, n, 2) at some places (k,), at a place. Importing scipy.interpolate for it
     would take each job longer than all else that it does with it.
     """
     others = ~np.eye(places.size, dtype=bool)
