@@ -255,8 +255,8 @@ def _followed(
 
 
 def _through(places: FloatArray, values: FloatArray, place: float) -> FloatArray:
-    """Lagrange's polynomial through values (k, n, 2) at some places (k,), at a place. Importing scipy.interpolate for it
-    would take each job longer than all else that it does with it.
+    """Lagrange's polynomial through values (k, n, 2) at some places (k,), at a place. Importing scipy.interpolate for
+    it would take each job longer than all else that it does with it.
     """
     others = ~np.eye(places.size, dtype=bool)
     weights = [np.prod((place - places[each]) / (own - places[each])) for own, each in zip(places, others, strict=True)]
