@@ -410,15 +410,14 @@ def _newton_equations(
     forces[: slip.size] -= trial.slope[slip, None] * response.take(pressing, 0)
     transposed = forces.take(unknown, 1)
     right = -force[unknown]
-    if problem.friction > 0.0 or problem.turning:  # T + z mu N in terms of f_x and f_y
+    if problem.friction > 0.0 or problem.turning:  # T + z mu N in terms of f_x and f_y, times sqrt(1 + tilted^2)
         drag, tilted = SLIP_SIGN[status[slip]] * problem.friction, trial.tilted[slip]
-        shorter = 1.0 / np.sqrt(1.0 + tilted**2)
-        along, across = shorter * (1.0 + drag * tilted), shorter * (drag - tilted)
+        along, across = 1.0 + drag * tilted, drag - tilted
         transposed[:, : slip.size] *= along
         transposed[:, : slip.size] += across * forces.take(pressing, 1)
         right[: slip.size] = -along * force[slip] - across * force[pressing]
         if problem.turning:
-            turned = shorter * bend(problem.row, trial.place[slip]) * (drag * force[slip] - force[pressing])
+            turned = bend(problem.row, trial.place[slip]) * (drag * force[slip] - force[pressing])
             transposed[np.arange(slip.size), np.arange(slip.size)] += turned
     return transposed.T, right, unknown
 
