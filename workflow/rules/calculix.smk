@@ -16,6 +16,11 @@ CALCULIX_CASE = {
     "stick_slope": 100.0,
 }
 CALCULIX_FINITE_CASE = CALCULIX_CASE | {"kinematics": "finite", "law": "neo_hookean", "indentation": 1.4}
+CALCULIX_RUBBING_CASE = CALCULIX_FINITE_CASE | {
+    "friction": "always",
+    "indentation_increments": 20,
+    "stimulus_increments": 8,
+}
 
 
 rule calculix:
@@ -50,8 +55,8 @@ rule calculix:
             "finite_neo_hookean": CALCULIX_FINITE_CASE,
             "finite_finer_mesh": CALCULIX_FINITE_CASE | {"coarsening": 2.0},
             "finite_sharp": CALCULIX_FINITE_CASE | {"edges": "sharp", "coarsening": 2.0},
-            "finite_rubbing": CALCULIX_FINITE_CASE
-            | {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8},
+            "finite_rubbing": CALCULIX_RUBBING_CASE,
+            "finite_rubbing_finer_mesh": CALCULIX_RUBBING_CASE | {"coarsening": 2.0},
             "finite_ogden": CALCULIX_FINITE_CASE | {"law": "ogden"},
             # deeper down this law turns tissue inside out
             "finite_green": CALCULIX_FINITE_CASE | {"law": "green", "indentation": 0.8},
