@@ -50,8 +50,7 @@ def deformed_outcome(
     pressed = press(indenting, section, body, Interface.SHEAR, settings.indentation - last)
     finger = pressed_finger(_rubbing(scene, settings.friction_acting), section, body, pressed, Interface.SHEAR)
     # a normal that turned from the stimulus on would move what was pressed without
-    rubbing = settings.friction_indenting > 0.0
-    turning = finger.problem.turning and rubbing
+    turning = finger.problem.turning and settings.friction_indenting > 0.0
     problem = replace(finger.problem, friction=settings.friction_indenting, turning=turning)
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(pressed.section, settings)))

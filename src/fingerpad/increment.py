@@ -461,8 +461,7 @@ def _obeying(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> _Tri
     pressing = np.where(status == OPEN, 0.0, trial.pressing)
     shearing = np.where(status > STICK, -SLIP_SIGN[status] * problem.friction * pressing, trial.shearing)
     shearing = np.where(status == OPEN, 0.0, shearing)
-    shorter = 1.0 / np.sqrt(1.0 + trial.tilted**2)
-    along, across = shorter * (shearing + trial.tilted * pressing), shorter * (pressing - trial.tilted * shearing)
+    across, along = resolved(np.stack([shearing, pressing], axis=1), -trial.tilted)  # turned back
     return replace(trial, force=np.concatenate([along, across]), pressing=pressing, shearing=shearing)
 
 
