@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_triangular
-from scipy.sparse import csc_matrix, csr_matrix, diags_array
+from scipy.sparse import csc_matrix, csr_matrix, diags_array, hstack
 from scipy.sparse.linalg import SuperLU, splu
 from threadpoolctl import threadpool_limits
 
@@ -86,20 +86,52 @@ def condense_parts(
 ) -> CondensedSection:
     """`condense_section` of tissue with any stiffness. Raises CondensationError."""
     points, strain = receptor_strain(section, scene)
-    halved = len(parts.loads) > 1
-    columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
-    rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
-    read = strain[VOIGT * np.count_nonzero(rows.side < 0) :] if halved else strain
-    maps = [
-        condense(matrix, parts.dofs, held, loads, read) for held, loads in zip(parts.held, parts.loads, strict=True)
-    ]
-    compliance, strain_map, _ = maps[0]
-    if halved:
-        compliance = unfold(maps[0][0], maps[1][0], columns, columns)
-        strain_map = unfold(maps[0][1], maps[1][1], rows, columns)
-    residual = max(each[2] for each in maps)
+    if len(parts.loads) > 1:
+        columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
+        rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
+        read = strain[VOIGT * np.count_nonzero(rows.side < 0) :]
+        together, against, residual = _condensed_halves(matrix, parts, read)
+        compliance = unfold(together[0], against[0], columns, columns)
+        strain_map = unfold(together[1], against[1], rows, columns)
+    else:
+        compliance, strain_map, residual = condense(matrix, parts.dofs, parts.held[0], parts.loads[0], strain)
     arc = arc_length(points)
     return CondensedSection(tractions.position, tractions.weight, compliance, points, arc, strain_map, residual)
+
+
+def _condensed_halves(
+    matrix: csc_matrix, parts: Parts, read: csr_matrix
+) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray], float]:
+    """Compliance and strain map under loads that mirror, the same under those that mirror with the opposite sign, and
+    the larger residual. Raises CondensationError.
+
+    One factorisation serves both: what the mid-line is held by are forces that take back its displacement,
+        C = C_LL - C_LH C_HH^-1 C_HL,
+    L: the loads, H: unit forces on the components that are held, as few as the mid-line has nodes.
+    """
+    mirrored, opposite = parts.loads
+    still = np.intersect1d(parts.held[0], parts.held[1])
+    axes = [unit_forces(np.setdiff1d(held, still), matrix.shape[0]) for held in parts.held]
+    across = np.flatnonzero(abs(mirrored - opposite).sum(axis=0))  # loads that reach over the mid-line
+    all_loads = csc_matrix(hstack([mirrored, opposite[:, across], *axes]))
+    compliance, strain_map, residual = condense(matrix, parts.dofs, still, all_loads, read)
+
+    ends = np.cumsum([mirrored.shape[1], across.size, *(axis.shape[1] for axis in axes)])
+    first = np.arange(ends[0])
+    second = first.copy()
+    second[across] = np.arange(ends[0], ends[1])
+    together = _holding(compliance, strain_map, first, np.arange(ends[1], ends[2]))
+    against = _holding(compliance, strain_map, second, np.arange(ends[2], ends[3]))
+    return together, against, residual
+
+
+def _holding(
+    compliance: FloatArray, strain: FloatArray, loads: np.ndarray, held: np.ndarray
+) -> tuple[FloatArray, FloatArray]:
+    """Maps of some loads (k,) while forces that belong to other columns (h,) keep their own displacements at zero."""
+    reaction = np.linalg.solve(compliance[np.ix_(held, held)], compliance[np.ix_(held, loads)])
+    left = compliance[np.ix_(loads, loads)] - compliance[np.ix_(loads, held)] @ reaction
+    return (left + left.T) / 2.0, strain[:, loads] - strain[:, held] @ reaction
 
 
 @dataclass(frozen=True)
@@ -214,7 +246,11 @@ def condense_body(scene: Scene) -> CondensedBody:
 
 def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:
     """Unit forces on both unknowns of some nodes (n,): a matrix (size, 2n) for `condense`."""
-    unknowns = dofs[:, nodes].T.ravel()
+    return unit_forces(dofs[:, nodes].T.ravel(), size)
+
+
+def unit_forces(unknowns: np.ndarray, size: int) -> csc_matrix:
+    """Unit forces on some unknowns (k,) of `size`: a matrix (size, k) for `condense`."""
     return csc_matrix((np.ones(unknowns.size), (unknowns, np.arange(unknowns.size))), shape=(size, unknowns.size))
 
 

@@ -129,8 +129,10 @@ def resolved(force: FloatArray, tilted: FloatArray) -> tuple[FloatArray, FloatAr
     """Pressing and shearing forces (n,) [N/mm] of forces (n, 2) on the skin, across and along directions of a slope
     (n,) [1].
     """
-    shorter = 1.0 / np.sqrt(1.0 + tilted**2)
     along, across = force.T
+    if not tilted.any():
+        return across, along
+    shorter = 1.0 / np.sqrt(1.0 + tilted**2)
     return shorter * (across + tilted * along), shorter * (along - tilted * across)
 
 

@@ -49,6 +49,10 @@ class SnapError(ContactError):
     """Tissue has no stable state near: it would snap to one far away, or two ways branch off."""
 
 
+class EllipticityError(ContactError):
+    """The tissue's law softens so much that strain gathers in bands as thin as the mesh: no answer is the law's own."""
+
+
 class CrossingError(ContactError):
     """The deformed skin crosses itself: it would touch itself, which contact does not know."""
 

@@ -69,7 +69,7 @@ class NotConvergedError(Exception):
 @dataclass(frozen=True)
 class Patch:
     """Contact nodes (b,) by ascending index, and the forces (2b, 2b) [N/mm per mm] that unit displacements of skin and
-    faces between them take: one displacement a row (K transposed), ordered x0, x1, ..., y0, y1, ...
+    faces between them take: one displacement a row, ordered x0, x1, ..., y0, y1, ...
     """
 
     nodes: np.ndarray
@@ -292,7 +292,7 @@ def _patch(problem: ContactProblem, nodes: np.ndarray, there: Touch | None) -> P
     held = np.flatnonzero(np.diag(compliance) == 0.0)
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     try:
-        return Patch(nodes, _inverse(compliance.T))
+        return Patch(nodes, _inverse(compliance))
     except np.linalg.LinAlgError:
         raise NotConvergedError(float("inf")) from None
 
@@ -304,14 +304,17 @@ def _rounding(problem: ContactProblem, patch: Patch, origin: FloatArray, gap_sca
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:
-    """Inverse of a matrix (n, n) whose halves are regular, by halves: in two thirds of the time."""
+    """Inverse of a symmetric matrix (n, n) whose halves are regular, by halves: in half of the time."""
     half = matrix.shape[0] // 2
-    right, below = matrix[:half, half:], matrix[half:, :half]
+    right = matrix[:half, half:]
     first = np.linalg.inv(matrix[:half, :half])
     carried = first @ right
-    second = np.linalg.inv(matrix[half:, half:] - below @ carried)
-    back = -second @ (below @ first)
-    return np.block([[first - carried @ back, -carried @ second], [back, second]])
+    inverse = np.empty_like(matrix)
+    inverse[half:, half:] = np.linalg.inv(matrix[half:, half:] - right.T @ carried)
+    inverse[:half, half:] = -carried @ inverse[half:, half:]
+    inverse[half:, :half] = inverse[:half, half:].T
+    inverse[:half, :half] = first - inverse[:half, half:] @ carried.T
+    return inverse
 
 
 def _settle(

@@ -40,6 +40,7 @@ from .deformed import (
     undeformed,
 )
 from .elasticity import displacement_basis
+from .ellipticity import require_elliptic
 from .force_curve import curve_of, recording
 from .hyperelasticity import tissue_of
 from .indentation import raise_until
@@ -79,7 +80,8 @@ def press(
     height: float | None = None,
 ) -> Pressed:
     """Raise the actuators until the criterion holds, or to a given height of their faces above the undeformed pad's
-    lowest point [mm], and condense the contact nodes about that state.
+    lowest point [mm], and condense the contact nodes about that state. At a given height nobody asks whether tissue is
+    still elliptic: programs are compared there, on one mesh.
 
     Raises MeshError, CondensationError, and ContactError, naming device and interface, if the path cannot be followed.
     """
@@ -96,7 +98,8 @@ def press(
 
     def note(state: DeformedState) -> None:
         states.append(state)
-        require_uncrossed(skin, state.displacement, f"with the faces at {state.actuator[0, 1]:.4g} mm")
+        when = f"in increment {len(states)} of the tissue, with the faces at {state.actuator[0, 1]:.4g} mm"
+        require_uncrossed(skin, state.displacement, when)
 
     with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
         start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
@@ -105,6 +108,7 @@ def press(
         if height is None:
             criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
             reached = raise_until(pressing, criterion, count, limit, start, solve)
+            require_elliptic(spans[0].elements, reached.displacement)
         else:
             target = np.full_like(start.actuator, height) * [0.0, 1.0]
             reached, _ = advance(pressing, start, target, count, None, solve)
@@ -127,7 +131,7 @@ def press(
         bare.receptor,
         bare.arc,
         np.empty((0, 2 * free.size)),
-        max(each.residual for each in tangents),
+        max(*reached.changes[-1:], *(each.residual for each in tangents)),
     )
     curve = curve_of(states, touch) * np.array([1.0, 2.0 if mirrored else 1.0])
     return Pressed(condensed, free, state, displacement, curve, reached.tangents)

@@ -1,7 +1,7 @@
 # How far the library is off closed forms: contact, partial slip, layers, near incompressibility, orders of convergence.
-# And how far scores are off a reference of 20 times the unknowns (4 times for finite kinematics of one device), and
+# And how far scores are off a reference of 20 times the unknowns (with finite kinematics those of one device), and
 # whether their stated errors are honest.
-# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (a quarter of an hour, 5 GB).
+# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (half an hour, 7 GB).
 # REQUIRED INPUTS: scene files, results/scores.csv.
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms.{png,pdf}, results/accuracy/scores.csv
 
@@ -45,8 +45,8 @@ rule reference:
     conda:
         ENVIRONMENT
     resources:
-        mem_mb=6000,
-        runtime=30,
+        mem_mb=8000,
+        runtime=60,
     params:
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
     script:

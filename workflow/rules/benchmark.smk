@@ -81,7 +81,7 @@ rule benchmark_ladder:
         kinematics=KINEMATICS,
         factors={
             "small": {
-                "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5],
+                "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.25, 1.0, 0.7, 0.5],
                 "plain": [6.0, 4.0, 3.0, 2.0],
                 "calculix": [8.0, 5.6, 4.0, 2.8, 2.0],
             },

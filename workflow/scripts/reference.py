@@ -13,7 +13,7 @@ from fingerpad.store import write_rows
 def main(config: Path, device: Path, kinematics: Kinematics, scores: Path) -> None:
     """Read the scene, find its edges, solve all its conditions finely, write their scores."""
     scene = load_scene(config, device, kinematics)
-    write_rows(scores, rows_at(scene, 1.0 / REFINEMENT[kinematics], edge_intervals(scene)))
+    write_rows(scores, rows_at(scene, 1.0 / REFINEMENT, edge_intervals(scene)))
 
 
 if __name__ == "__main__":
