@@ -28,6 +28,7 @@ from fingerpad.scene import (
     FloatArray,
     Interface,
     Kinematics,
+    Law,
     Layer,
     Material,
     Scene,
@@ -43,7 +44,8 @@ SHELL = 0.8  # mm thick
 def arch(width: float, nail: float) -> Scene:
     """A stiff shell, held by the nail at its ends, over soft tissue on a small bone, and one cylinder beneath.
 
-    A pressed arch carries less and less, while what it encloses resists more and more: with this contrast both meet.
+    A pressed arch carries less and less, while what it encloses resists more and more: with this contrast and this law
+    both meet.
     """
     base = scene("device2").with_kinematics(Kinematics.FINITE)
     pad = (Layer("shell", SHELL, Material(10.0, 0.3)), Layer("soft", 8.0 - SHELL, Material(10.0 / CONTRAST, 0.0)))
@@ -54,6 +56,7 @@ def arch(width: float, nail: float) -> Scene:
         finger=Finger(width, 12.0, 3.0, nail, pad, dorsal),
         readout=replace(base.model.readout, layer_above="shell"),
         vibration=STILL,
+        tissue=replace(base.model.tissue, law=Law.HENCKY),
         numerics=replace(base.model.numerics, **sizes, indentation_increments=48, max_cuts=2),
     )
     still = Condition("still", "test", 0.0, np.array([1.0]), np.zeros((1, 1)), np.zeros((1, 1)))
