@@ -7,13 +7,13 @@ up where undeformed skin lies over them. A coarse solution of all conditions fin
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from .condensation import body_of, condense_section
 from .contact import ContactProblem, ContactState
-from .deformed_solution import deformed_moves, pressed_finger
 from .errors import ContactError
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
@@ -48,9 +48,8 @@ def edge_intervals(scene: Scene) -> FloatArray:
     """
     nominal = nominal_edges(scene.device.actuators)
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
-    states = _small_states if scene.kinematics is Kinematics.SMALL else _finite_states
     try:
-        found = [_under_edges(*each) for each in states(scene, wide)]
+        found = [_under_edges(*each) for each in _states(scene, wide)]
     except ContactError:
         return wide
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
@@ -58,29 +57,31 @@ def edge_intervals(scene: Scene) -> FloatArray:
     return _joined(np.concatenate([both, -both[:, ::-1]]))
 
 
-def _small_states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState]]:
+def _states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState]]:
     """States of all conditions on a coarse mesh. Raises ContactError."""
     coarse = scene.coarsened(COARSER)
-    section, body = condense_section(mesh_section(coarse, edges), coarse), body_of(coarse)
-    for interface in scene.device.interfaces():
-        problem = contact_problem(coarse, section, body, interface)
-        before = indented_state(coarse, problem)
+    for problem, before in _pressed_states(coarse, mesh_section(coarse, edges)):
         yield problem, before
         for condition in _distinct(scene):
             for state in follow_condition(coarse, problem, before, condition):
                 yield problem, state
 
 
-def _finite_states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState]]:
-    """The same of tissue that deforms much. Raises ContactError."""
-    coarse = scene.coarsened(COARSER)
-    section, body = mesh_section(coarse, edges), body_of(coarse)
-    for interface in scene.device.interfaces():
-        pressed = press(coarse, section, body, interface)
-        finger = pressed_finger(coarse, section, body, pressed, interface)
-        for condition in _distinct(scene):
-            for move in deformed_moves(coarse, finger, condition):
-                yield finger.problem, move.state
+def _pressed_states(scene: Scene, section: SectionMesh) -> Iterator[tuple[ContactProblem, ContactState]]:
+    """The pre-indented state at each interface, and the problem for stimuli from there: with finite kinematics on
+    tissue linearised about that state, as they move it little. Raises ContactError.
+    """
+    body = body_of(scene)
+    if scene.kinematics is Kinematics.SMALL:
+        condensed = condense_section(section, scene)
+        for interface in scene.device.interfaces():
+            problem = contact_problem(scene, condensed, body, interface)
+            yield problem, indented_state(scene, problem)
+    else:
+        for interface in scene.device.interfaces():
+            pressed = press(scene, section, body, interface)
+            problem = contact_problem(scene, pressed.section, body, interface)
+            yield replace(problem, free=pressed.free), pressed.state
 
 
 def _distinct(scene: Scene) -> list[Condition]:
