@@ -103,7 +103,7 @@ def _condensed_halves(
     matrix: csc_matrix, parts: Parts, read: csr_matrix
 ) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray], float]:
     """Compliance and strain map under loads that mirror, the same under those that mirror with the opposite sign, and
-    the larger residual. Raises CondensationError.
+    the residual. Raises CondensationError.
 
     One factorisation serves both: what the mid-line is held by are forces that take back its displacement,
         C = C_LL - C_LH C_HH^-1 C_HL,
@@ -128,8 +128,13 @@ def _condensed_halves(
 def _holding(
     compliance: FloatArray, strain: FloatArray, loads: np.ndarray, held: np.ndarray
 ) -> tuple[FloatArray, FloatArray]:
-    """Maps of some loads (k,) while forces that belong to other columns (h,) keep their own displacements at zero."""
-    reaction = np.linalg.solve(compliance[np.ix_(held, held)], compliance[np.ix_(held, loads)])
+    """Maps of some loads (k,) while forces that belong to other columns (h,) keep their own displacements at zero.
+    Raises CondensationError.
+    """
+    try:
+        reaction = np.linalg.solve(compliance[np.ix_(held, held)], compliance[np.ix_(held, loads)])
+    except np.linalg.LinAlgError:
+        raise CondensationError("nothing holds the section's halves apart but its mid-line") from None
     left = compliance[np.ix_(loads, loads)] - compliance[np.ix_(loads, held)] @ reaction
     return (left + left.T) / 2.0, strain[:, loads] - strain[:, held] @ reaction
 
