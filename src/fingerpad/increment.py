@@ -304,7 +304,7 @@ def _rounding(problem: ContactProblem, patch: Patch, origin: FloatArray, gap_sca
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:
-    """Inverse of a symmetric matrix (n, n) whose halves are regular, by halves: in half of the time."""
+    """Inverse of a symmetric matrix (n, n) whose halves are regular, by halves: in 0.5 to 0.9 of the time."""
     half = matrix.shape[0] // 2
     right = matrix[:half, half:]
     first = np.linalg.inv(matrix[:half, :half])

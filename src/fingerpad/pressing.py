@@ -58,7 +58,8 @@ NONE = np.empty((0, 0))  # the compliance that contact on undeformed tissue woul
 class Pressed:
     """A device pressed onto the finger.
 
-    section: condensed about that state; without a strain map, as strain follows from displacements. free: (n, 2)
+    section: condensed about that state; without a strain map, as strain follows from displacements; its residual is the
+    factorisation's, or what the tissue had left to move, over the load, whichever is larger. free: (n, 2)
     displacement that contact nodes would have without contact forces, had the tangent held all the way [mm]. state: of
     all contact nodes. displacement: (2, n_nodes) of the section [mm]. curve: (k, 2) heights above first touch [mm] and
     pressing forces [N/mm] on the way. tangents: condensed on the way.
