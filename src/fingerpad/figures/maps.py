@@ -130,7 +130,7 @@ def strain_map_figure(
         figure,
         [
             Line2D([], [], color=BLUE, label="contact pressure"),
-            Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, along x"),
+            Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, towards +x"),
         ],
         CAPTION.format(counted=counted(conditions), kinematics=KINEMATICS_NAME[scene.kinematics]),
     )
