@@ -44,7 +44,8 @@ def test_what_has_no_score_has_no_error() -> None:
 
 def test_true_errors_stand_beside_stated_ones() -> None:
     stated = row("a", "2.0") | {"score_error": "0.1"}
-    (found,) = true_errors([stated, row("a", "", "frictionless")], [row("a", "1.9")])
+    (found,) = true_errors([stated, row("a", "", "frictionless")], [row("a", "1.9") | {"times_unknowns": "20.5"}])
+    assert found["times_unknowns"] == 20.5
     assert found["stated"] == pytest.approx(0.05)
     assert found["error"] == pytest.approx(0.05)
     assert found["error_over_stated"] == pytest.approx(1.0)

@@ -16,7 +16,7 @@ from fingerpad.pressing import press
 from fingerpad.scene import FloatArray, Interface, Kinematics
 from scenes import scene
 
-COARSER = 10.0  # times the shipped sizes and strides
+COARSER = 6.0  # times the shipped sizes and strides
 ROUNDING = 1e-8  # relative, of what a soft mode magnifies
 
 

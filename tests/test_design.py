@@ -88,13 +88,13 @@ def test_up_and_down_is_another_stimulus() -> None:
 def test_errors_that_cannot_be_known_are_said_to_be_unknown() -> None:
     """Where the coarser mesh cannot be followed, a score has no error, and the reason stands beside it. Here all pins
     slide, and nothing but tissue holds the skin sideways: on the coarser mesh that is not enough."""
-    found = answer(press(pad(), 1.8, 1.0, 0.6), 0.05, 180.0, True)
+    found = answer(press(pad(), 1.8, 1.0, 0.8), 0.05, 180.0, True)
     assert "the states of contact have no unique solution; try less friction, less movement" in found.unknown
     assert all(row["score"] > 0.0 and row["score_error"] is None for row in found.rows)
     picture = DesignPicture(4)
     picture.show(found, found)
     assert [text.get_text()[-2:] for axes in picture.figure.axes for text in axes.texts] == ["±?"] * 4
-    known = answer(press(pad(), 1.8, 1.0, 0.6), 0.04, 180.0, True)
+    known = answer(press(pad(), 1.8, 1.0, 0.8), 0.04, 180.0, True)
     assert not known.unknown
     assert all(row["score_error"] > 0.0 for row in known.rows)
 

@@ -34,7 +34,7 @@ CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the 
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one; and on
-    its mirror image. Raises MeshError if they have more than MAX_CONTACT nodes.
+    its mirror image. Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
     """
     row = scene.device.actuators
     stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
@@ -44,6 +44,11 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     within = (distance <= row.width / 2.0 + stroke + CONTACT_MARGIN) & (y < scene.model.finger.height / 2.0)
     out_of_reach = (x == 0.0) & ~within  # without such a node both halves are alike, and one is enough
     near = within[1::2] & ~out_of_reach[:-1:2] & ~out_of_reach[2::2]
+    if not near.any():
+        raise MeshError(
+            f"{scene.device.name}: no element of the skin lies within reach of an actuator; try a smaller"
+            " numerics.face_size"
+        )
     tractions = linear_tractions(section.skin, points, near | near[::-1])
     if tractions.weight.size > MAX_CONTACT:
         raise MeshError(
@@ -82,10 +87,18 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
 
 
 def condense_parts(
-    section: SectionMesh, scene: Scene, tractions: Tractions, parts: Parts, matrix: csc_matrix
+    section: SectionMesh,
+    scene: Scene,
+    tractions: Tractions,
+    parts: Parts,
+    matrix: csc_matrix,
+    nodal: csr_matrix | None = None,
 ) -> CondensedSection:
-    """`condense_section` of tissue with any stiffness. Raises CondensationError."""
+    """`condense_section` of tissue with any stiffness. nodal: (n_unknowns, n_unknowns) displacements of all nodes by
+    the unknowns that parts and matrix are of; None if they are these. Raises CondensationError.
+    """
     points, strain = receptor_strain(section, scene)
+    strain = strain if nodal is None else csr_matrix(strain @ nodal)
     if len(parts.loads) > 1:
         columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
         rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))

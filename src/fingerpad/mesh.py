@@ -43,6 +43,11 @@ class SectionMesh:
     receptor_facets: np.ndarray
     fixed: np.ndarray
 
+    @property
+    def unknowns(self) -> int:
+        """Number of displacement components of all nodes."""
+        return 2 * int(self.mesh.doflocs.shape[1])
+
     def interfaces(self) -> np.ndarray:
         """Facets (k,) between two layers."""
         left, right = self.mesh.f2t

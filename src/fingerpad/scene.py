@@ -466,11 +466,12 @@ class Numerics:
         _require(self.max_cuts >= 0, f"numerics: max_cuts {self.max_cuts} < 0")
 
     def coarsened(self, factor: float) -> Numerics:
-        """Element sizes and load increments `factor` times as large; finer below 1. The edges' zone keeps its width."""
+        """Element sizes, everywhere, and load increments `factor` times as large; finer below 1."""
         return replace(
             self,
             edge_size=factor * self.edge_size,
             face_size=factor * self.face_size,
+            growth=factor * self.growth,
             receptor_size=factor * self.receptor_size,
             largest_size=factor * self.largest_size,
             indentation_increments=max(round(self.indentation_increments / factor), 1),

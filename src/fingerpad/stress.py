@@ -110,7 +110,7 @@ def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
         **asdict(_outcome(number, scene, nodes, result)),
         law=str(scene.model.tissue.law),
         poisson=max(layer.material.poisson for layer in layers),
-        unknowns=2 * int(section.mesh.doflocs.shape[1]) if section else 0,
+        unknowns=section.unknowns if section else 0,
     )
 
 
@@ -124,7 +124,7 @@ def coarse_section(scene: Scene) -> SectionMesh:
         with suppress(MeshError):
             section = mesh_section(scene.coarsened(coarsening), edges)
             few = contact_tractions(section, scene).weight.size <= MOST_DEFORMED_CONTACT
-            if few and 2 * section.mesh.doflocs.shape[1] <= MOST_DEFORMED_UNKNOWNS:
+            if few and section.unknowns <= MOST_DEFORMED_UNKNOWNS:
                 break
     return section or mesh_section(scene.coarsened(COARSENINGS[-1]), edges)
 

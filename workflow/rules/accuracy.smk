@@ -1,7 +1,6 @@
 # How far the library is off closed forms: contact, partial slip, layers, near incompressibility, orders of convergence.
-# And how far scores are off a reference of 20 times the unknowns (with finite kinematics those of one device), and
-# whether their stated errors are honest.
-# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (half an hour, 7 GB).
+# And how far scores are off a reference of 20 times the unknowns, and whether their stated errors are honest.
+# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (some hours, 10 GB).
 # REQUIRED INPUTS: scene files, results/scores.csv.
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms.{png,pdf}, results/accuracy/scores.csv
 
@@ -17,8 +16,7 @@ rule accuracy:
 rule honesty:
     input:
         scores="results/scores.csv",
-        references=[f"results/small/{name}/reference.csv" for name in DEVICES]
-        + [f"results/finite/{name}/reference.csv" for name in DEFORMED_DEVICES],
+        references=[f"results/{kinematics}/{name}/reference.csv" for kinematics in KINEMATICS for name in DEVICES],
         code=code("honesty.py"),
     output:
         table="results/accuracy/scores.csv",

@@ -82,10 +82,11 @@ rule benchmark_ladder:
         factors={
             "small": {
                 "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.25, 1.0, 0.7, 0.5],
+                "first_order": [4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5],
                 "plain": [6.0, 4.0, 3.0, 2.0],
                 "calculix": [8.0, 5.6, 4.0, 2.8, 2.0],
             },
-            "finite": {"fingerpad": [6.0, 4.0, 2.0, 1.0], "plain": [], "calculix": [8.0, 4.0, 2.0]},
+            "finite": {"fingerpad": [6.0, 4.0, 2.0, 1.0], "first_order": [], "plain": [], "calculix": [8.0, 4.0, 2.0]},
         },
         cases={"small": CALCULIX_CASE, "finite": CALCULIX_FINITE_CASE},
         limit=1800,

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
-from fingerpad.benchmark.ladder import own_ladder, plain_ladder
+from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
 from fingerpad.calculix import installed
 from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
@@ -31,6 +31,8 @@ def main(
         scene, climbed = load_scene(config, device, kinematics), factors[kinematics]
         asked, wanted = scene.device.condition(condition), read_rows(reference)
         rows += own_ladder(scene, asked, climbed["fingerpad"], wanted, repeats[kinematics])
+        if climbed["first_order"]:
+            rows += first_order_ladder(scene, asked, climbed["first_order"], wanted, repeats[kinematics])
         if climbed["plain"]:
             rows += plain_ladder(scene, asked, climbed["plain"], wanted)
         decks = folder / kinematics

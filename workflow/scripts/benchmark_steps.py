@@ -59,7 +59,7 @@ def main(config: Path, devices: list[Path], finite: list[Path], repeats: dict[st
                     "kinematics": str(scene.kinematics),
                     "device": scene.device.name,
                     "step": step,
-                    "unknowns": 2 * section.mesh.doflocs.shape[1],
+                    "unknowns": section.unknowns,
                     "contact_nodes": contact_tractions(section, scene).weight.size,
                     "n": repeats[scene.kinematics],
                     "median_s": round(statistics.median(seconds), 4),

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.accuracy import REFINEMENT
 from fingerpad.edges import edge_intervals
+from fingerpad.mesh import mesh_section
 from fingerpad.prediction import rows_at
 from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
@@ -13,7 +14,10 @@ from fingerpad.store import write_rows
 def main(config: Path, device: Path, kinematics: Kinematics, scores: Path) -> None:
     """Read the scene, find its edges, solve all its conditions finely, write their scores."""
     scene = load_scene(config, device, kinematics)
-    write_rows(scores, rows_at(scene, 1.0 / REFINEMENT, edge_intervals(scene)))
+    edges = edge_intervals(scene)
+    own, finer = (mesh_section(scene.coarsened(each), edges).unknowns for each in (1.0, 1.0 / REFINEMENT))
+    rows = rows_at(scene, 1.0 / REFINEMENT, edges)
+    write_rows(scores, [row | {"times_unknowns": f"{finer / own:.2f}"} for row in rows])
 
 
 if __name__ == "__main__":

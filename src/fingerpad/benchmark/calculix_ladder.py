@@ -35,7 +35,7 @@ def calculix_ladder(
                 "kinematics": case["kinematics"],
                 "solver": "CalculiX",
                 "coarsening": factor,
-                "unknowns": 2 * int(section.mesh.doflocs.shape[1]),
+                "unknowns": section.unknowns,
                 "cold_s": round(seconds, 1),
                 "warm_s": round(seconds, 1),
                 "stimulus_s": round(seconds, 1),

@@ -106,7 +106,7 @@ def _measured(varied: str, scene: Scene, repeats: int) -> Row:
     numerics = scene.model.numerics
     return {
         "varied": varied,
-        "unknowns": 2 * int(section.mesh.doflocs.shape[1]),
+        "unknowns": section.unknowns,
         "contact_nodes": condensed.section.position.shape[0],
         "actuators": len(scene.device.actuators.positions),
         "increments": numerics.indentation_increments + numerics.stimulus_increments,

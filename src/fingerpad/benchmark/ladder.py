@@ -1,4 +1,6 @@
-"""Run time against error: one condition, with shear, on a ladder of meshes, by fingerpad and by a plain solver."""
+"""Run time against error: one condition, with shear, on a ladder of meshes, by fingerpad, by the same with first-order
+elements, and by a plain solver.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,12 @@ from ..prediction import Condensed, Meshed, condense_scene, prepared, pressed_de
 from ..roughness import score_rows
 from ..scene import Condition, Interface, Kinematics, Readout, Scene
 from ..solution import Solution, increments, indent_device
+from .first_order import condense_first_order
 from .plain import plain_scores
 from .timing import fewest, peak_memory
 
 Row = dict[str, Any]
-OWN_LADDER, PLAIN_LADDER = "fingerpad", "factorised anew"
+OWN_LADDER, FIRST_ORDER_LADDER, PLAIN_LADDER = "fingerpad", "first-order elements", "factorised anew"
 PATH = 1.8  # ways from first touch to the outermost face [1] that pre-indentation takes; source: devices (measured)
 
 
@@ -29,14 +32,18 @@ def own_ladder(
     (warm) and of a further stimulus on the pressed finger; errors of the scores against the reference's.
     """
     for factor in factors:
-        other = scene.coarsened(factor)
-        condensed, cold = fewest(repeats, partial(_prepared, other))
-        solve, pressing = fewest(repeats, partial(pressed_device, other, condensed, Interface.SHEAR))
-        found, stimulating = fewest(repeats, partial(_scores, other, condensed, solve, condition))
-        seconds = cold + pressing + stimulating, pressing + stimulating, stimulating
-        section = mesh_section(other, edge_intervals(other))
-        nodes = contact_tractions(section, other).weight.size
-        yield _row(scene.kinematics, OWN_LADDER, factor, section, nodes, seconds, _errors(found, reference))
+        found, seconds, section, nodes = _climbed(scene.coarsened(factor), condition, _prepared, repeats)
+        yield _row(scene.kinematics, OWN_LADDER, factor, section.unknowns, nodes, seconds, _errors(found, reference))
+
+
+def first_order_ladder(
+    scene: Scene, condition: Condition, factors: Sequence[float], reference: Sequence[Mapping[str, Any]], repeats: int
+) -> Iterator[Row]:
+    """The same with first-order elements; small kinematics."""
+    for factor in factors:
+        found, seconds, section, nodes = _climbed(scene.coarsened(factor), condition, _prepared_first_order, repeats)
+        unknowns = 2 * int(section.mesh.nvertices)
+        yield _row(scene.kinematics, FIRST_ORDER_LADDER, factor, unknowns, nodes, seconds, _errors(found, reference))
 
 
 def plain_ladder(
@@ -57,11 +64,27 @@ def plain_ladder(
         section = mesh_section(other, edges)
         (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, depth, counts))
         seconds, nodes = (cold, cold, cold), last.position.shape[0]
-        yield _row(scene.kinematics, PLAIN_LADDER, factor, section, nodes, seconds, _errors(found, reference))
+        yield _row(scene.kinematics, PLAIN_LADDER, factor, section.unknowns, nodes, seconds, _errors(found, reference))
+
+
+def _climbed(
+    scene: Scene, condition: Condition, prepare: Callable[[Scene], Condensed | Meshed], repeats: int
+) -> tuple[list[Row], tuple[float, float, float], SectionMesh, int]:
+    """Score rows of one rung; cold, warm and stimulus' seconds; its mesh and contact nodes."""
+    condensed, cold = fewest(repeats, partial(prepare, scene))
+    solve, pressing = fewest(repeats, partial(pressed_device, scene, condensed, Interface.SHEAR))
+    found, stimulating = fewest(repeats, partial(_scores, scene, condensed, solve, condition))
+    section = mesh_section(scene, edge_intervals(scene))
+    seconds = cold + pressing + stimulating, pressing + stimulating, stimulating
+    return found, seconds, section, contact_tractions(section, scene).weight.size
 
 
 def _prepared(scene: Scene) -> Condensed | Meshed:
     return prepared(scene, edge_intervals(scene))
+
+
+def _prepared_first_order(scene: Scene) -> Condensed:
+    return condense_first_order(scene, mesh_section(scene, edge_intervals(scene)))
 
 
 def _scores(
@@ -82,7 +105,7 @@ def _row(
     kinematics: Kinematics,
     solver: str,
     factor: float,
-    section: SectionMesh,
+    unknowns: int,
     contact_nodes: int,
     seconds: tuple[float, float, float],
     errors: Mapping[str, float],
@@ -92,7 +115,7 @@ def _row(
         "kinematics": str(kinematics),
         "solver": solver,
         "coarsening": factor,
-        "unknowns": 2 * int(section.mesh.doflocs.shape[1]),
+        "unknowns": unknowns,
         "contact_nodes": contact_nodes,
         "cold_s": round(cold, 4),
         "warm_s": round(warm, 4),

@@ -31,6 +31,7 @@ AIM = 0.01  # error [1] at which solvers are compared
 LADDERS = (  # solver, column, label, colour, marker
     ("CalculiX", "cold_s", "CalculiX", BLACK, "D"),
     ("factorised anew", "cold_s", "factorised anew for every increment", GREY, "^"),
+    ("first-order elements", "cold_s", "first-order elements, from scene to score", VERMILLION, "P"),
     ("fingerpad", "cold_s", "fingerpad, from scene to score", BLUE, "o"),
     ("fingerpad", "warm_s", "fingerpad, a further condition", ORANGE, "s"),
     ("fingerpad", "stimulus_s", "fingerpad, a further stimulus", GREEN, "v"),
