@@ -42,6 +42,15 @@ def test_what_has_no_score_has_no_error() -> None:
     assert found[1]["score_error"] is None
 
 
+def test_a_coarser_solution_that_cannot_be_had_leaves_errors_unknown() -> None:
+    """The score stays, the note says why, and the errors of others do not count it."""
+    lost = row("a", None) | {"note": "error unknown: lost"}
+    first, second = with_errors([row("a", "1.0") | {"note": ""}, row("b", "2.0")], [lost, row("b", "2.1")])
+    assert (first["score"], first["score_error"], first["note"]) == ("1.0", None, "error unknown: lost")
+    assert second["score_error"] == pytest.approx(0.1)
+    assert not true_errors([first], [row("a", "1.0") | {"times_unknowns": "20"}])
+
+
 def test_true_errors_stand_beside_stated_ones() -> None:
     stated = row("a", "2.0") | {"score_error": "0.1"}
     (found,) = true_errors([stated, row("a", "", "frictionless")], [row("a", "1.9") | {"times_unknowns": "20.5"}])

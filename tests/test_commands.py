@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import meshio
+import numpy as np
 import pytest
 import yaml
 
@@ -195,6 +196,23 @@ def test_forecast_calls_its_step_as_often_as_it_says() -> None:
         rows = forecast(scene("device3"), error, lambda counter=calls: counter.append(None))
         assert len(calls) == steps(scene("device3"), error)
         assert all((row["score_error"] is not None) == (error and row["score"] is not None) for row in rows)
+
+
+def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
+    """Much friction on narrow gaps: on the coarser mesh contact loses its way. A caveat says so, in the table too."""
+    base = scene("device2")
+    moved = base.device.condition("alternate_180")
+    moved = replace(moved, tangential=moved.tangential * 0.08 / np.abs(moved.tangential).max())
+    row = replace(base.device.actuators, positions=(-2.1, -0.7, 0.7, 2.1))
+    contact = replace(base.model.contact, friction=1.5)
+    device = replace(base.device, actuators=row, conditions=(moved,))
+    given = replace(base, device=device, model=replace(base.model, contact=contact))
+    shear = [row for row in forecast(given) if row["interface"] == "shear"]
+    assert all(row["score"] > 0.0 and row["score_error"] is None for row in shear)
+    (caveat,) = {caveat for row in shear for caveat in row["caveats"]}
+    assert caveat.startswith("error unknown: on a mesh of twice the sizes, device=device2, condition=alternate_180")
+    said = f"caveat: alternate_180 (shear, strain), alternate_180 (shear, change_of_strain): {caveat}"
+    assert said in predicting.as_table(given, shear)
 
 
 @pytest.mark.workflow

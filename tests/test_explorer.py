@@ -38,7 +38,7 @@ def test_sliders_hold_where_they_start(explorer: Explorer) -> None:
 @pytest.mark.parametrize("name", list(LIMITS))
 def test_each_slider_draws_anew(explorer: Explorer, name: str) -> None:
     before = bytes(explorer.picture.value)
-    explorer.sliders[name].value = (START[name] + LIMITS[name][0]) / 2.0
+    explorer.sliders[name].value = (2.0 * START[name] + LIMITS[name][0]) / 3.0
     assert bytes(explorer.picture.value).startswith(PNG)
     assert bytes(explorer.picture.value) != before
     assert not explorer.message.value

@@ -24,7 +24,7 @@ from fingerpad.solution import Indented, indent_device
 from fingerpad.viscoelasticity import retardation_times, stiffening
 from scenes import scene
 
-COARSER = 5.0  # times the shipped sizes: physics holds on any mesh
+COARSER = 3.0  # times the shipped sizes: physics holds on any mesh
 SMALL = 1e-6  # mm: too little for contact to change
 DEEP = ("dermis", "subcutaneous_tissue")  # layers under the stiff shell
 BOTH = [Interface.SHEAR, Interface.FRICTIONLESS]

@@ -22,25 +22,29 @@ GROUP = ("kinematics", "device", "readout")
 
 
 def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of the score table with `score_error` behind `score`, in the same unit; None where there is no score.
+    """Rows of the score table with `score_error` behind `score`, in the same unit; None where there is no score, or
+    none of the coarser solution, whose note then says why.
 
-    coarser: rows of the coarser solution. Raises KeyError if it lacks a score.
+    coarser: rows of the coarser solution. Raises KeyError if it lacks one.
     """
-    second = {_of(row, CASE): float(row["score"]) for row in coarser}
-    difference = {
-        _of(row, CASE): abs(second[_of(row, CASE)] - float(row["score"])) for row in scores if _is_scored(row)
-    }
+    second = {_of(row, CASE): row for row in coarser}
+    difference: dict[tuple[str, ...], float] = {}
     relative: dict[tuple[str, ...], list[float]] = {}
-    for row in scores:
-        if _is_scored(row) and float(row["score"]) > 0.0:  # a stimulus that is none changes nothing, on any mesh
-            relative.setdefault(_of(row, GROUP), []).append(difference[_of(row, CASE)] / float(row["score"]))
+    for row in filter(_is_scored, scores):
+        case, score = _of(row, CASE), float(row["score"])
+        if not _is_scored(second[case]):
+            continue
+        difference[case] = abs(float(second[case]["score"]) - score)
+        if score > 0.0:  # a stimulus that is none changes nothing, on any mesh
+            relative.setdefault(_of(row, GROUP), []).append(difference[case] / score)
     table = []
     for row in scores:
-        error = None
-        if _is_scored(row):
+        case = _of(row, CASE)
+        if case in difference:
             least = median(relative.get(_of(row, GROUP), [0.0])) * float(row["score"])
-            error = max(difference[_of(row, CASE)], least)
-        table.append(with_error(row, error))
+            table.append(with_error(row, max(difference[case], least)))
+        else:
+            table.append(with_error(row, None) | ({"note": second[case]["note"]} if _is_scored(row) else {}))
     return table
 
 
@@ -55,15 +59,15 @@ def with_error(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:
 
 
 def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of all scores of the kinematics and devices that a reference has, with the error that they state and the one
-    against the reference, both over the score [1], the ratio of the second to the first, and how many times the
+    """Rows of all scores with an error, of the kinematics and devices that a reference has: the error they state and
+    that against the reference, both over the score [1], the ratio of the second to the first, and how many times the
     unknowns the reference has [1]. Raises KeyError if the reference lacks a score.
     """
     known = {(row["kinematics"], row["device"]): float(row["times_unknowns"]) for row in reference}
     finer = {_of(row, CASE): float(row["score"]) for row in reference}
     table = []
     for row in scores:
-        if _is_scored(row) and (row["kinematics"], row["device"]) in known:
+        if has_error(row) and (row["kinematics"], row["device"]) in known:
             score, stated = float(row["score"]), float(row["score_error"])
             error = score - finer[_of(row, CASE)]
             case = dict(zip(CASE, _of(row, CASE), strict=True))
@@ -71,6 +75,11 @@ def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping
             errors = {"stated": stated / score, "error": error / score, "error_over_stated": ratio}
             table.append(case | errors | {"times_unknowns": known[row["kinematics"], row["device"]]})
     return table
+
+
+def has_error(row: Mapping[str, Any]) -> bool:
+    """Whether a row of the score table, also as text, has a score whose error is known."""
+    return _is_scored(row) and row["score_error"] not in {None, ""}
 
 
 def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:

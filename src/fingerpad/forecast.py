@@ -7,10 +7,10 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from .accuracy import COARSENING, with_error, with_errors
+from .accuracy import with_error, with_errors
 from .caveats import score_caveats, solution_caveats
 from .edges import edge_intervals
-from .prediction import prepared, rows_of, solve_scene
+from .prediction import coarser_rows, prepared, rows_of, solve_scene
 from .roughness import CONSTANT, KEY, unpredicted_rows
 from .scene import FloatArray, Scene
 
@@ -18,7 +18,8 @@ from .scene import FloatArray, Scene
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
 
-    error: whether to solve a second time, more coarsely, for `score_error`; without, that is None. step: called
+    error: whether to solve a second time, more coarsely, for `score_error`; without, or if that cannot be done, as the
+    note then says, that is None. step: called
     after each of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
 
     Raises MeshError, CondensationError, ContactError.
@@ -26,10 +27,11 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
         rows, caveats = _solved_rows(scene, edges, step)
-        coarser = _solved_rows(scene.coarsened(COARSENING), edges, step)[0] if error else []
+        coarser = coarser_rows(scene, edges, step) if error else []
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
     table = with_errors(found, coarser) if error else [with_error(row, None) for row in found]
+    caveats = [own + ([row["note"]] if row["note"] else []) for own, row in zip(caveats, table, strict=False)]
     caveats += [[] for _ in silent]
     return [
         row | {"rank": rank, "caveats": own + close}

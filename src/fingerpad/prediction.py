@@ -7,14 +7,16 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from .accuracy import COARSENING
 from .compliance import CondensedBody, CondensedSection
 from .condensation import arc_length, body_of, condense_section, receptor_strain
 from .deformed_solution import pressed_finger, stimulate_deformed
+from .errors import CondensationError, ContactError, MeshError
 from .gabor import filtered_readouts
 from .mesh import SectionMesh, mesh_section
 from .pressing import press
 from .resampling import resampling_to_grid
-from .roughness import score_rows
+from .roughness import ERROR_UNKNOWN, score_rows, unsolved_rows
 from .scene import Condition, FloatArray, Interface, Kinematics, Scene
 from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
@@ -77,6 +79,23 @@ def rows_at(scene: Scene, coarsening: float, edges: FloatArray) -> list[dict[str
     """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm]."""
     other = scene.coarsened(coarsening)
     return predicted_rows(other, prepared(other, edges))
+
+
+def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
+    """Rows of the score table on sizes and increments COARSENING times as large, for the errors of scores; edges:
+    (k, 2) [mm]. If a coarser solution cannot be had, rows without scores, whose note says why. step: called after
+    condensation and after every condition of every solution.
+    """
+    other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
+    try:
+        condensed = prepared(other, edges)
+        step()
+        for solved in solve_scene(other, condensed):
+            rows += rows_of(other, condensed, solved)
+            step()
+    except (MeshError, CondensationError, ContactError) as error:
+        return unsolved_rows(scene, f"{ERROR_UNKNOWN}: on a mesh of twice the sizes, {error}")
+    return rows
 
 
 def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:

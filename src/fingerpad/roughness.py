@@ -13,6 +13,7 @@ SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
 KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table: what has one score a condition
 CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
 NO_PREDICTION = "no prediction"
+ERROR_UNKNOWN = "error unknown"
 
 
 def score_span(row: ActuatorRow, margin: float) -> tuple[float, float]:
@@ -53,6 +54,16 @@ def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
         _row(scene, condition, interface, readout, None, NO_PREDICTION)
         for condition in scene.device.conditions
         for interface in silent
+        for readout in Readout
+    ]
+
+
+def unsolved_rows(scene: Scene, note: str) -> list[dict[str, Any]]:
+    """Rows, with no score but a note, for all conditions and interfaces at which the device prescribes motion."""
+    return [
+        _row(scene, condition, interface, readout, None, note)
+        for interface in scene.device.interfaces()
+        for condition in scene.device.conditions
         for readout in Readout
     ]
 

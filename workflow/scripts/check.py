@@ -1,10 +1,9 @@
-"""Scores of one device from a coarser mesh and larger load increments."""
+"""Scores of one device from a coarser mesh and larger load increments, if they can be had."""
 
 from pathlib import Path
 
-from fingerpad.accuracy import COARSENING
 from fingerpad.edges import load_edges
-from fingerpad.prediction import rows_at
+from fingerpad.prediction import coarser_rows
 from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
@@ -13,7 +12,7 @@ from fingerpad.store import write_rows
 def main(config: Path, device: Path, kinematics: str, edges: Path, scores: Path) -> None:
     """Read the scene and its edges, solve all its conditions coarsely, write their scores."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    write_rows(scores, rows_at(scene, COARSENING, load_edges(edges)))
+    write_rows(scores, coarser_rows(scene, load_edges(edges)))
 
 
 if __name__ == "__main__":

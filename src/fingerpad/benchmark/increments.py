@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..accuracy import CASE
+from ..accuracy import CASE, has_error
 from ..edges import edge_intervals
 from ..prediction import condense_scene, predicted_rows
 from ..scene import Scene
@@ -21,7 +21,7 @@ def increment_rows(
     stated: rows of the score table.
     """
     condensed = condense_scene(scene, edge_intervals(scene))
-    errors = {_case(row): float(row["score_error"]) / float(row["score"]) for row in stated if row["score"] != ""}
+    errors = {_case(row): float(row["score_error"]) / float(row["score"]) for row in stated if has_error(row)}
     numerics = scene.model.numerics
     first: dict[tuple[str, ...], float] = {}
     for multiple in (1, *multiples):
@@ -36,7 +36,9 @@ def increment_rows(
             first = scores
             continue
         for readout in dict.fromkeys(case[-1] for case in scores):
-            own = [case for case in scores if case[-1] == readout]
+            own = [case for case in errors if case in scores and case[-1] == readout]
+            if not own:
+                continue
             changes = {case: abs(scores[case] / first[case] - 1.0) for case in own}
             ratios = [changes[case] / errors[case] for case in own]
             yield {

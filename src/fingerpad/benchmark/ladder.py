@@ -1,6 +1,4 @@
-"""Run time against error: one condition, with shear, on a ladder of meshes, by fingerpad, by the same with first-order
-elements, and by a plain solver.
-"""
+"""Run time against error: one condition, with shear, on ladders of meshes, by fingerpad and by others."""
 
 from __future__ import annotations
 

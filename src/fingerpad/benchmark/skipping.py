@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..accuracy import CASE
+from ..accuracy import CASE, has_error
 from ..edges import edge_intervals
 from ..mesh import SectionMesh, mesh_section
 from ..prediction import condense_scene, predicted_rows, prepared
@@ -34,12 +34,12 @@ def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -
     stated: rows of the score table. With finite kinematics set-up is the mesh alone.
     """
     edges = edge_intervals(scene)
-    smallest = min(
+    relative = (
         float(row["score_error"]) / float(row["score"])
         for row in stated
-        if (row["kinematics"], row["device"]) == (scene.kinematics, scene.device.name)
-        and row["score"] not in {None, ""}
+        if (row["kinematics"], row["device"]) == (scene.kinematics, scene.device.name) and has_error(row)
     )
+    smallest = min(relative, default=float("nan"))
     setup, conditions, scores = _measured(scene, edges, repeats)
     for switch in fields(Skips):
         if scene.kinematics is Kinematics.FINITE and switch.name in NOT_FINITE:

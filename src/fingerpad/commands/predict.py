@@ -72,8 +72,12 @@ def run(options: argparse.Namespace) -> None:
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     """Title, aligned table and caveats of one device."""
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
-    cells = [[_shown(column, row[column]) for column in COLUMNS] for row in ordered]
-    columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(row["note"] for row in rows)]
+    notes = ["" if row["score"] is not None else row["note"] for row in ordered]  # those of scores are caveats
+    cells = [
+        [note if column == "note" else _shown(column, row[column]) for column in COLUMNS]
+        for row, note in zip(ordered, notes, strict=True)
+    ]
+    columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     shown = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
     lines = [titled(scene), *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
     said = [(caveat, row) for row in ordered for caveat in row["caveats"]]

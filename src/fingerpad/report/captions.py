@@ -8,7 +8,7 @@ from functools import partial
 
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, UNITS, counted, plain
 from ..scene import Device, Interface, Kinematics, Readout, Scene
-from .tables import SLOPES, Row, measured, p_value
+from .tables import SLOPES, Row, error_of, measured, p_value
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
@@ -222,7 +222,7 @@ def _scores(
         and (names is None or row["condition"] in names)
         and row["score"]
     ]
-    found = (f"{row['condition']} {measured(float(row['score']), float(row['score_error']), scale)}" for row in rows)
+    found = (f"{row['condition']} {measured(float(row['score']), error_of(row), scale)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
     scaled = f"{power}{UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
     return f"{', '.join(found)} {scaled}"

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
+from ..accuracy import has_error
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
 from ..scene import Interface, Kinematics, Readout
 
@@ -40,8 +41,15 @@ def measured(value: float, error: float, scale: float = 1.0) -> str:
 
     >>> measured(0.324622, 0.000654)
     '0.32462 ± 0.00065'
+
+    If the error is not known, as not a number, that is said.
+
+    >>> measured(0.324622, float("nan"))
+    '0.3246 ± ?'
     """
     value, error = scale * value, scale * error
+    if math.isnan(error):
+        return f"{value:.{DIGITS}g} ± ?"
     if not (math.isfinite(error) and error > 0.0):
         return f"{value:.{DIGITS}g}"
     decimals = max(ERROR_DIGITS - 1 - math.floor(math.log10(error)), 0)
@@ -53,7 +61,7 @@ def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
 
     def cell(row: Row) -> str:
         scale, _ = SCORE_SCALE[Readout(row["readout"])]
-        return measured(float(row["score"]), float(row["score_error"]), scale)
+        return measured(float(row["score"]), error_of(row), scale)
 
     unit = scores[0]["unit"]
     return _grid(scores, titles, [score_label(readout, unit) for readout in Readout], cell)
@@ -62,18 +70,25 @@ def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
 def accuracy_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
     """Every score's error over the score [%]. Arguments as for `score_grid`."""
     names = [f"{READOUT_NAME[readout]} (%)" for readout in Readout]
-    return _grid(scores, titles, names, lambda row: f"{PERCENT * relative_error(row):.2f}")
+    return _grid(scores, titles, names, lambda row: f"{PERCENT * relative_error(row):.2f}".replace("nan", "?"))
+
+
+def error_of(row: Row) -> float:
+    """A score's stated error, in its unit; not a number if it is unknown."""
+    return float(row["score_error"] or "nan")
 
 
 def relative_error(row: Row) -> float:
-    """A score's stated error over the score [1]."""
-    return float(row["score_error"]) / float(row["score"])
+    """A score's stated error over the score [1]; not a number if it is unknown."""
+    return error_of(row) / float(row["score"])
 
 
 def accuracy_summary(scores: Sequence[Row]) -> str:
     """Median and largest relative error of all scores, in words."""
     errors = {(row["kinematics"], row["device"], row["condition"], row["interface"], row["readout"]):
-              relative_error(row) for row in scores if row["score"]}  # fmt: skip
+              relative_error(row) for row in scores if has_error(row)}  # fmt: skip
+    if not errors:
+        return "No score has a known error."
     case = max(errors, key=lambda case: errors[case])
     kinematics, device, condition, interface, readout = case
     largest = errors[case]
