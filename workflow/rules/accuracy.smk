@@ -44,7 +44,7 @@ rule reference:
         ENVIRONMENT
     resources:
         mem_mb=8000,
-        runtime=60,
+        runtime=240,
     params:
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
     script:
