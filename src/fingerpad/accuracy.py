@@ -14,7 +14,7 @@ from statistics import median
 from typing import Any
 
 COARSENING = 2.0  # [1]; source: sizes go by halves, and 1.5 understated five scores of 54 by more than 2 (decision 23)
-# of a reference [1]: 20 times the unknowns (counted), errors a thirtieth at second order; source: 4 times hid bands of
+# of a reference [1]: some 20 times the unknowns, errors a thirtieth at second order; source: 4 times hid bands of
 # strain (decision 22)
 REFINEMENT = 5.5
 CASE = ("kinematics", "device", "condition", "interface", "readout")
