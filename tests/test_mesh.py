@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.condensation import receptor_strain
-from fingerpad.edges import edge_intervals, mesh_device
+from fingerpad.condensation import contact_tractions, receptor_strain
+from fingerpad.edges import REACH, edge_intervals, mesh_device
 from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import MeshError, SceneError
 from fingerpad.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
@@ -167,3 +167,23 @@ def test_a_mesh_too_large_is_a_named_error() -> None:
     fine = replace(base, model=replace(base.model, numerics=numerics))
     with pytest.raises(MeshError, match="more than 500000 elements"):
         mesh_section(fine, nominal_edges(fine.device.actuators))
+
+
+def test_without_a_coarse_mesh_edges_are_sought_widely() -> None:
+    """A mesh four times as coarse as this one has pins that no node is near."""
+    given = scene("device2").coarsened(6.0)
+    nominal = nominal_edges(given.device.actuators)
+    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    assert np.array_equal(edge_intervals(given), wide)
+    assert not np.array_equal(edge_intervals(scene("device2")), wide)
+
+
+def test_skin_too_coarse_for_any_actuator_is_refused() -> None:
+    """Two pins, and elements as wide as both."""
+    base = scene("device2").coarsened(32.0)
+    moved = base.device.conditions[0]
+    moved = replace(moved, normal=moved.normal[:, 1:3], tangential=moved.tangential[:, 1:3])
+    pair = replace(base.device.actuators, positions=base.device.actuators.positions[1:3])
+    given = replace(base, device=replace(base.device, actuators=pair, conditions=(moved,)))
+    with pytest.raises(MeshError, match=r"no element of the skin lies within reach .* numerics\.face_size"):
+        contact_tractions(mesh_section(given, nominal_edges(pair)), given)
