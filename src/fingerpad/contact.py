@@ -20,6 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -35,6 +36,9 @@ class Status(IntEnum):
     STICK = 1
     SLIP_FORWARD = 2
     SLIP_BACKWARD = 3
+
+
+OPEN = int(Status.OPEN)  # which arrays are compared with faster
 
 
 @dataclass(frozen=True)
@@ -63,6 +67,13 @@ class ContactProblem:
     def actuator_of(self) -> np.ndarray:
         """Index (n,) of the actuator nearest to each undeformed node: the only one that it can touch."""
         return np.asarray(np.argmin(np.abs(self.position[:, [0]] - np.asarray(self.row.positions)), axis=1))
+
+    @cached_property
+    def spans(self) -> tuple[slice, ...]:
+        """The nodes of each actuator, which lie side by side."""
+        count = len(self.row.positions)
+        bounds = np.searchsorted(self.actuator_of, np.arange(count + 1))
+        return tuple(slice(int(start), int(stop)) for start, stop in pairwise(bounds))
 
 
 @dataclass(frozen=True)
@@ -148,51 +159,50 @@ def switch_friction(state: ContactState) -> ContactState:
 
 @dataclass(frozen=True)
 class Touch:
-    """Where skin nodes (n,) touch the deformable faces: three nodes (n, 3) each, of all faces' nodes one actuator after
-    the other, and their shape functions (n, 3) there.
+    """Where skin nodes touch the deformable faces: shape functions (n, k) of the face's k nodes there, and the skin
+    nodes of each actuator.
     """
 
-    node: np.ndarray
     shape: FloatArray
+    spans: tuple[slice, ...]
 
 
 def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
     """Where on their actuator's face the nodes are, from their places (n,) [mm]; None if the actuators are rigid."""
-    if problem.body is None:
-        return None
-    node, shape = face_shape(problem.body, place)
-    return Touch(node + (problem.actuator_of * problem.body.coordinate.size)[:, None], shape)
+    return None if problem.body is None else Touch(face_shape(problem.body, place), problem.spans)
 
 
 def displacement(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
     """Displacement (n, 2) [mm] of the skin relative to the actuators' bases: C f and what their faces give way."""
-    moved = (problem.compliance @ force.ravel()).reshape(-1, 2)
-    if problem.body is None or there is None:
-        return np.asarray(moved)
-    actuators, size = len(problem.row.positions), problem.body.coordinate.size
-    on_face = [
-        np.bincount(there.node.ravel(), (there.shape * component[:, None]).ravel(), minlength=actuators * size)
-        for component in force.T
-    ]
-    given = (np.stack(on_face, axis=1).reshape(actuators, -1) @ problem.body.compliance).reshape(-1, 2)
-    return np.asarray(moved + np.einsum("ij,ijk->ik", there.shape, given[there.node]))
+    moved = np.asarray((problem.compliance @ force.ravel()).reshape(-1, 2))
+    return moved if there is None else moved + given_way(problem, force, there)
+
+
+def given_way(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
+    """By how much (n, 2) [mm] deformable faces give way under forces (n, 2) [N/mm] on the skin."""
+    given = np.zeros_like(force)
+    if problem.body is not None and there is not None:
+        for own in there.spans:
+            shape = there.shape[own]
+            given[own] = shape @ (problem.body.compliance @ (shape.T @ force[own]).ravel()).reshape(-1, 2)
+    return given
 
 
 def face_compliance(problem: ContactProblem, there: Touch, nodes: np.ndarray) -> FloatArray:
-    """Compliance (2b, 2b) [mm per N/mm] of deformable faces under some nodes (b,), ordered x0, x1, ..., y0, y1, ..."""
-    found = np.zeros((2 * nodes.size, 2 * nodes.size))
-    if problem.body is None:
-        return found
-    size = problem.body.coordinate.size
-    for number in range(len(problem.row.positions)):
-        own = np.flatnonzero(problem.actuator_of[nodes] == number)
-        shape = np.zeros((own.size, size))
-        np.put_along_axis(shape, there.node[nodes[own]] - number * size, there.shape[nodes[own]], axis=1)
-        for i in (0, 1):
-            for j in (0, 1):
-                block = shape @ problem.body.compliance[i::2, j::2] @ shape.T
-                found[np.ix_(i * nodes.size + own, j * nodes.size + own)] = block
-    return found
+    """Compliance (2b, 2b) [mm per N/mm] of deformable faces under some nodes (b,), ascending, ordered x0, x1, ..., y0,
+    y1, ...
+    """
+    found = np.zeros((2, nodes.size, 2, nodes.size))
+    if problem.body is not None:
+        size = problem.body.coordinate.size
+        for span in there.spans:
+            own = slice(*np.searchsorted(nodes, [span.start, span.stop]))
+            shape = there.shape[nodes[own]]
+            count = shape.shape[0]
+            by_face = (shape @ problem.body.compliance.reshape(size, -1)).reshape(count, 2, size, 2)
+            by_skin = by_face.transpose(1, 0, 3, 2).reshape(-1, size) @ shape.T
+            found[:, own, :, own] = by_skin.reshape(2, count, 2, count)
+    return found.reshape(2 * nodes.size, 2 * nodes.size)
 
 
 def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
@@ -202,15 +212,14 @@ def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
     return np.asarray(y + profile(problem.row, x)[0])
 
 
-def face_shape(body: CondensedBody, at: FloatArray) -> tuple[np.ndarray, FloatArray]:
-    """Nodes (n, 3) of the face around coordinates (n,) [mm], and their second-order shape functions (n, 3) there, held
-    at the face's ends beyond.
-    """
+def face_shape(body: CondensedBody, at: FloatArray) -> FloatArray:
+    """Second-order shape functions (n, k) of the face's k nodes at coordinates (n,) [mm], held at its ends beyond."""
     nodes = body.coordinate
-    at = np.clip(at, nodes[0], nodes[-1])
-    left = 2 * np.clip(np.searchsorted(nodes[::2], at, side="right") - 1, 0, nodes.size // 2 - 1)
+    at = np.minimum(np.maximum(at, nodes[0]), nodes[-1])
+    left = 2 * np.minimum(np.searchsorted(nodes[2::2], at, side="right"), nodes.size // 2 - 1)
     local = (at - nodes[left]) / (nodes[left + 2] - nodes[left])
-    shape = np.stack(
-        [(1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0)], axis=1
-    )
-    return left[:, None] + np.arange(3), shape
+    shape, number = np.zeros((at.size, nodes.size)), np.arange(at.size)
+    shape[number, left] = (1.0 - local) * (1.0 - 2.0 * local)
+    shape[number, left + 1] = 4.0 * local * (1.0 - local)
+    shape[number, left + 2] = local * (2.0 * local - 1.0)
+    return shape

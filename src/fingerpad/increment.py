@@ -25,12 +25,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .contact import (
+    OPEN,
     ContactProblem,
     ContactState,
     Status,
     Touch,
     displacement,
     face_compliance,
+    given_way,
     resolved,
     tilt,
     touch,
@@ -46,10 +48,13 @@ SETTLED = 1e-6  # relative residual [1] below which forces are good enough to ju
 EACH = 0.01  # share [1] of the tolerance for each force, as errors add up in a gap; source: some 100 nodes
 GIVING = 1e-5  # of the load [1] by which a face may give way elsewhere than it touches; source: a tenth of what a
 # certificate allows
+ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; source: fewest seconds of 16 to 50 (measured)
 FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
 STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; source: rounding
 
-OPEN, STICK, SLIP_FORWARD = int(Status.OPEN), int(Status.STICK), int(Status.SLIP_FORWARD)
+SMALLEST = float(np.finfo(float).tiny)  # N/mm, in place of no force at all
+ROUNDING = float(np.finfo(float).eps)  # of a number [1]
+STICK, SLIP_FORWARD, SLIP_BACKWARD = map(int, (Status.STICK, Status.SLIP_FORWARD, Status.SLIP_BACKWARD))
 SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 
@@ -69,11 +74,12 @@ class NotConvergedError(Exception):
 @dataclass(frozen=True)
 class Patch:
     """Contact nodes (b,) by ascending index, and the forces (2b, 2b) [N/mm per mm] that unit displacements of skin and
-    faces between them take: one displacement a row, ordered x0, x1, ..., y0, y1, ...
+    faces between them take: one displacement a row, ordered x0, x1, ..., y0, y1, ... stiffest: largest on the diagonal.
     """
 
     nodes: np.ndarray
     response: FloatArray
+    stiffest: float
 
 
 @dataclass(frozen=True)
@@ -90,6 +96,19 @@ class _Increment:
     bias: FloatArray
     gap_scale: float
     force_floor: float
+
+
+@dataclass(frozen=True)
+class _States:
+    """What the patch's nodes do: states (b,), the nodes that are open (o,) and that slip (s,), their friction times the
+    direction of slip (s,) [1], and the unknown displacements (m,) among the patch's.
+    """
+
+    status: np.ndarray
+    open: np.ndarray
+    slip: np.ndarray
+    drag: FloatArray
+    unknown: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -140,8 +159,13 @@ def solve_increment(
     gap_scale = length + float(np.abs(actuator).max())
     origin = unloaded(problem, actuator)
     needed = np.flatnonzero(status != OPEN)
-    if needed.size == 0:
-        needed = np.array([int(np.argmin(start.gap - heading[problem.actuator_of, 1] * length))])
+    if needed.size == 0:  # nothing bears a force, and nodes lie where the actuators left them
+        place, height = origin.T
+        gap = height + profile(problem.row, place)[0]
+        first = _touching(gap < -problem.tolerance * gap_scale, gap, status, problem.actuator_of)
+        _touch(reference, start, place, gap, first)
+        status[first] = _touched(problem)
+        needed = np.flatnonzero(first) if first.any() else np.array([int(np.argmin(gap))])
     # the last increment promises where the skin will touch the faces
     guess = start.place + start.drift[:, 0] * length if straight else start.place
     expected, there = guess, touch(problem, guess)
@@ -197,7 +221,7 @@ def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: Touch |
     """Whether deformable faces give way noticeably elsewhere than the skin touches them now."""
     if there is None:
         return False
-    astray = displacement(problem, found.force, touch(problem, found.place)) - found.moved
+    astray = given_way(problem, found.force, touch(problem, found.place)) - given_way(problem, found.force, there)
     return bool(np.abs(astray[found.status != OPEN]).max(initial=0.0) > max(GIVING, problem.tolerance) * gap_scale)
 
 
@@ -207,7 +231,7 @@ def _accepted(
     """The converged state at the end of an increment, of which nodes slipped by `slip` (n,) [mm]."""
     length = float(np.abs(actuator - start.actuator).max())
     # backward Euler: friction works along the whole slip with the force at its end
-    work = -float(found.shearing @ np.where(found.status > STICK, slip * np.sqrt(1.0 + found.tilted**2), 0.0))
+    work = -float((found.shearing * (found.status > STICK)) @ (slip * np.sqrt(1.0 + found.tilted**2)))
     return replace(
         start,
         actuator=actuator,
@@ -216,7 +240,7 @@ def _accepted(
         place=found.place,
         gap=found.gap,
         heading=(actuator - start.actuator) / length,
-        drift=np.stack([found.place - start.place, found.gap - start.gap], axis=1) / length,
+        drift=np.array([found.place - start.place, found.gap - start.gap]).T / length,
         trend=(found.force - start.force) / length,
         dissipation=start.dissipation + work,
         residual=max(start.residual, residual),
@@ -235,16 +259,31 @@ def _foreseen(
         if problem.friction > 0.0:
             status[status > STICK] = STICK
         return status, (status != OPEN) | (start.gap < FORESIGHT * length)
-    closing = start.gap + start.drift[:, 1] * length < 0.0
+    gap = start.gap + start.drift[:, 1] * length
+    closing = _touching((status == OPEN) & (gap < 0.0), gap, status, problem.actuator_of)
     slope = profile(problem.row, start.place + start.drift[:, 0] * length)[1]
     pressing, shearing = resolved(start.force + start.trend * length, tilt(problem, slope))
     opening = (status != OPEN) & (pressing < 0.0)
     sliding = (status == STICK) & (np.abs(shearing) > problem.friction * pressing)
-    status[sliding] = np.where(shearing[sliding] < 0.0, SLIP_FORWARD, int(Status.SLIP_BACKWARD))
-    status[(status == OPEN) & closing] = _touched(problem)
+    np.putmask(status, sliding, _dragged(shearing))
+    status[closing] = _touched(problem)
     status[opening] = OPEN
     ahead = (status != OPEN) | (start.gap + FORESIGHT * start.drift[:, 1] * length < 0.0)
     return status, ahead
+
+
+def _touching(overlapping: np.ndarray, gap: FloatArray, status: np.ndarray, actuator_of: np.ndarray) -> np.ndarray:
+    """Which open nodes (n,) touch, of those that overlap: on an actuator that touches none, the deepest alone. What it
+    bears moves its neighbours away, and they would have to be released one by one.
+    """
+    touching = overlapping.copy()
+    if overlapping.any():
+        untouched = np.setdiff1d(actuator_of[overlapping], actuator_of[status != OPEN])
+        for actuator in untouched:
+            own = np.flatnonzero(overlapping & (actuator_of == actuator))
+            touching[own] = False
+            touching[own[np.argmin(gap[own])]] = True
+    return touching
 
 
 def _touched(problem: ContactProblem) -> int:
@@ -292,25 +331,30 @@ def _patch(problem: ContactProblem, nodes: np.ndarray, there: Touch | None) -> P
     held = np.flatnonzero(np.diag(compliance) == 0.0)
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     try:
-        return Patch(nodes, _inverse(compliance))
+        response = _inverse(compliance)
     except np.linalg.LinAlgError:
         raise NotConvergedError(float("inf")) from None
+    return Patch(nodes, response, _largest_of(np.diag(response)))
 
 
 def _rounding(problem: ContactProblem, patch: Patch, origin: FloatArray, gap_scale: float) -> float:
     """Force [N/mm] whose tolerance is what the rounding of coordinates and displacements leaves of K u."""
-    digit = np.finfo(float).eps * (float(np.abs(origin).max()) + gap_scale)
-    return float(digit * np.abs(np.diag(patch.response)).max() / problem.tolerance)
+    digit = ROUNDING * (_largest_of(origin) + gap_scale)
+    return digit * patch.stiffest / problem.tolerance
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:
-    """Inverse of a symmetric matrix (n, n) whose halves are regular, by halves: in 0.5 to 0.9 of the time."""
+    """Inverse of a symmetric matrix (n, n) whose leading blocks are regular, by halves of halves: products of matrices
+    take a quarter of the seconds that elimination does.
+    """
     half = matrix.shape[0] // 2
+    if half < ELIMINATED:
+        return np.asarray(np.linalg.inv(matrix), dtype=float)
     right = matrix[:half, half:]
-    first = np.linalg.inv(matrix[:half, :half])
+    first = _inverse(matrix[:half, :half])
     carried = first @ right
     inverse = np.empty_like(matrix)
-    inverse[half:, half:] = np.linalg.inv(matrix[half:, half:] - right.T @ carried)
+    inverse[half:, half:] = _inverse(matrix[half:, half:] - right.T @ carried)
     inverse[:half, half:] = -carried @ inverse[half:, half:]
     inverse[half:, :half] = inverse[:half, half:].T
     inverse[:half, :half] = first - inverse[:half, half:] @ carried.T
@@ -330,45 +374,53 @@ def _settle(
     guess: places (b,) [mm] to begin with. Raises NotConvergedError after MAX_ITERATIONS, those `done` before included.
     """
     problem, nodes = increment.problem, increment.patch.nodes
+    states = _states(problem, status)
     moved = np.concatenate([guess - increment.origin[0], np.zeros(nodes.size)])
-    trial = _at(increment, moved, status, reference[nodes])
+    trial = _at(increment, moved, states, reference[nodes])
     released = np.zeros(nodes.size, dtype=bool)
     residual, turned = float("inf"), False
     for iteration in range(MAX_ITERATIONS - done):
-        matrix, right, unknown = _newton_equations(increment, trial, status)
-        step = _solved(matrix, right, unknown, 2 * nodes.size)
+        matrix, right = _newton_equations(increment, trial, states)
+        step = _solved(matrix, right, states.unknown, 2 * nodes.size)
         if step is None:
             break
         settling = iteration >= SIMULTANEOUS
         turned = turned or (settling and _is_turned(matrix))
-        trial = (_searched if settling else _stepped)(increment, trial, step, status, reference[nodes])
+        trial = (_searched if settling else _stepped)(increment, trial, step, states, reference[nodes])
         slip = trial.place - reference[nodes]
         following = _next_status(increment, trial, slip, status, released)
-        changed = np.flatnonzero(following != status)
-        left = np.abs(_cone(problem, trial, status))
-        before, residual = residual, float(left.max(initial=0.0))
+        changed = (following != status).nonzero()[0]
+        before, residual = residual, _largest_of(_cone(trial, states))
         if changed.size == 0:
             # a residual that one more step did not lower is rounding
             if residual <= EACH * problem.tolerance or before <= residual <= problem.tolerance:
                 if _is_turned(matrix):
                     turned = True
                     break
-                return _obeying(problem, trial, status), status, iteration + 1
-        elif settling:
+                return _obeying(trial, states), status, iteration + 1
+            continue
+        if settling:
             if residual > SETTLED:
                 continue
             changed = changed[[int(np.argmax(_violation(increment, trial, slip, status)[changed]))]]
-        opened = following[changed] == OPEN
-        touching = changed[(status[changed] == OPEN) & ~released[changed]]
-        moves = np.any((status[changed] == OPEN) | (following[changed] == STICK))
+        was, now = status[changed], following[changed]
+        touching = changed[(was == OPEN) & ~released[changed]]
         status = status.copy()
-        status[changed] = following[changed]
-        released[changed[opened]] = True
+        status[changed] = now
+        states = _states(problem, status)
+        released[changed[now == OPEN]] = True
         if touching.size:
             _touch_there(reference, start, nodes, trial, touching)
-        if moves:  # nodes come to the profile or stop; those that leave or set off are where they were
-            trial = _at(increment, trial.moved, status, reference[nodes])
+        if ((was == OPEN) | (now == STICK)).any():  # nodes come to the profile or stop; others are where they were
+            trial = _at(increment, trial.moved, states, reference[nodes])
     raise NotConvergedError(residual, turned)
+
+
+def _states(problem: ContactProblem, status: np.ndarray) -> _States:
+    """What nodes in those states (b,) do."""
+    slip, open_ = (status > STICK).nonzero()[0], (status == OPEN).nonzero()[0]
+    drag = problem.friction * SLIP_SIGN[status[slip]]
+    return _States(status, open_, slip, drag, np.concatenate([slip, open_, status.size + open_]))
 
 
 def _touch_there(
@@ -382,10 +434,10 @@ def _touch_there(
     _touch(reference, start, place, gap, mask)
 
 
-def _at(increment: _Increment, moved: FloatArray, status: np.ndarray, reference: FloatArray) -> _Trial:
+def _at(increment: _Increment, moved: FloatArray, states: _States, reference: FloatArray) -> _Trial:
     """The trial in which nodes that stick lie at their reference (b,), nodes in contact on the profile."""
     x, y = increment.origin
-    count = status.size
+    status, count = states.status, x.size
     along = np.where(status == STICK, reference - x, moved[:count])  # not from the place, which has lost digits
     place = x + along
     drop, slope = profile(increment.problem.row, place)
@@ -395,26 +447,26 @@ def _at(increment: _Increment, moved: FloatArray, status: np.ndarray, reference:
     force = (moved - increment.bias) @ increment.patch.response
     tilted = tilt(increment.problem, slope)
     pressing, shearing = resolved(force.reshape(2, -1).T, tilted)
-    largest = _largest(force, increment.force_floor)
+    largest = max(_largest_of(force), increment.force_floor, SMALLEST)
     return _Trial(moved, force, place, height - touching, slope, tilted, pressing, shearing, largest)
 
 
-def _newton_equations(
-    increment: _Increment, trial: _Trial, status: np.ndarray
-) -> tuple[FloatArray, FloatArray, np.ndarray]:
-    """Matrix (m, m) and right side (m,) of one Newton step within the given states, and its unknowns (m,) among the
-    displacements (2b,).
-    """
-    problem, response, force, count = increment.problem, increment.patch.response, trial.force, status.size
-    slip, open_ = np.flatnonzero(status > STICK), np.flatnonzero(status == OPEN)
-    unknown = np.concatenate([slip, open_, count + open_])
-    pressing = count + slip
-    forces = response.take(unknown, 0)  # of unit changes of the unknowns, one a row
+def _newton_equations(increment: _Increment, trial: _Trial, states: _States) -> tuple[FloatArray, FloatArray]:
+    """Matrix (m, m) and right side (m,) of one Newton step within the given states."""
+    problem, response, force, slip, drag = (
+        increment.problem,
+        increment.patch.response,
+        trial.force,
+        states.slip,
+        states.drag,
+    )
+    pressing = states.status.size + slip
+    forces = response.take(states.unknown, 0)  # of unit changes of the unknowns, one a row
     forces[: slip.size] -= trial.slope[slip, None] * response.take(pressing, 0)
-    transposed = forces.take(unknown, 1)
-    right = -force[unknown]
+    transposed = forces.take(states.unknown, 1)
+    right = -force[states.unknown]
     if problem.friction > 0.0 or problem.turning:  # T + z mu N in terms of f_x and f_y, times sqrt(1 + tilted^2)
-        drag, tilted = SLIP_SIGN[status[slip]] * problem.friction, trial.tilted[slip]
+        tilted = trial.tilted[slip]
         along, across = 1.0 + drag * tilted, drag - tilted
         transposed[:, : slip.size] *= along
         transposed[:, : slip.size] += across * forces.take(pressing, 1)
@@ -422,7 +474,7 @@ def _newton_equations(
         if problem.turning:
             turned = bend(problem.row, trial.place[slip]) * (drag * force[slip] - force[pressing])
             transposed[np.arange(slip.size), np.arange(slip.size)] += turned
-    return transposed.T, right, unknown
+    return transposed.T, right
 
 
 def _solved(matrix: FloatArray, right: FloatArray, unknown: np.ndarray, size: int) -> FloatArray | None:
@@ -432,7 +484,7 @@ def _solved(matrix: FloatArray, right: FloatArray, unknown: np.ndarray, size: in
         step[unknown] = np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:
         return None
-    return step if np.all(np.isfinite(step)) else None
+    return step if np.isfinite(step).all() else None
 
 
 def _is_turned(matrix: FloatArray) -> bool:
@@ -440,57 +492,51 @@ def _is_turned(matrix: FloatArray) -> bool:
     return bool(np.linalg.slogdet(matrix)[0] < 0.0)
 
 
-def _stepped(
-    increment: _Increment, trial: _Trial, step: FloatArray, status: np.ndarray, reference: FloatArray
-) -> _Trial:
+def _stepped(increment: _Increment, trial: _Trial, step: FloatArray, states: _States, reference: FloatArray) -> _Trial:
     """The trial after a whole step."""
-    return _at(increment, trial.moved + step, status, reference)
+    return _at(increment, trial.moved + step, states, reference)
 
 
-def _searched(
-    increment: _Increment, trial: _Trial, step: FloatArray, status: np.ndarray, reference: FloatArray
-) -> _Trial:
+def _searched(increment: _Increment, trial: _Trial, step: FloatArray, states: _States, reference: FloatArray) -> _Trial:
     """The first point on the way back from `step` to `trial` where the residuals have become smaller."""
-    before = np.linalg.norm(_cone(increment.problem, trial, status))
+    before = np.linalg.norm(_cone(trial, states))
     for halvings in range(MAX_HALVINGS + 1):
-        there = _at(increment, trial.moved + step / 2.0**halvings, status, reference)
-        if np.linalg.norm(_cone(increment.problem, there, status)) < before:
+        there = _at(increment, trial.moved + step / 2.0**halvings, states, reference)
+        if np.linalg.norm(_cone(there, states)) < before:
             break
     return there
 
 
-def _obeying(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> _Trial:
+def _obeying(trial: _Trial, states: _States) -> _Trial:
     """The trial with the forces that the states prescribe, to the last bit."""
-    pressing = np.where(status == OPEN, 0.0, trial.pressing)
-    shearing = np.where(status > STICK, -SLIP_SIGN[status] * problem.friction * pressing, trial.shearing)
-    shearing = np.where(status == OPEN, 0.0, shearing)
+    pressing, shearing = trial.pressing.copy(), trial.shearing.copy()
+    pressing[states.open] = shearing[states.open] = 0.0
+    shearing[states.slip] = -states.drag * pressing[states.slip]
     across, along = resolved(np.stack([shearing, pressing], axis=1), -trial.tilted)  # turned back
     return replace(trial, force=np.concatenate([along, across]), pressing=pressing, shearing=shearing)
 
 
-def _cone(problem: ContactProblem, trial: _Trial, status: np.ndarray) -> FloatArray:
-    """Residuals of slipping and open nodes' equations [1]: forces over the largest."""
-    return _unbalanced(problem, trial.pressing, trial.shearing, status) / trial.largest
-
-
-def _unbalanced(problem: ContactProblem, pressing: FloatArray, shearing: FloatArray, status: np.ndarray) -> FloatArray:
-    """What slipping nodes' forces (n,) [N/mm] lack to the cone of friction, and open nodes' to zero."""
-    excess = (shearing + SLIP_SIGN[status] * problem.friction * pressing)[status > STICK]
-    return np.concatenate([excess, shearing[status == OPEN], pressing[status == OPEN]])
+def _cone(trial: _Trial, states: _States) -> FloatArray:
+    """Residuals of slipping and open nodes' equations [1]: what slipping nodes' forces lack to the cone of friction,
+    and open nodes' to zero, over the largest force.
+    """
+    shearing, pressing = trial.shearing, trial.pressing
+    excess = shearing[states.slip] + states.drag * pressing[states.slip]
+    return np.concatenate([excess, shearing[states.open], pressing[states.open]]) / trial.largest
 
 
 def _residual(problem: ContactProblem, gap_scale: float, found: _Everywhere, slip: FloatArray) -> float:
     """Largest residual of all equations [1]: gaps and slips (n,) [mm] over the load, forces over the largest."""
     status = found.status
     pressing, shearing = resolved(found.force, found.tilted)
-    forces = _unbalanced(problem, pressing, shearing, status) / _largest(found.force, 0.0)
-    left = np.concatenate([found.gap[status != OPEN] / gap_scale, slip[status == STICK] / gap_scale, forces])
-    return float(np.abs(left).max(initial=0.0))
+    excess = np.abs(shearing + problem.friction * SLIP_SIGN[status] * pressing)[status > STICK]
+    displaced = np.concatenate([found.gap[status != OPEN], slip[status == STICK]])
+    return max(_largest_of(displaced) / gap_scale, _largest_of(excess) / max(_largest_of(found.force), SMALLEST))
 
 
-def _largest(force: FloatArray, floor: float) -> float:
-    """Largest nodal force component [N/mm], or the floor; never zero."""
-    return max(float(np.abs(force).max(initial=0.0)), floor, np.finfo(float).tiny)
+def _largest_of(values: FloatArray) -> float:
+    """Largest magnitude, zero of none."""
+    return float(np.abs(values).max(initial=0.0))
 
 
 def _next_status(
@@ -504,21 +550,23 @@ def _next_status(
     problem, pressing, shearing = increment.problem, trial.pressing, trial.shearing
     small_force = problem.tolerance * trial.largest
     small_gap = problem.tolerance * increment.gap_scale
-    following = status.copy()
-    following[(status != OPEN) & (pressing < -small_force)] = OPEN
-    touching = (status == OPEN) & (trial.gap < -small_gap)
-    following[touching] = _touched(problem)
+    following, open_ = status.copy(), status == OPEN
+    np.putmask(following, pressing < np.where(open_, -np.inf, -small_force), OPEN)
+    actuator_of = problem.actuator_of[increment.patch.nodes]
+    touching = _touching(open_ & (trial.gap < -small_gap), trial.gap, status, actuator_of)
+    np.putmask(following, touching, _touched(problem))
     if problem.friction > 0.0:
-        again = touching & released
-        following[again] = np.where(slip[again] > 0.0, SLIP_FORWARD, int(Status.SLIP_BACKWARD))
-        limit = problem.friction * pressing + small_force
-        stick = (status == STICK) & (following == STICK)
-        # the skin is dragged towards +x where the actuator's shear on it would point to -x beyond the limit
-        following[stick & (shearing < -limit)] = SLIP_FORWARD
-        following[stick & (shearing > limit)] = int(Status.SLIP_BACKWARD)
-        back = SLIP_SIGN[status] * slip < -small_gap
-        following[back & (following == status)] = STICK
+        np.putmask(following, touching & released, np.where(slip > 0.0, SLIP_FORWARD, SLIP_BACKWARD))
+        kept = following == status
+        beyond = np.abs(shearing) > problem.friction * pressing + small_force
+        np.putmask(following, kept & (status == STICK) & beyond, _dragged(shearing))
+        np.putmask(following, kept & (SLIP_SIGN[status] * slip < -small_gap), STICK)
     return following
+
+
+def _dragged(shearing: FloatArray) -> np.ndarray:
+    """Slip (n,) that goes with shearing forces (n,): the skin is dragged to +x where they point to -x."""
+    return np.where(shearing < 0.0, SLIP_FORWARD, SLIP_BACKWARD)
 
 
 def _violation(increment: _Increment, trial: _Trial, slip: FloatArray, status: np.ndarray) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .contact import ContactProblem, ContactState, Status, rest, touching_height
+from .contact import OPEN, ContactProblem, ContactState, rest, touching_height
 from .errors import CriterionError
 from .increment import solve_increment
 from .path import SolveIncrement, State, advance
@@ -79,18 +79,14 @@ def raise_until(
 
 def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion) -> float:
     """What the criterion still waits for [mm]: face that is not covered, or gap that is not closed; < 0 beyond."""
-    index = problem.actuator_of
-    actuators = [np.flatnonzero(index == number) for number in range(len(problem.row.positions))]
+    touching = state.status != OPEN
     if criterion is Criterion.TOUCH:
-        return max(
-            0.0 if np.any(state.status[nodes] != Status.OPEN) else float(state.gap[nodes].min()) for nodes in actuators
-        )
+        return max(0.0 if touching[own].any() else float(state.gap[own].min()) for own in problem.spans)
     height = state.gap - profile(problem.row, state.place)[0]
-    touching = state.status != Status.OPEN
     covered = min(
-        _front(direction * state.place[nodes], height[nodes], touching[nodes])
-        for left_to_right in actuators
-        for direction, nodes in ((1.0, left_to_right), (-1.0, left_to_right[::-1]))
+        _front(sign * state.place[own][::sign], height[own][::sign], touching[own][::sign])
+        for own in problem.spans
+        for sign in (1, -1)
     )
     return problem.row.half_face - covered
 
@@ -101,7 +97,7 @@ def _front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
     Where skin leaves a flat face its height grows with distance to the power 3/2 (Hertz), so the front is where
     height^(2/3) of the first two open nodes extrapolates to zero: smooth in the load, though nodes close one by one.
     """
-    closed = np.flatnonzero(active)
+    closed = active.nonzero()[0]
     if closed.size == 0:
         return float("-inf")  # not even touched
     last = int(closed[-1])

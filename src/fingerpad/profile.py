@@ -26,10 +26,11 @@ def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     """
     radius, beyond, wall = _edge(row, x)
     on_circle = np.minimum(beyond, wall)
-    root = np.sqrt(radius**2 - on_circle**2)
+    squared = on_circle * on_circle
+    root = np.sqrt(radius**2 - squared)
     steepness = on_circle / root
-    drop = on_circle**2 / (radius + root) + (beyond - on_circle) * steepness  # r - root without its cancellation
-    return drop, np.sign(x) * steepness
+    drop = squared / (radius + root) + (beyond - on_circle) * steepness  # r - root without its cancellation
+    return drop, np.copysign(steepness, x)
 
 
 def bend(row: ActuatorRow, x: FloatArray) -> FloatArray:
