@@ -70,7 +70,7 @@ class ContactProblem:
 
     @cached_property
     def spans(self) -> tuple[slice, ...]:
-        """The nodes of each actuator, which lie side by side."""
+        """The nodes of each actuator, which lie side by side where nodes come by ascending x."""
         count = len(self.row.positions)
         bounds = np.searchsorted(self.actuator_of, np.arange(count + 1))
         return tuple(slice(int(start), int(stop)) for start, stop in pairwise(bounds))
@@ -131,25 +131,20 @@ def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     return np.asarray(position - (actuator + centre)[problem.actuator_of])
 
 
-def tilt(problem: ContactProblem, slope: FloatArray) -> FloatArray:
-    """Slope (n,) [1] of the direction along which shearing forces act, where the profile has a slope (n,) [1]."""
-    return slope if problem.turning else np.zeros_like(slope)
-
-
-def resolved(force: FloatArray, tilted: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Pressing and shearing forces (n,) [N/mm] of forces (n, 2) on the skin, across and along directions of a slope
-    (n,) [1].
+def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Pressing and shearing forces (n,) [N/mm] of forces (n, 2) on the skin: across and along the face or, where the
+    normal turns, the profile's slope (n,) [1].
     """
     along, across = force.T
-    if not tilted.any():
+    if not problem.turning:
         return across, along
-    shorter = 1.0 / np.sqrt(1.0 + tilted**2)
-    return shorter * (across + tilted * along), shorter * (along - tilted * across)
+    shorter = 1.0 / np.sqrt(1.0 + slope**2)
+    return shorter * (across + slope * along), shorter * (along - slope * across)
 
 
 def pressing_and_shearing(problem: ContactProblem, state: ContactState) -> tuple[FloatArray, FloatArray]:
     """Pressing and shearing forces (n,) [N/mm] of a state."""
-    return resolved(state.force, tilt(problem, profile(problem.row, state.place)[1]))
+    return resolved(problem, state.force, profile(problem.row, state.place)[1])
 
 
 def switch_friction(state: ContactState) -> ContactState:
