@@ -17,8 +17,10 @@ from hypothesis import strategies as st
 from fingerpad import errors
 from fingerpad.closedforms.blocks import half_plane
 from fingerpad.compliance import CondensedSection
+from fingerpad.condensation import contact_tractions
 from fingerpad.errors import FingerpadError, MeshError
 from fingerpad.indentation import indent
+from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.randomscene import (
     FRICTION,
     GROUP,
@@ -37,6 +39,7 @@ from fingerpad.solution import contact_problem, solve_condition
 from fingerpad.stress import (
     SOLVED,
     Outcome,
+    coarse_section,
     condensed_group,
     deformed_outcomes,
     outcome,
@@ -82,6 +85,14 @@ def test_every_deformed_scene_ends_so_too() -> None:
     assert {row.outcome for row in found_deformed} <= NAMES | {SOLVED}
     assert sum(row.outcome == SOLVED for row in found_deformed) > len(DEFORMED) / 2
     assert all(row.message for row in found_deformed if row.outcome != SOLVED)
+
+
+def test_a_mesh_that_no_actuator_reaches_is_passed_over() -> None:
+    """The coarsest mesh of this scene has no element of the skin within reach; a finer one is taken."""
+    scene = random_deformed_scene(20)
+    with pytest.raises(MeshError, match="within reach"):
+        contact_tractions(mesh_section(scene.coarsened(8.0), nominal_edges(scene.device.actuators)), scene)
+    assert contact_tractions(coarse_section(scene), scene).weight.size > 0
 
 
 def test_deformed_scenes_span_what_they_promise() -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 import pandas as pd
 
-from .roughness import CONSTANT, KEY, NO_PREDICTION
+from .roughness import CONSTANT, KEY, NO_PREDICTION, TYPESET_UNITS
 from .scene import Interface, Readout
 
 COLUMNS = ["kinematics", "claim", "source", "holds", "evidence"]
@@ -98,7 +98,7 @@ def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:
         rows = group[["dispersion", "phase_deg", "score"]].itertuples(index=False)
         by_key[device, interface, readout] = _Scores(
             {(dispersion, float(phase)): float(score) for dispersion, phase, score in rows},
-            group["unit"].iloc[0],
+            TYPESET_UNITS.get(group["unit"].iloc[0], group["unit"].iloc[0]),
             tuple(group["note"].fillna("").unique()),
         )
     records = {(row["device"], row["interface"], row["readout"]): row for row in correlations.to_dict("records")}

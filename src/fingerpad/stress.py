@@ -115,18 +115,25 @@ def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
 
 
 def coarse_section(scene: Scene) -> SectionMesh:
-    """The section of a scene on a mesh that is coarsened until it has few unknowns, or as far as elements allow.
+    """The section of a scene on a mesh that is coarsened until it has few unknowns, or as far as elements allow and
+    actuators reach some.
 
-    Raises MeshError.
+    Raises MeshError if no mesh can be had.
     """
-    edges, section = nominal_edges(scene.device.actuators), None
+    edges, section, failure = nominal_edges(scene.device.actuators), None, MeshError()
     for coarsening in COARSENINGS:
-        with suppress(MeshError):
-            section = mesh_section(scene.coarsened(coarsening), edges)
-            few = contact_tractions(section, scene).weight.size <= MOST_DEFORMED_CONTACT
-            if few and section.unknowns <= MOST_DEFORMED_UNKNOWNS:
-                break
-    return section or mesh_section(scene.coarsened(COARSENINGS[-1]), edges)
+        try:
+            coarser = mesh_section(scene.coarsened(coarsening), edges)
+            few = contact_tractions(coarser, scene).weight.size <= MOST_DEFORMED_CONTACT
+        except MeshError as error:
+            failure = error
+            continue
+        section = coarser
+        if few and section.unknowns <= MOST_DEFORMED_UNKNOWNS:
+            break
+    if section is None:
+        raise failure
+    return section
 
 
 def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:

@@ -27,7 +27,7 @@ WAVES = 5.0  # w over the displacement of `manufactured` [1]: its gradients reac
 TURN = 0.5  # angle of R [rad]; source: beyond what small strain could take for one
 ROTATION = np.array([[np.cos(TURN), -np.sin(TURN)], [np.sin(TURN), np.cos(TURN)]])
 ORDERS = {"displacement": 3.0, "gradient": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
-CASE = "Finite manufactured solution"
+CASE = "Finite manufactured"
 
 
 def rows(scene: Scene) -> list[Comparison]:

@@ -15,7 +15,14 @@ from ..closedforms.comparison import ORDER_OF
 from .style import COLOURS, GREY, MARKERS, WIDE, legend_below, letter, new_figure, styled
 
 COLUMNS = 3
-NU, MU = "\N{GREEK SMALL LETTER NU}", "\N{GREEK SMALL LETTER MU}"
+TYPESET = {
+    "nu = ": "\N{GREEK SMALL LETTER NU} = ",
+    "mu = ": "\N{GREEK SMALL LETTER MU} = ",
+    "neo_hookean": "neo-Hookean",
+    "hencky": "Hencky",
+    "ogden": "Ogden",
+    "green": "Green",
+}
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 10.0  # mm
 LETTER_OFFSET = (-26.0, 4.0)  # pt
 LABELS = 3  # of a legend in one column [1]; more are short, and stand in two
@@ -75,5 +82,7 @@ def _panel(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _typeset(name: str) -> str:
-    """A name with the Greek letters that it spells out."""
-    return name.replace("nu = ", f"{NU} = ").replace("mu = ", f"{MU} = ")
+    """A name with the Greek letters that it spells out, and laws as they are written."""
+    for plain, typeset in TYPESET.items():
+        name = name.replace(plain, typeset)
+    return name

@@ -22,6 +22,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..files import replacing
+from ..roughness import TYPESET_UNITS
 from ..scene import Device, Interface, Kinematics, Readout
 
 MM = 1.0 / 25.4  # inch
@@ -89,7 +90,6 @@ GREY = "#6E6E6E"  # what is not data: lines, notes
 KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
 READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
 INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
-UNITS = {"mm2": "mm²"}
 SCORE_SCALE = {
     Readout.STRAIN: (1.0, ""),
     Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
@@ -304,7 +304,7 @@ def note_in(axes: Axes, text: str) -> None:
 
 def score_label(readout: Readout, unit: str) -> str:
     """Axis label of a score in a unit such as mm2."""
-    return f"{READOUT_NAME[readout]} score ({SCORE_SCALE[readout][1]}{UNITS.get(unit, unit)})"
+    return f"{READOUT_NAME[readout]} score ({SCORE_SCALE[readout][1]}{TYPESET_UNITS.get(unit, unit)})"
 
 
 def face_handle() -> Patch:

@@ -6,7 +6,8 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, UNITS, counted, plain
+from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, counted, plain
+from ..roughness import TYPESET_UNITS
 from ..scene import Device, Interface, Kinematics, Readout, Scene
 from .tables import SLOPES, Row, error_of, measured, p_value
 
@@ -224,7 +225,7 @@ def _scores(
     ]
     found = (f"{row['condition']} {measured(float(row['score']), error_of(row), scale)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
-    scaled = f"{power}{UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
+    scaled = f"{power}{TYPESET_UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
     return f"{', '.join(found)} {scaled}"
 
 
