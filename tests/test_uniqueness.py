@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.active_set import NotConvergedError
 from fingerpad.contact import ContactProblem, ContactState, Status, rest
 from fingerpad.errors import UniquenessError
-from fingerpad.increment import NotConvergedError, solve_increment
+from fingerpad.increment import solve_increment
 from fingerpad.path import follow
 from fingerpad.scene import ActuatorRow
 

@@ -20,7 +20,7 @@ from .compliance import CondensedSection
 from .contact import ContactProblem, ContactState
 from .creep import Creep
 from .errors import CycleError
-from .increment import Patch
+from .patch import Patch
 from .path import advance, drifting_to
 from .scene import Cycle, FloatArray
 

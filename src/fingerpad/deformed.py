@@ -20,11 +20,13 @@ import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU
 
+from .active_set import NotConvergedError
 from .condensation import factorise, trailing_compliance
 from .contact import ContactProblem, ContactState
 from .deformation import Elements, internal_force, internal_force_and_tangent
 from .errors import CondensationError, InvertedError, SnapError
-from .increment import NotConvergedError, Patch, solve_increment
+from .increment import solve_increment
+from .patch import Patch
 from .path import SolveIncrement
 from .scene import FloatArray
 from .stability import unstable_directions

@@ -24,7 +24,7 @@ from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
 from .deformed import MEMORY, Span, accelerated, deformed, increments_of, is_far, solver_on, undeformed
 from .errors import ContactError
-from .increment import Patch
+from .patch import Patch
 from .path import advance, drifting_to
 from .scene import FloatArray
 
