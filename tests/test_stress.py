@@ -183,7 +183,7 @@ def test_outcomes_do_not_depend_on_threads() -> None:
         environment = os.environ | {"OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads}
         environment["PYTHONPATH"] = str(Path(__file__).parents[1] / "src")
         done = subprocess.run(
-            [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True, timeout=120
+            [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True, timeout=900
         )
         said.append([line.split() for line in done.stdout.splitlines()])
     for one, two in zip(*said, strict=True):

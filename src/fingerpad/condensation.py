@@ -29,6 +29,7 @@ TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
 MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte
+BODY_FINER = 2.0  # times [1] smaller elements of actuators' bodies than of skin; source: decision 24
 CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
 
 
@@ -249,7 +250,7 @@ def condense_body(scene: Scene) -> CondensedBody:
     row = scene.device.actuators
     if row.body is None:
         raise MeshError("a rigid actuator has no body to condense")
-    mesh = mesh_strip(row, scene.model.numerics)
+    mesh = mesh_strip(row, scene.model.numerics.coarsened(1.0 / BODY_FINER))
     basis = displacement_basis(mesh)
     matrix = stiffness(basis, [row.body.material], np.zeros(mesh.t.shape[1], dtype=int))
     y = mesh.doflocs[1]

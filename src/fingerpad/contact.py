@@ -39,6 +39,9 @@ class Status(IntEnum):
 
 
 OPEN = int(Status.OPEN)  # which arrays are compared with faster
+# Gauss-Jacobi on half a hat, exact for cubics: distances from its top over its width [1], weights [1] with a sum of one
+HAT_POINTS = np.array([0.4 - np.sqrt(0.06), 0.4 + np.sqrt(0.06)])
+HAT_WEIGHTS = np.array([0.5 + 1.0 / np.sqrt(54.0), 0.5 - 1.0 / np.sqrt(54.0)])
 
 
 @dataclass(frozen=True)
@@ -163,8 +166,22 @@ class Touch:
 
 
 def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
-    """Where on their actuator's face the nodes are, from their places (n,) [mm]; None if the actuators are rigid."""
-    return None if problem.body is None else Touch(face_shape(problem.body, place), problem.spans)
+    """Where on their actuator's face the nodes are, from their places (n,) [mm]; None if the actuators are rigid.
+
+    A node's force is spread over the skin under its hat, and its place is the mean there: so it feels the face's mean
+    there too (docs/decisions/0024).
+    """
+    if problem.body is None:
+        return None
+    before, after = np.empty_like(place), np.empty_like(place)
+    for own in problem.spans:  # the outermost nodes have a neighbour on one side alone
+        width = np.diff(place[own])
+        before[own], after[own] = np.append(width[:1], width), np.append(width, width[-1:])
+    top = place - (after - before) / 3.0
+    sides = np.array([-before, after])
+    at = top + HAT_POINTS[:, None, None] * sides
+    weight = HAT_WEIGHTS[:, None, None] * np.abs(sides) / (before + after)
+    return Touch(face_shape(problem.body, at.reshape(-1, place.size), weight.reshape(-1, place.size)), problem.spans)
 
 
 def displacement(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
@@ -207,14 +224,17 @@ def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
     return np.asarray(y + profile(problem.row, x)[0])
 
 
-def face_shape(body: CondensedBody, at: FloatArray) -> FloatArray:
-    """Second-order shape functions (n, k) of the face's k nodes at coordinates (n,) [mm], held at its ends beyond."""
-    nodes = body.coordinate
+def face_shape(body: CondensedBody, at: FloatArray, weight: FloatArray) -> FloatArray:
+    """Second-order shape functions (n, k) of the face's k nodes: means of those at coordinates (p, n) [mm], held at the
+    face's ends beyond, with weights (p, n) [1].
+    """
+    nodes, count = body.coordinate, at.shape[1]
     at = np.minimum(np.maximum(at, nodes[0]), nodes[-1])
     left = 2 * np.minimum(np.searchsorted(nodes[2::2], at, side="right"), nodes.size // 2 - 1)
     local = (at - nodes[left]) / (nodes[left + 2] - nodes[left])
-    shape, number = np.zeros((at.size, nodes.size)), np.arange(at.size)
-    shape[number, left] = (1.0 - local) * (1.0 - 2.0 * local)
-    shape[number, left + 1] = 4.0 * local * (1.0 - local)
-    shape[number, left + 2] = local * (2.0 * local - 1.0)
-    return shape
+    values = weight * np.array(
+        [(1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0)]
+    )
+    place = left + nodes.size * np.arange(count) + np.arange(3)[:, None, None]
+    shape = np.bincount(place.ravel(), values.ravel(), minlength=count * nodes.size)
+    return np.asarray(shape, dtype=float).reshape(count, nodes.size)

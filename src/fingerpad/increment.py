@@ -42,8 +42,8 @@ from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
 from .scene import FloatArray
 
-GIVING = 5e-5  # of the load [1] by which a face may give way elsewhere than it touches; source: half of what a
-# certificate allows, scores of Device 3 hold to 1e-5 (measured)
+GIVING = 1e-5  # of the load [1] by which a face may give way elsewhere than it touches; source: a tenth of what a
+# certificate allows
 FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
 STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; source: rounding
 
