@@ -14,7 +14,7 @@ import numpy as np
 
 from .condensation import body_of, condense_section
 from .contact import ContactProblem, ContactState
-from .errors import ContactError, MeshError
+from .errors import CondensationError, ContactError, MeshError
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
 from .scene import Condition, FloatArray, Kinematics, Scene
@@ -51,7 +51,7 @@ def edge_intervals(scene: Scene) -> FloatArray:
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
     try:
         found = [_under_edges(*each) for each in _states(scene, wide)]
-    except (MeshError, ContactError):
+    except (MeshError, CondensationError, ContactError):
         return wide
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
     both = np.stack([start, stop], axis=1)
