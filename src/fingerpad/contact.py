@@ -78,6 +78,20 @@ class ContactProblem:
         bounds = np.searchsorted(self.actuator_of, np.arange(count + 1))
         return tuple(slice(int(start), int(stop)) for start, stop in pairwise(bounds))
 
+    @cached_property
+    def hats(self) -> tuple[FloatArray, FloatArray]:
+        """How far (2, n) [mm] the hat of each node reaches to its left (below zero) and right: to the next nodes of its
+        actuator, on the undeformed skin; and the share (2, n) [1] of it there.
+        """
+        reach = np.zeros((2, self.position.shape[0]))
+        for own in self.spans:
+            width = np.diff(self.position[own, 0])
+            if width.size:  # the outermost have a neighbour on one side alone
+                reach[:, own] = np.append(width[:1], width), np.append(width, width[-1:])
+        whole = reach.sum(axis=0)
+        shares = np.divide(reach, whole, out=np.full_like(reach, 0.5), where=whole > 0.0)
+        return reach * np.array([[-1.0], [1.0]]), shares
+
 
 @dataclass(frozen=True)
 class ContactState:
@@ -173,14 +187,9 @@ def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
     """
     if problem.body is None:
         return None
-    before, after = np.empty_like(place), np.empty_like(place)
-    for own in problem.spans:  # the outermost nodes have a neighbour on one side alone
-        width = np.diff(place[own])
-        before[own], after[own] = np.append(width[:1], width), np.append(width, width[-1:])
-    top = place - (after - before) / 3.0
-    sides = np.array([-before, after])
-    at = top + HAT_POINTS[:, None, None] * sides
-    weight = HAT_WEIGHTS[:, None, None] * np.abs(sides) / (before + after)
+    sides, shares = problem.hats
+    at = place - sides.sum(axis=0) / 3.0 + HAT_POINTS[:, None, None] * sides
+    weight = HAT_WEIGHTS[:, None, None] * shares
     return Touch(face_shape(problem.body, at.reshape(-1, place.size), weight.reshape(-1, place.size)), problem.spans)
 
 
