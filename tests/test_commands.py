@@ -202,9 +202,9 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     """Much friction on narrow gaps: on the coarser mesh contact loses its way. A caveat says so, in the table too."""
     base = scene("device2")
     moved = base.device.condition("alternate_180")
-    moved = replace(moved, tangential=moved.tangential * 0.12 / np.abs(moved.tangential).max())
-    row = replace(base.device.actuators, positions=(-2.1, -0.7, 0.7, 2.1))
-    contact = replace(base.model.contact, friction=3.0)
+    moved = replace(moved, tangential=moved.tangential * 0.08 / np.abs(moved.tangential).max())
+    row = replace(base.device.actuators, positions=(-2.25, -0.75, 0.75, 2.25))
+    contact = replace(base.model.contact, friction=2.0)
     device = replace(base.device, actuators=row, conditions=(moved,))
     given = replace(base, device=device, model=replace(base.model, contact=contact))
     shear = [row for row in forecast(given) if row["interface"] == "shear"]
