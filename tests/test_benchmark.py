@@ -43,15 +43,13 @@ def stated(coarse: Scene) -> list[dict[str, Any]]:
 
 
 def test_ladders_agree_where_their_meshes_do(stated: list[dict[str, Any]]) -> None:
-    """Both solvers solve the same equations: on one mesh their scores differ by what increments leave. How long they
-    take, the benchmark says."""
+    """Both solvers solve the same equations: on one mesh their scores differ by what increments leave."""
     base = scene("device2")
     condition = base.device.conditions[-1]
     (own,) = own_ladder(base, condition, [COARSE], stated, 1)
     (plain,) = plain_ladder(base, condition, [COARSE], stated)
     assert float(own["error_strain"]) < 1e-12  # the reference is this very mesh
     assert float(plain["error_strain"]) < 0.01
-    assert plain["cold_s"] > 0.0
     assert own["cold_s"] > own["warm_s"] > own["stimulus_s"]
 
 

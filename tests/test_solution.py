@@ -173,10 +173,10 @@ def test_skin_touches_faces_with_its_hats() -> None:
     place = rest(problem, 0.0).place
     there = touch(problem, place)
     assert there is not None
-    for own in there.spans:
+    for own in problem.spans:
         x, a, b = place[own][1:-1], np.diff(place[own])[:-1], np.diff(place[own])[1:]
         on_face = np.abs(x) + np.maximum(a, b) < body.coordinate[-1]
-        found = (there.shape[own] @ body.coordinate**2)[1:-1]
+        found = (there[own] @ body.coordinate**2)[1:-1]
         expected = x**2 + (a**2 + a * b + b**2) / 18.0
         assert np.abs(found - expected)[on_face].max() < 1e-12
         assert on_face.sum() > 10

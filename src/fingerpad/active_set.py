@@ -20,6 +20,7 @@ slips: Klarbring 1990). A solution there is one of three or more, and none that 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -58,7 +59,7 @@ class PatchProblem:
     """What does not change while one increment is solved, of the patch's nodes.
 
     origin: (2, b) unloaded nodes from their actuator [mm]. bias: (2b,) displacements [mm] that take no force.
-    gap_scale: [mm]. force_floor: [N/mm], whose tolerance is what rounding leaves of K u.
+    gap_scale: [mm].
     """
 
     problem: ContactProblem
@@ -66,7 +67,12 @@ class PatchProblem:
     origin: FloatArray
     bias: FloatArray
     gap_scale: float
-    force_floor: float
+
+    @cached_property
+    def force_floor(self) -> float:
+        """Force [N/mm] whose tolerance is what the rounding of coordinates and displacements leaves of K u."""
+        digit = ROUNDING * (largest_of(self.origin) + self.gap_scale)
+        return digit * self.patch.stiffest / self.problem.tolerance
 
 
 @dataclass(frozen=True)
@@ -97,14 +103,6 @@ class Trial:
     pressing: FloatArray
     shearing: FloatArray
     largest: float
-
-
-def patch_problem(
-    problem: ContactProblem, patch: Patch, origin: FloatArray, bias: FloatArray, gap_scale: float
-) -> PatchProblem:
-    """The problem of a patch whose unloaded nodes are at `origin` (b, 2) [mm] from their actuator."""
-    digit = ROUNDING * (largest_of(origin) + gap_scale)  # mm, of coordinates and displacements
-    return PatchProblem(problem, patch, origin.T, bias, gap_scale, digit * patch.stiffest / problem.tolerance)
 
 
 def settle(

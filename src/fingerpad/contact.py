@@ -169,18 +169,9 @@ def switch_friction(state: ContactState) -> ContactState:
     return replace(state, status=np.where(state.status == Status.OPEN, Status.OPEN, Status.STICK))
 
 
-@dataclass(frozen=True)
-class Touch:
-    """Where skin nodes touch the deformable faces: shape functions (n, k) of the face's k nodes there, and the skin
-    nodes of each actuator.
-    """
-
-    shape: FloatArray
-    spans: tuple[slice, ...]
-
-
-def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
-    """Where on their actuator's face the nodes are, from their places (n,) [mm]; None if the actuators are rigid.
+def touch(problem: ContactProblem, place: FloatArray) -> FloatArray | None:
+    """Where skin nodes at their places (n,) [mm] touch the deformable faces: shape functions (n, k) of the k nodes of
+    their actuator's face there; None if the actuators are rigid.
 
     A node's force is spread over the skin under its hat, and its place is the mean there: so it feels the face's mean
     there too (docs/decisions/0024).
@@ -190,35 +181,35 @@ def touch(problem: ContactProblem, place: FloatArray) -> Touch | None:
     sides, shares = problem.hats
     at = place - sides.sum(axis=0) / 3.0 + HAT_POINTS[:, None, None] * sides
     weight = HAT_WEIGHTS[:, None, None] * shares
-    return Touch(face_shape(problem.body, at.reshape(-1, place.size), weight.reshape(-1, place.size)), problem.spans)
+    return face_shape(problem.body, at.reshape(-1, place.size), weight.reshape(-1, place.size))
 
 
-def displacement(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
+def displacement(problem: ContactProblem, force: FloatArray, there: FloatArray | None) -> FloatArray:
     """Displacement (n, 2) [mm] of the skin relative to the actuators' bases: C f and what their faces give way."""
     moved = np.asarray((problem.compliance @ force.ravel()).reshape(-1, 2))
     return moved if there is None else moved + given_way(problem, force, there)
 
 
-def given_way(problem: ContactProblem, force: FloatArray, there: Touch | None) -> FloatArray:
-    """By how much (n, 2) [mm] deformable faces give way under forces (n, 2) [N/mm] on the skin."""
+def given_way(problem: ContactProblem, force: FloatArray, there: FloatArray | None) -> FloatArray:
+    """By how much (n, 2) [mm] deformable faces give way under forces (n, 2) [N/mm] on skin that touches `there`."""
     given = np.zeros_like(force)
     if problem.body is not None and there is not None:
-        for own in there.spans:
-            shape = there.shape[own]
+        for own in problem.spans:
+            shape = there[own]
             given[own] = shape @ (problem.body.compliance @ (shape.T @ force[own]).ravel()).reshape(-1, 2)
     return given
 
 
-def face_compliance(problem: ContactProblem, there: Touch, nodes: np.ndarray) -> FloatArray:
+def face_compliance(problem: ContactProblem, there: FloatArray, nodes: np.ndarray) -> FloatArray:
     """Compliance (2b, 2b) [mm per N/mm] of deformable faces under some nodes (b,), ascending, ordered x0, x1, ..., y0,
     y1, ...
     """
     found = np.zeros((2, nodes.size, 2, nodes.size))
     if problem.body is not None:
         size = problem.body.coordinate.size
-        for span in there.spans:
+        for span in problem.spans:
             own = slice(*np.searchsorted(nodes, [span.start, span.stop]))
-            shape = there.shape[nodes[own]]
+            shape = there[nodes[own]]
             count = shape.shape[0]
             by_face = (shape @ problem.body.compliance.reshape(size, -1)).reshape(count, 2, size, 2)
             by_skin = by_face.transpose(1, 0, 3, 2).reshape(-1, size) @ shape.T

@@ -22,7 +22,6 @@ from .active_set import (
     dragged,
     largest_of,
     newly_touching,
-    patch_problem,
     settle,
     touch_on_the_way,
     touched_status,
@@ -31,7 +30,6 @@ from .contact import (
     OPEN,
     ContactProblem,
     ContactState,
-    Touch,
     displacement,
     given_way,
     resolved,
@@ -93,7 +91,7 @@ def solve_increment(
                 raise NotConvergedError(float("inf")) from None
         nodes = patch.nodes
         bias = np.zeros(2 * nodes.size) if bias is None else bias
-        increment = patch_problem(problem, patch, origin[nodes], bias, gap_scale)
+        increment = PatchProblem(problem, patch, origin[nodes].T, bias, gap_scale)
         trial, status_there, count = settle(increment, start, guess[nodes], status[nodes], reference, iterations)
         iterations, searched = iterations + count, searched or count > SIMULTANEOUS
         found = _everywhere(increment, origin, there, trial, status_there)
@@ -121,7 +119,7 @@ def solve_increment(
 
 
 def _everywhere(
-    increment: PatchProblem, origin: FloatArray, there: Touch | None, trial: Trial, status: np.ndarray
+    increment: PatchProblem, origin: FloatArray, there: FloatArray | None, trial: Trial, status: np.ndarray
 ) -> _Everywhere:
     """What a patch's trial means for all nodes, whose unloaded places are `origin` (n, 2) [mm]."""
     nodes = increment.patch.nodes
@@ -133,7 +131,7 @@ def _everywhere(
     return _Everywhere(force, shearing, states, moved, place, height + drop, slope)
 
 
-def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: Touch | None, gap_scale: float) -> bool:
+def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: FloatArray | None, gap_scale: float) -> bool:
     """Whether deformable faces give way noticeably elsewhere than the skin touches them now."""
     if there is None:
         return False

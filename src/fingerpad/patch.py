@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .contact import ContactProblem, Touch, face_compliance
+from .contact import ContactProblem, face_compliance
 from .scene import FloatArray
 
 ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; source: fewest seconds of 16 to 50 (measured)
@@ -27,7 +27,7 @@ class Patch:
     stiffest: float
 
 
-def patch_of(problem: ContactProblem, nodes: np.ndarray, there: Touch | None) -> Patch:
+def patch_of(problem: ContactProblem, nodes: np.ndarray, there: FloatArray | None) -> Patch:
     """Stiffness of some nodes, all other nodes unloaded. Raises LinAlgError if their compliance is singular."""
     unknowns = np.concatenate([2 * nodes, 2 * nodes + 1])
     compliance = problem.compliance.take(unknowns, 0).take(unknowns, 1)
