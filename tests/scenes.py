@@ -6,11 +6,14 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+from fingerpad.actuator_body import body_of
 from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.condensation import body_of, condense_section
+from fingerpad.condensation import condense_section
+from fingerpad.contact_law import Interface
+from fingerpad.device import Condition
 from fingerpad.edges import mesh_device
 from fingerpad.mesh import SectionMesh
-from fingerpad.scene import Condition, Interface, Scene
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution, solve_condition
 

@@ -19,11 +19,14 @@ from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_lad
 from fingerpad.benchmark.skipping import always_rows, skip_rows
 from fingerpad.benchmark.timing import exponent
 from fingerpad.condensation import condense_section
+from fingerpad.device import Control
 from fingerpad.edges import edge_intervals, mesh_device
 from fingerpad.errors import SceneError
+from fingerpad.numerics import Skips
 from fingerpad.pages import accuracy_values, filled, skipping_values, table
 from fingerpad.prediction import rows_at
-from fingerpad.scene import Control, Kinematics, Scene, Skips
+from fingerpad.scene import Scene
+from fingerpad.tissue_law import Kinematics
 from scenes import scene
 
 COARSE = 3.0  # times the shipped sizes [1]: seconds instead of minutes

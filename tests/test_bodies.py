@@ -10,12 +10,15 @@ import pytest
 import yaml
 from matplotlib.figure import Figure
 
+from fingerpad.actuator_body import body_of
+from fingerpad.arrays import FloatArray
 from fingerpad.bodies import BODIES
-from fingerpad.condensation import body_of
+from fingerpad.device import Body
 from fingerpad.errors import MeshError, SceneError
 from fingerpad.export import DeckSettings, input_deck
 from fingerpad.figures.actuators import draw_actuators
-from fingerpad.scene import Body, FloatArray, Material, Scene
+from fingerpad.finger import Material
+from fingerpad.scene import Scene
 from fingerpad.solution import indent_device
 from scenes import condensed, scene, section
 

@@ -11,6 +11,7 @@ import pytest
 from skfem import MeshTri, MeshTri2
 
 from fingerpad import calculix
+from fingerpad.arrays import FloatArray
 from fingerpad.calculix import read_printed, run
 from fingerpad.condensation import condense_section
 from fingerpad.crosscheck import (
@@ -28,9 +29,11 @@ from fingerpad.edges import mesh_device
 from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import CalculixError, ContactError
 from fingerpad.export import DeckSettings, input_deck, material_lines, triangles
+from fingerpad.finger import Material
 from fingerpad.hyperelasticity import tissue_of
 from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.scene import FloatArray, Kinematics, Law, Material, Scene, TissueLaw
+from fingerpad.scene import Scene
+from fingerpad.tissue_law import Kinematics, Law, TissueLaw
 from scenes import CONFIG, scene
 from scripts.calculix import main
 

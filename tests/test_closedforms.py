@@ -7,14 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms import bending, layers, patch, punch, spence
 from fingerpad.closedforms.blocks import pressed
 from fingerpad.closedforms.comparison import ORDER_OF
 from fingerpad.closedforms.energy import first_stress
 from fingerpad.closedforms.table import CASES
 from fingerpad.contact import Status
+from fingerpad.finger import Layer, Material
 from fingerpad.hyperelasticity import tissue_of
-from fingerpad.scene import FloatArray, Law, Layer, Material
+from fingerpad.tissue_law import Law
 from scenes import scene
 
 PAD = scene("device2").model.finger.pad

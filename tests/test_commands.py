@@ -24,9 +24,9 @@ from fingerpad.api import predict
 from fingerpad.caveats import MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
+from fingerpad.contact_law import Interface
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import forecast, steps
-from fingerpad.scene import Interface
 from fingerpad.template import DRIVES, device_text
 from fingerpad.validation import check_device, checked_document
 from scenes import scene, solved

@@ -7,10 +7,13 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
-from fingerpad.condensation import condense, contact_tractions, receptor_strain, section_stiffness, unit_loads
+from fingerpad.condensation import condense, section_stiffness
+from fingerpad.contact_law import Interface
+from fingerpad.elasticity import unit_loads
 from fingerpad.errors import CondensationError
+from fingerpad.reach import contact_tractions
+from fingerpad.receptors import receptor_strain
 from fingerpad.recovery import recover_displacement
-from fingerpad.scene import Interface
 from fingerpad.states import states_fields
 from fingerpad.strain import maximum_principal
 from scenes import condensed, scene, section, solved

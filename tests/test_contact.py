@@ -10,9 +10,9 @@ import pytest
 
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact import ContactProblem, ContactState, Status, rest
+from fingerpad.device import ActuatorRow
 from fingerpad.errors import ContactError
 from fingerpad.path import follow
-from fingerpad.scene import ActuatorRow
 
 SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
 

@@ -14,10 +14,12 @@ import pytest
 from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementQuad1, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshQuad, MeshTri, MeshTri2
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.equilibrium import Equilibrium, equilibrium
 from fingerpad.elasticity import displacement_basis, lame, node_dofs
+from fingerpad.finger import Material
 from fingerpad.hyperelasticity import tissue_of
-from fingerpad.scene import FloatArray, Law, Material
+from fingerpad.tissue_law import Law
 from forms import forms
 
 RUBBER = Material(240.565, 0.499)  # MPa, 1

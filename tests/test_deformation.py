@@ -12,6 +12,7 @@ from scipy.sparse import csc_matrix
 from skfem import Basis
 from skfem.helpers import grad
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.energy import STEP, stored_energy
 from fingerpad.closedforms.finite_manufactured import large_displacement
 from fingerpad.closedforms.manufactured import uniform
@@ -20,7 +21,7 @@ from fingerpad.elasticity import displacement_basis, node_dofs, stiffness
 from fingerpad.errors import InvertedError
 from fingerpad.hyperelasticity import Tissue, tissue_of
 from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.scene import FloatArray, Law
+from fingerpad.tissue_law import Law
 from forms import LAWS, forms
 from scenes import scene
 

@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
+from fingerpad.contact_law import Interface
 from fingerpad.deformed import deformed, solver_on
 from fingerpad.deformed_path import EQUILIBRIUM, DeformedTissue, move
 from fingerpad.deformed_solution import PressedFinger, pressed_finger
 from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.path import advance
 from fingerpad.pressing import press
-from fingerpad.scene import FloatArray, Interface, Kinematics
+from fingerpad.tissue_law import Kinematics
 from scenes import scene
 
 COARSER = 6.0  # times the shipped sizes and strides

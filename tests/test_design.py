@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from fingerpad.accuracy import COARSENING, with_errors
+from fingerpad.contact_law import Interface
 from fingerpad.design import Pad, Pressed, answer, condense_pad, press
 from fingerpad.edges import edge_intervals
 from fingerpad.errors import SceneError
 from fingerpad.figures.design import DesignPicture
 from fingerpad.figures.style import SCORE_SCALE
 from fingerpad.prediction import condense_scene, predicted_rows, rows_at
-from fingerpad.scene import Interface, Readout
+from fingerpad.readout import Readout
 from fingerpad.symmetry import mirrors
 from scenes import scene
 

@@ -7,7 +7,7 @@ import numpy as np
 from fingerpad.closedforms.blocks import block_mesh
 from fingerpad.closedforms.patch import solved
 from fingerpad.elasticity import displacement_basis, facet_strain, node_dofs, stiffness
-from fingerpad.scene import Material
+from fingerpad.finger import Material
 
 
 def test_facet_strain_reads_the_side_that_is_asked_for() -> None:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.energy import first_stress
 from fingerpad.deformation import Elements, elements_of
 from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.ellipticity import require_elliptic, smallest_stiffness
 from fingerpad.errors import EllipticityError
+from fingerpad.finger import Material
 from fingerpad.hyperelasticity import tissue_of
 from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.scene import FloatArray, Law, Material
+from fingerpad.tissue_law import Law
 from scenes import scene
 
 SKIN = [Material(0.08, 0.48)]

@@ -9,12 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
 from fingerpad.cli import FAILED, main
+from fingerpad.contact_law import Interface
 from fingerpad.crosscheck import sharpened
 from fingerpad.edges import mesh_device
 from fingerpad.export import READ_NODES, DeckSettings, input_deck, read_nodes
 from fingerpad.profile import profile
-from fingerpad.scene import FloatArray, Interface, Kinematics, Law, Scene
+from fingerpad.scene import Scene
+from fingerpad.tissue_law import Kinematics, Law
 from scenes import CONFIG, scene, section
 
 SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"

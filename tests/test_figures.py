@@ -14,8 +14,11 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from fingerpad.arrays import FloatArray
 from fingerpad.compliance import CondensedSection
 from fingerpad.contact import Status
+from fingerpad.contact_law import Interface
+from fingerpad.device import ActuatorRow, Body, Condition, Control, Device
 from fingerpad.fields import Fields
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.accuracy import accuracy_figure
@@ -26,21 +29,12 @@ from fingerpad.figures.section import section_figure
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.style import MIDDLE, NARROW, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
+from fingerpad.finger import Material
 from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
+from fingerpad.numerics import Numerics
 from fingerpad.perception import correlation_table
-from fingerpad.scene import (
-    ActuatorRow,
-    Body,
-    Condition,
-    Control,
-    Device,
-    FloatArray,
-    Interface,
-    Material,
-    Numerics,
-    Readout,
-    Scene,
-)
+from fingerpad.readout import Readout
+from fingerpad.scene import Scene
 from fingerpad.scenefile import build_model, read_yaml
 from fingerpad.solution import Certificate, Solution
 from fingerpad.strain import FilteredReadouts

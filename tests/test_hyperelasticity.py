@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from scipy.linalg import logm
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.energy import first_stress, stored_energy
 from fingerpad.elasticity import lame
+from fingerpad.finger import Material
 from fingerpad.finite_strain import green_strain, is_upright, logarithmic_strain
 from fingerpad.hyperelasticity import EQUAL, Tissue, cauchy_stress, respond, tissue_of
-from fingerpad.scene import FloatArray, Law, Material
+from fingerpad.tissue_law import Law
 
 MATERIALS = [Material(0.08, 0.48), Material(1.0, 0.3), Material(2.0, 0.0)]
 EXPONENT = 9.0  # of Ogden's law, where it matters

@@ -8,10 +8,11 @@ from functools import cache
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact import ContactProblem, ContactState
+from fingerpad.device import ActuatorRow
 from fingerpad.path import follow
-from fingerpad.scene import ActuatorRow, FloatArray
 
 SPACING = 1 / 32  # mm; contact is 0.4 to 1 mm wide
 ROW = ActuatorRow((-0.35, 0.45), 0.5, 0.1)  # no mirror image of itself

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from skfem import MeshTri, MeshTri2
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms import bending, wave
 from fingerpad.elasticity import displacement_basis, lame, node_dofs
+from fingerpad.finger import Material
 from fingerpad.mean_stress import element_means, recover_linear
 from fingerpad.recovery import gradient_at, strain_of
-from fingerpad.scene import FloatArray, Material
 from fingerpad.vtu import NODES
 from scenes import section
 

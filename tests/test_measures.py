@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from fingerpad.elasticity import lame
+from fingerpad.finger import Material
 from fingerpad.measures import Measure, maximum_shear, measured, strain_energy_density, stress, von_mises_stress
-from fingerpad.scene import Material
 
 MATERIAL = Material(0.08, 0.48)
 RANDOM = np.random.default_rng(5).standard_normal((200, 3))

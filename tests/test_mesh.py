@@ -7,12 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.condensation import contact_tractions, receptor_strain
+from fingerpad.device import ActuatorRow
 from fingerpad.edges import REACH, edge_intervals, mesh_device
 from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import MeshError, SceneError
 from fingerpad.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
-from fingerpad.scene import ActuatorRow
+from fingerpad.reach import contact_tractions
+from fingerpad.receptors import receptor_strain
 from scenes import scene, section
 
 DEVICES = ("device1", "device2", "device3")

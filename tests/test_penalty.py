@@ -8,13 +8,16 @@ from functools import cache
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
 from fingerpad.contact import ContactProblem, rest, switch_friction, touching_height
+from fingerpad.contact_law import Interface
 from fingerpad.crosscheck import sharpened
+from fingerpad.device import ActuatorRow
 from fingerpad.errors import ContactError
+from fingerpad.finger import Material
 from fingerpad.path import follow
 from fingerpad.penalty import PenaltyLaw, press, untouched
-from fingerpad.scene import ActuatorRow, FloatArray, Interface, Material
 from fingerpad.solution import contact_problem
 from scenes import condensed, scene
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fingerpad.gabor import filtered_readouts, gabor_filtered
+from fingerpad.readout import GaborFilter, Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score
-from fingerpad.scene import GaborFilter, Readout
 from fingerpad.strain import maximum_principal, receptor_readouts
 
 SIGMA = 1.12

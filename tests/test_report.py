@@ -12,7 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from fingerpad.contact_law import Interface
 from fingerpad.digraph import layers, placed, read_dot, reduced
+from fingerpad.readout import Readout
 from fingerpad.report.captions import Results, Words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -24,7 +26,6 @@ from fingerpad.report.tables import (
     p_value,
     score_grid,
 )
-from fingerpad.scene import Interface, Readout
 from fingerpad.scenefile import load_scene, read_yaml
 from fingerpad.sources import Origin, page, quantities
 

@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.condensation import condense_body
+from fingerpad.actuator_body import condense_body
 from fingerpad.contact import face_shape, rest, touch
+from fingerpad.contact_law import Interface
+from fingerpad.device import Condition
 from fingerpad.errors import ContactError
 from fingerpad.gabor import filtered_readouts
+from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
-from fingerpad.scene import Condition, Interface, Readout
 from fingerpad.solution import certify, contact_problem, indented_state, solve_condition
 from scenes import condensed, scene, solve, solved
 

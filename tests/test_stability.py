@@ -10,31 +10,24 @@ import pandas as pd
 import pytest
 from scipy.sparse import csc_matrix
 
-from fingerpad.condensation import contact_tractions, factorise
+from fingerpad.arrays import FloatArray
 from fingerpad.contact import ContactProblem, Status
+from fingerpad.contact_law import Interface
+from fingerpad.device import ActuatorRow, Condition, Control, Device
 from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import CrossingError, SnapError
+from fingerpad.factors import factorise
 from fingerpad.figures.kinematics import NO_LIMITS, kinematics_figure
+from fingerpad.finger import Finger, Layer, Material
 from fingerpad.force_curve import limit_points
 from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
 from fingerpad.pressing import Pressed, press
 from fingerpad.randomscene import STILL
-from fingerpad.scene import (
-    ActuatorRow,
-    Condition,
-    Control,
-    Device,
-    Finger,
-    FloatArray,
-    Interface,
-    Kinematics,
-    Law,
-    Layer,
-    Material,
-    Scene,
-)
+from fingerpad.reach import contact_tractions
+from fingerpad.scene import Scene
 from fingerpad.skin import crossing, require_uncrossed, skin_of
 from fingerpad.stability import unstable_directions
+from fingerpad.tissue_law import Kinematics, Law
 from scenes import scene
 
 CONTRAST = 1e4  # of the shell's modulus over that of what it encloses [1]

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import yaml
 
+from fingerpad.device import Condition
 from fingerpad.errors import SceneError
 from fingerpad.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
-from fingerpad.scene import Condition
 from fingerpad.scenefile import recordings
 from fingerpad.stimuli import KINDS, alternating, measured, phased
 from fingerpad.validation import check_device

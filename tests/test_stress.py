@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from fingerpad import errors
 from fingerpad.closedforms.blocks import half_plane
 from fingerpad.compliance import CondensedSection
-from fingerpad.condensation import contact_tractions
+from fingerpad.contact_law import Criterion, Interface
+from fingerpad.device import ActuatorRow, Condition
 from fingerpad.errors import FingerpadError, MeshError
 from fingerpad.indentation import indent
 from fingerpad.mesh import mesh_section, nominal_edges
@@ -34,7 +35,7 @@ from fingerpad.randomscene import (
     random_group,
     random_scene,
 )
-from fingerpad.scene import ActuatorRow, Condition, Criterion, Interface
+from fingerpad.reach import contact_tractions
 from fingerpad.solution import contact_problem, solve_condition
 from fingerpad.stress import (
     SOLVED,

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fingerpad.scene import GaborFilter, Scene
+from fingerpad.readout import GaborFilter
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from support import fingerprint, path_of, reached_modules, stroke
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.contact_law import Interface
 from fingerpad.indentation import indent
-from fingerpad.scene import Interface
 from fingerpad.solution import contact_problem, indented_state
 from fingerpad.symmetry import indent_by_halves, mirrors
 from scenes import condensed, scene

@@ -8,21 +8,16 @@ from functools import cache
 import numpy as np
 import pytest
 
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
 from fingerpad.contact import ContactProblem, ContactState, Status, pressing_and_shearing, rest, touching_height
+from fingerpad.contact_law import ContactLaw, Criterion, Interface, TurningNormal
+from fingerpad.device import ActuatorRow
+from fingerpad.finger import Material
 from fingerpad.path import follow
 from fingerpad.penalty import PenaltyLaw, press, untouched
 from fingerpad.profile import bend, profile
-from fingerpad.scene import (
-    ActuatorRow,
-    ContactLaw,
-    Criterion,
-    FloatArray,
-    Interface,
-    Kinematics,
-    Material,
-    TurningNormal,
-)
+from fingerpad.tissue_law import Kinematics
 
 DEPTH, WAY = 0.1, 0.05  # mm
 FRICTION = 0.5

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fingerpad.contact_law import Interface
 from fingerpad.gabor import filtered_readouts
 from fingerpad.measures import Measure
+from fingerpad.readout import Side
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import score_rows
-from fingerpad.scene import Interface, Side
 from fingerpad.variants import VARIANT, WAVELENGTH_FACTORS, agreement, material_at, variant_rows
 from scenes import condensed, scene, solved
 

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from fingerpad.condensation import condense_section
+from fingerpad.contact_law import Interface
 from fingerpad.creep import Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.cycling import Vibration, displacement, vibrate
+from fingerpad.device import ActuatorRow, Cycle
 from fingerpad.edges import mesh_device
 from fingerpad.elasticity import mass
 from fingerpad.errors import SceneError
@@ -19,8 +21,10 @@ from fingerpad.inertia import condense_vibrating, inertia_effect
 from fingerpad.mesh import SectionMesh
 from fingerpad.path import follow
 from fingerpad.prediction import condense_mesh
-from fingerpad.scene import ActuatorRow, Cycle, Interface, Readout, Relaxation, Scene
+from fingerpad.readout import Readout
+from fingerpad.scene import Scene
 from fingerpad.solution import Indented, indent_device
+from fingerpad.vibration_rule import Relaxation
 from fingerpad.viscoelasticity import retardation_times, stiffening
 from scenes import scene
 

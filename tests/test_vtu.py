@@ -11,12 +11,14 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from fingerpad.condensation import contact_tractions
+from fingerpad.arrays import FloatArray
+from fingerpad.contact_law import Interface
 from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS
 from fingerpad.measures import stress
-from fingerpad.scene import FloatArray, Interface, Kinematics
+from fingerpad.reach import contact_tractions
 from fingerpad.states import States, linear_states, strain_at, stress_at
 from fingerpad.strain import maximum_principal
+from fingerpad.tissue_law import Kinematics
 from fingerpad.vtu import NODES, field_meshes, skin_tractions, write_collection, write_vtu
 from scenes import condensed, scene, section, solved
 

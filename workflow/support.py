@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from fingerpad.scene import Condition, Scene
+from fingerpad.device import Condition
+from fingerpad.scene import Scene
 
 PACKAGE = "fingerpad"
 THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")

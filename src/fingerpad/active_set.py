@@ -24,10 +24,10 @@ from functools import cached_property
 
 import numpy as np
 
+from .arrays import FloatArray
 from .contact import OPEN, ContactProblem, ContactState, Status, resolved
 from .patch import Patch
 from .profile import bend, profile
-from .scene import FloatArray
 
 MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: usual count is 2-6 (measured)
 SIMULTANEOUS = 12  # iterations in which all nodes may change state at once [1]; after that, the worst one alone

@@ -9,7 +9,7 @@ import pandas as pd
 
 from .checkout import find_checkout
 from .forecast import forecast
-from .scene import Kinematics
+from .tissue_law import Kinematics
 from .validation import check_device
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from .scene import Body
+from .device import Body
 
 BODIES: Mapping[str, type[Body] | None] = {
     "rigid": None,

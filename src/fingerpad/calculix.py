@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
+from .arrays import FloatArray
 from .errors import CalculixError
 from .export import READ_NODES, DeckSettings, actuator_name
-from .scene import FloatArray
 
 PROGRAM = "ccx"
 JOB = "scene"  # name of the deck, and so of all files that CalculiX writes

@@ -13,8 +13,9 @@ from typing import Any
 
 import pandas as pd
 
+from .contact_law import Interface
+from .readout import Readout
 from .roughness import CONSTANT, KEY, NO_PREDICTION, TYPESET_UNITS
-from .scene import Interface, Readout
 
 COLUMNS = ["kinematics", "claim", "source", "holds", "evidence"]
 DISPERSIONS = ("low", "medium", "high")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .scene import FloatArray
+from .arrays import FloatArray
 
 VOIGT = 3  # strain components [1]: exx, eyy, gxy = 2 exy
 GRADIENT = 4  # components of a displacement gradient [1]: du_x/dx, du_x/dy, du_y/dx, du_y/dy

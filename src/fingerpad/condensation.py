@@ -8,55 +8,27 @@ K is factorised once, and a solution for every unit force gives a column of both
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.linalg import solve_triangular
-from scipy.sparse import csc_matrix, csr_matrix, diags_array, hstack
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse import csc_matrix, csr_matrix, hstack
+from scipy.sparse.linalg import SuperLU
 from threadpoolctl import threadpool_limits
 
-from .compliance import GRADIENT, VOIGT, CondensedBody, CondensedSection
-from .elasticity import displacement_basis, facet_gradient, node_dofs, stiffness, strain_of_gradient
-from .errors import CondensationError, MeshError
-from .mesh import SectionMesh, mesh_strip
-from .scene import FloatArray, Scene, Side
-from .traction import Tractions, linear_tractions
+from .arrays import FloatArray
+from .compliance import VOIGT, CondensedSection
+from .elasticity import displacement_basis, node_dofs, stiffness, unit_forces
+from .errors import CondensationError
+from .factors import backward_error, factorise, fill_reducing_order
+from .halves import Parts, right_half, unfold, unfolding, whole
+from .mesh import SectionMesh
+from .reach import contact_tractions
+from .receptors import arc_length, receptor_strain
+from .scene import Scene
+from .traction import Tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
 TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
-PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
-MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte
-BODY_FINER = 2.0  # times [1] smaller elements of actuators' bodies than of skin; source: decision 24
-CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
-
-
-def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
-    """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one; and on
-    its mirror image. Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
-    """
-    row = scene.device.actuators
-    stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
-    points = section.mesh.doflocs[:, section.skin]
-    x, y = points
-    distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
-    within = (distance <= row.width / 2.0 + stroke + CONTACT_MARGIN) & (y < scene.model.finger.height / 2.0)
-    out_of_reach = (x == 0.0) & ~within  # without such a node both halves are alike, and one is enough
-    near = within[1::2] & ~out_of_reach[:-1:2] & ~out_of_reach[2::2]
-    if not near.any():
-        raise MeshError(
-            f"{scene.device.name}: no element of the skin lies within reach of an actuator; try a smaller"
-            " numerics.face_size"
-        )
-    tractions = linear_tractions(section.skin, points, near | near[::-1])
-    if tractions.weight.size > MAX_CONTACT:
-        raise MeshError(
-            f"{scene.device.name}: {tractions.weight.size} skin nodes may come into contact, more than {MAX_CONTACT};"
-            " try larger numerics.edge_size and numerics.face_size"
-        )
-    return tractions
 
 
 def section_stiffness(
@@ -71,11 +43,7 @@ def section_stiffness(
 
 
 def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
-    """Condense the finger to contact nodes and receptor line.
-
-    The section is its own mirror image, so half of it is condensed twice: under loads that mirror (the mid-line does
-    not move sideways) and under loads that mirror with the opposite sign (it moves sideways only). A load on one side
-    is half the sum of both: u_right = (C_sym + C_anti) f / 2, u_left = mirror of (C_sym - C_anti) f / 2.
+    """Condense the finger to contact nodes and receptor line, by halves (`halves`).
 
     Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError if too many nodes
     may come into contact.
@@ -153,126 +121,6 @@ def _holding(
     return (left + left.T) / 2.0, strain[:, loads] - strain[:, held] @ reaction
 
 
-@dataclass(frozen=True)
-class Parts:
-    """The tissue that is solved: the section, or its right half under loads that mirror, and that mirror with the
-    opposite sign.
-
-    elements: of the section. dofs: (2, n_nodes) unknowns of nodes. held, loads: for each kind of loads the unknowns
-    that do not move, and the nodal forces (n_unknowns, 2m) of unit contact forces.
-    """
-
-    elements: np.ndarray
-    dofs: np.ndarray
-    held: Sequence[np.ndarray]
-    loads: Sequence[csc_matrix]
-
-
-def whole(section: SectionMesh, tractions: Tractions) -> Parts:
-    """The whole section."""
-    dofs = node_dofs(displacement_basis(section.mesh))
-    loads = csc_matrix(unit_loads(dofs, tractions.nodes, dofs.size) @ tractions.by_component())
-    return Parts(np.arange(section.mesh.t.shape[1]), dofs, [dofs[:, section.fixed].ravel()], [loads])
-
-
-def right_half(section: SectionMesh, tractions: Tractions) -> Parts:
-    """The right half of a section; of contact nodes in the middle the right half takes the one on the mid-line."""
-    x = section.mesh.doflocs[0]
-    elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
-    dofs = node_dofs(displacement_basis(section.mesh, elements))
-    still, axis = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0]), dofs[:, x == 0.0]
-    held = [np.union1d(still, axis[sideways]) for sideways in (0, 1)]
-    first = 2 * (tractions.position.shape[0] // 2)
-    loads = [each[:, first:] for each in _folded_loads(section, tractions, dofs)]
-    return Parts(elements, dofs, held, loads)
-
-
-@dataclass(frozen=True)
-class Unfolding:
-    """How points of the whole section lie on its right half: place (n,) there, side (n,) +-1, mirror signs (c,)."""
-
-    place: np.ndarray
-    side: np.ndarray
-    mirror: FloatArray
-
-    def unknowns(self) -> np.ndarray:
-        """Row or column of the half's map for every component (n c,)."""
-        count = self.mirror.size
-        return np.asarray((count * self.place[:, None] + np.arange(count)).ravel())
-
-    def signs(self) -> FloatArray:
-        """Sign (n c,) of every component: 1 on the right, the mirror's on the left."""
-        return np.asarray(np.where(self.side[:, None] > 0, 1.0, self.mirror).ravel())
-
-
-def unfolding(count: int, mirror: FloatArray) -> Unfolding:
-    """Unfolding of `count` points on a line that mirrors end to end; a point in the middle lies on the right."""
-    line = np.arange(count)
-    left = count // 2
-    on_right = line >= left
-    return Unfolding(np.where(on_right, line, line[::-1]) - left, np.where(on_right, 1, -1), mirror)
-
-
-def _folded_loads(section: SectionMesh, tractions: Tractions, dofs: np.ndarray) -> tuple[csc_matrix, csc_matrix]:
-    """Nodal forces (n_unknowns, 2m) on the right half from unit resultants that act together with their mirror image,
-    and against it.
-    """
-    index = np.flatnonzero(np.isin(section.skin, tractions.nodes))
-    x = section.mesh.doflocs[0, tractions.nodes]
-    right, mirror = dofs[:, section.skin[index]].T, dofs[:, section.skin[::-1][index]].T
-    forces = tractions.by_component()
-    sides = []
-    for unknowns, there, sign in ((right, x >= 0.0, 1.0), (mirror, x < 0.0, np.array([-1.0, 1.0]))):
-        own = np.flatnonzero(np.repeat(there, 2))
-        signs = (sign * np.ones_like(unknowns)).ravel()[own]
-        placing = csc_matrix((signs, (unknowns.ravel()[own], own)), shape=(dofs.size, unknowns.size))
-        sides.append(placing @ forces)
-    return csc_matrix(sides[0] + sides[1]), csc_matrix(sides[0] - sides[1])
-
-
-def unfold(symmetric: FloatArray, antisymmetric: FloatArray, rows: Unfolding, columns: Unfolding) -> FloatArray:
-    """Map of the whole section from those of its half under mirrored and counter-mirrored loads."""
-    block = np.ix_(rows.unknowns(), columns.unknowns())
-    together = np.outer(np.repeat(rows.side, rows.mirror.size), np.repeat(columns.side, columns.mirror.size))
-    signs = np.outer(rows.signs(), columns.signs())
-    return np.asarray(signs * (symmetric[block] + together * antisymmetric[block]) / 2.0)
-
-
-def body_of(scene: Scene) -> CondensedBody | None:
-    """The condensed body of the scene's actuators, or None if they are rigid."""
-    return condense_body(scene) if scene.device.actuators.body else None
-
-
-def condense_body(scene: Scene) -> CondensedBody:
-    """Condense the deformable body of the scene's actuators (all equal) to its face; what its base stands on gives way
-    to all of the face alike.
-    """
-    row = scene.device.actuators
-    if row.body is None:
-        raise MeshError("a rigid actuator has no body to condense")
-    mesh = mesh_strip(row, scene.model.numerics.coarsened(1.0 / BODY_FINER))
-    basis = displacement_basis(mesh)
-    matrix = stiffness(basis, [row.body.material], np.zeros(mesh.t.shape[1], dtype=int))
-    y = mesh.doflocs[1]
-    face = np.flatnonzero(y == y.max())
-    face = face[np.argsort(mesh.doflocs[0, face])]
-    dofs = node_dofs(basis)
-    loads = unit_loads(dofs, face, matrix.shape[0])
-    none = csr_matrix((0, matrix.shape[0]))
-    compliance, _, _ = condense(matrix, dofs, dofs[:, y == y.min()].ravel(), loads, none)
-    return CondensedBody(mesh.doflocs[0, face], compliance + np.tile(row.body.mount(), (face.size, face.size)))
-
-
-def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:
-    """Unit forces on both unknowns of some nodes (n,): a matrix (size, 2n) for `condense`."""
-    return unit_forces(dofs[:, nodes].T.ravel(), size)
-
-
-def unit_forces(unknowns: np.ndarray, size: int) -> csc_matrix:
-    """Unit forces on some unknowns (k,) of `size`: a matrix (size, k) for `condense`."""
-    return csc_matrix((np.ones(unknowns.size), (unknowns, np.arange(unknowns.size))), shape=(size, unknowns.size))
-
-
 def condense(
     matrix: csc_matrix, dofs: np.ndarray, fixed: np.ndarray, loads: csc_matrix, strain: csr_matrix
 ) -> tuple[FloatArray, FloatArray, float]:
@@ -306,7 +154,7 @@ def condense_ordered(
             compliance[:, block] = right.T @ field
             strain_map[:, block] = read @ field
             mixed += field @ mix[block]
-    residual = _residual(permuted, mixed, right @ mix)
+    residual = backward_error(permuted, mixed, right @ mix)
     if not residual <= RESIDUAL_TOLERANCE:
         raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
     return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
@@ -332,84 +180,8 @@ def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matri
     mix = np.random.default_rng(0).standard_normal(loads.shape[1])
     load = loads @ mix
     field = factors.solve(load)
-    residual = _residual(permuted, field, load)
+    residual = backward_error(permuted, field, load)
     residual = max(residual, float(np.abs(loads.T @ field - compliance @ mix).max() / np.abs(field).max()))
     if not residual <= TRAILING_TOLERANCE:
         raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {TRAILING_TOLERANCE:.0e}")
     return (compliance + compliance.T) / 2.0, residual
-
-
-def receptor_strain(section: SectionMesh, scene: Scene) -> tuple[FloatArray, csr_matrix]:
-    """Receptor points (m, 2) [mm] and their strain (3m, n_unknowns), read from the side that the scene asks for."""
-    points, gradient = receptor_gradient(section, scene)
-    return points, strain_of_gradient(gradient)
-
-
-def receptor_gradient(section: SectionMesh, scene: Scene) -> tuple[FloatArray, csr_matrix]:
-    """Receptor points (m, 2) [mm] and their displacement gradient (4m, n_unknowns), read from the side that the scene
-    asks for.
-    """
-    above = [layer.name for layer in scene.model.finger.pad].index(scene.model.readout.layer_above)
-    wanted = above + 1 if scene.model.readout.side is Side.DERMIS else above
-    adjacent = section.mesh.f2t[:, section.receptor_facets]
-    element = np.where(section.layer[adjacent[0]] == wanted, adjacent[0], adjacent[1])
-    points, gradient = facet_gradient(section.mesh, section.receptor_facets, element)
-    # around the section's centre the angle ascends along the line, also where the line turns back in x
-    order = np.argsort(np.arctan2(points[0], scene.model.finger.height / 2.0 - points[1]))
-    rows = (GRADIENT * order[:, None] + np.arange(GRADIENT)).ravel()
-    return points[:, order].T, gradient[rows]
-
-
-def arc_length(points: FloatArray) -> FloatArray:
-    """Arc length (m,) [mm] along a polyline (m, 2), zero where x crosses the mid-line."""
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    middle = int(np.argmin(np.abs(points[:, 0])))
-    around = slice(max(middle - 1, 0), middle + 2)
-    return arc - float(np.interp(0.0, points[around, 0], arc[around]))
-
-
-def fill_reducing_order(
-    matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray, last: np.ndarray | None = None
-) -> np.ndarray:
-    """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work).
-
-    last: unknowns that come last in it. The factors join them to one another, and so does the graph beforehand.
-    """
-    nodes = np.flatnonzero(free[dofs].any(axis=0))
-    first = dofs[0, nodes]
-    graph = csc_matrix(matrix[first][:, first])
-    if last is not None:
-        joined = np.isin(dofs[:, nodes], last).any(axis=0).astype(float)[:, None]
-        graph = csc_matrix(abs(graph) + csc_matrix(joined) @ csc_matrix(joined).T)
-    graph.data[:] = -1.0
-    graph = csc_matrix(graph + diags_array(np.full(nodes.size, 2.0 * np.diff(graph.indptr).max())))
-    permutation = _factorise(graph, "MMD_AT_PLUS_A").perm_c
-    order = np.empty_like(permutation)
-    order[permutation] = np.arange(permutation.size)
-    ordered = dofs[:, nodes[order]].T.ravel()
-    ordered = ordered[free[ordered]]
-    after = np.isin(ordered, [] if last is None else last)
-    return np.concatenate([ordered[~after], ordered[after]])
-
-
-def factorise(permuted: csc_matrix) -> SuperLU:
-    """LU factors of a symmetric stiffness already in a fill-reducing order.
-
-    Raises CondensationError if it is singular.
-    """
-    factors = _factorise(permuted, "NATURAL")
-    pivots = np.abs(factors.U.diagonal())
-    if pivots.min() < PIVOT_LIMIT * pivots.max():
-        raise CondensationError("the stiffness is singular: nothing holds some of the tissue")
-    return factors
-
-
-def _factorise(matrix: csc_matrix, ordering: str) -> SuperLU:
-    """LU factors without pivoting, which a symmetric matrix far from singular does not need."""
-    return splu(matrix, permc_spec=ordering, diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-
-def _residual(matrix: csc_matrix, field: FloatArray, load: FloatArray) -> float:
-    """Backward error [1] of K u = f: max |K u - f| / (max row sum of |K| times max |u|). Rounding leaves some 1e-16."""
-    scale = float(np.abs(matrix).sum(axis=1).max()) * float(np.abs(field).max())
-    return float(np.abs(matrix @ field - load).max()) / scale

@@ -24,9 +24,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compliance import CondensedBody
+from .device import ActuatorRow
 from .profile import profile
-from .scene import ActuatorRow, FloatArray
 
 
 class Status(IntEnum):

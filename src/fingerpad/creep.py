@@ -14,10 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .arrays import FloatArray
 from .condensation import condense_section
 from .errors import CondensationError
 from .mesh import SectionMesh
-from .scene import FloatArray, Relaxation, Scene
+from .scene import Scene
+from .vibration_rule import Relaxation
 from .viscoelasticity import retardation_times, stiffening
 
 IN_BAND = 2  # times t_k [1] in each band; source: maps then hold to 1e-3 on the imaginary axis (measured)

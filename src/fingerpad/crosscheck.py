@@ -10,11 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import FloatArray
 from .calculix import Printed, read_printed, run
 from .compliance import CondensedBody, CondensedSection
-from .condensation import arc_length, receptor_gradient
 from .contact import ContactProblem, rest, switch_friction, touching_height
+from .contact_law import Interface
 from .deformed_solution import receptor_logarithmic_strain
+from .device import Condition
 from .edges import mesh_device
 from .elasticity import displacement_basis, node_dofs, strain_of_gradient
 from .errors import CalculixError
@@ -24,11 +26,14 @@ from .mesh import SectionMesh
 from .path import follow
 from .penalty import PenaltyLaw, PenaltyState, press, untouched
 from .pressing import indented_height
+from .readout import Readout
+from .receptors import arc_length, receptor_gradient
 from .resampling import resampling_to_grid
 from .roughness import roughness_score, score_span
-from .scene import Condition, FloatArray, Interface, Kinematics, Law, Readout, Scene
+from .scene import Scene
 from .solution import contact_problem
 from .strain import maximum_principal
+from .tissue_law import Kinematics, Law
 
 # source: the change of strain no longer moves in its fourth digit (measured)
 INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]

@@ -16,13 +16,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compliance import CondensedSection
 from .contact import ContactProblem, ContactState
 from .creep import Creep
+from .device import Cycle
 from .errors import CycleError
 from .patch import Patch
 from .path import advance, drifting_to
-from .scene import Cycle, FloatArray
 
 MAX_CYCLES = 60  # [1] before it is given up; source: usual count is 3-10 (measured)
 REPEATED = 5e-4  # change of what is read at the receptors from cycle to cycle [1]; source: a tenth of the score error

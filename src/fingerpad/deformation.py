@@ -14,11 +14,11 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from skfem import Basis
 
+from .arrays import FloatArray
 from .compliance import VOIGT
 from .errors import InvertedError
 from .finite_strain import is_upright
 from .hyperelasticity import Tissue, respond, stress_of
-from .scene import FloatArray
 
 NODES = 6  # of a second-order triangle [1]
 

@@ -21,14 +21,15 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU
 
 from .active_set import NotConvergedError
-from .condensation import factorise, trailing_compliance
+from .arrays import FloatArray
+from .condensation import trailing_compliance
 from .contact import ContactProblem, ContactState
 from .deformation import Elements, internal_force, internal_force_and_tangent
 from .errors import CondensationError, InvertedError, SnapError
+from .factors import factorise
 from .increment import solve_increment
 from .patch import Patch
 from .path import SolveIncrement
-from .scene import FloatArray
 from .stability import unstable_directions
 
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8

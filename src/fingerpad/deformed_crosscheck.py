@@ -8,6 +8,7 @@ import numpy as np
 
 from .compliance import CondensedBody
 from .contact import switch_friction
+from .contact_law import Interface
 from .crosscheck import (
     INDENTATION_INCREMENTS,
     STIMULUS_INCREMENTS,
@@ -20,11 +21,12 @@ from .crosscheck import (
 )
 from .deformed_path import move
 from .deformed_solution import pressed_finger, receptor_logarithmic_strain
+from .device import Condition
 from .errors import ContactError
 from .export import DeckSettings
 from .mesh import SectionMesh
 from .pressing import press
-from .scene import Condition, Interface, Scene
+from .scene import Scene
 
 
 def deformed_outcome(

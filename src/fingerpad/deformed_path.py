@@ -19,14 +19,14 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU
 
-from .condensation import factorise
+from .arrays import FloatArray
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
 from .deformed import MEMORY, Span, accelerated, deformed, increments_of, is_far, solver_on, undeformed
 from .errors import ContactError
+from .factors import factorise
 from .patch import Patch
 from .path import advance, drifting_to
-from .scene import FloatArray
 
 MAX_CORRECTIONS = 30  # of one move [1] before new tangents are made on the way; source: usual count is 2-24 (measured)
 EQUILIBRIUM = (

@@ -11,15 +11,18 @@ from functools import partial
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from .arrays import FloatArray
 from .compliance import CondensedBody
-from .condensation import receptor_gradient
 from .contact import ContactProblem
+from .contact_law import Interface
 from .deformed_path import DeformedTissue, Move, deformed_tissue, move
+from .device import Condition
 from .elasticity import displacement_basis, node_dofs
 from .finite_strain import logarithmic_strain
 from .mesh import SectionMesh
 from .pressing import Pressed, whole_span
-from .scene import Condition, FloatArray, Interface, Scene
+from .receptors import receptor_gradient
+from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
 from .solution import Certificate, Solution, certify, contact_problem, increments, named, solution
 from .strain import receptor_readouts

@@ -16,12 +16,15 @@ import numpy as np
 from .accuracy import with_error, with_errors
 from .compliance import CondensedSection
 from .condensation import condense_section
+from .contact_law import Interface
+from .device import ActuatorRow, Condition, Control, Device
 from .errors import ContactError
 from .mesh import mesh_section
+from .numerics import Numerics
 from .prediction import Condensed, read_out
 from .resampling import resampling_to_grid
 from .roughness import score_rows
-from .scene import ActuatorRow, Condition, Control, Device, Interface, Numerics, Scene
+from .scene import Scene
 from .solution import Indented, Solution, indent_device, stimulate
 from .strain import FilteredReadouts
 

@@ -12,14 +12,18 @@ from pathlib import Path
 
 import numpy as np
 
-from .condensation import body_of, condense_section
+from .actuator_body import body_of
+from .arrays import FloatArray
+from .condensation import condense_section
 from .contact import ContactProblem, ContactState
+from .device import Condition
 from .errors import CondensationError, ContactError, MeshError
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
-from .scene import Condition, FloatArray, Kinematics, Scene
+from .scene import Scene
 from .solution import contact_problem, follow_condition, indented_state
 from .store import read_rows, write_rows
+from .tissue_law import Kinematics
 
 COLUMNS = ("start_mm", "stop_mm")  # of a table of intervals
 COARSER = 4.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.003 mm with small

@@ -9,8 +9,9 @@ from scipy.sparse import csc_matrix, csr_matrix, identity, kron
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
 from skfem.helpers import ddot, dot, eye, sym_grad, trace
 
+from .arrays import FloatArray
 from .compliance import GRADIENT
-from .scene import FloatArray, Material
+from .finger import Material
 
 QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
 MASS_ORDER = 4  # exact on straight second-order elements: phi (2) x phi (2); degree count
@@ -122,3 +123,13 @@ def facet_gradient(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndar
     )
     found.eliminate_zeros()
     return positions.reshape(2, -1), found
+
+
+def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:
+    """Unit forces on both unknowns of some nodes (n,): a matrix (size, 2n) for `condense`."""
+    return unit_forces(dofs[:, nodes].T.ravel(), size)
+
+
+def unit_forces(unknowns: np.ndarray, size: int) -> csc_matrix:
+    """Unit forces on some unknowns (k,) of `size`: a matrix (size, k) for `condense`."""
+    return csc_matrix((np.ones(unknowns.size), (unknowns, np.arange(unknowns.size))), shape=(size, unknowns.size))

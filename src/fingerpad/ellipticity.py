@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from .arrays import FloatArray
 from .deformation import Elements, displacement_gradient
 from .errors import EllipticityError
 from .hyperelasticity import Tissue, respond
-from .scene import FloatArray
 
 DIRECTIONS = 24  # looked along, of half a turn [1]; source: twice as many find the same in simple shear, to 0.3 % of it
 

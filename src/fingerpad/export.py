@@ -15,24 +15,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from skfem import MeshTri2
 
-from .condensation import contact_tractions, receptor_strain
+from .arrays import FloatArray
+from .device import ActuatorRow, Body, Condition
 from .elasticity import displacement_basis, lame, node_dofs
 from .errors import SceneError
+from .finger import Layer, Material
 from .mesh import SectionMesh, mesh_strip
+from .numerics import Numerics
 from .profile import SHARP_RADIUS, WALL_ANGLE, profile
-from .scene import (
-    ActuatorRow,
-    Body,
-    Condition,
-    FloatArray,
-    Kinematics,
-    Law,
-    Layer,
-    Material,
-    Numerics,
-    Scene,
-    TissueLaw,
-)
+from .reach import contact_tractions
+from .receptors import receptor_strain
+from .scene import Scene
+from .tissue_law import Kinematics, Law, TissueLaw
 
 ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly

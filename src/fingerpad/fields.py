@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .scene import FloatArray
+from .arrays import FloatArray
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .scene import FloatArray
+from .arrays import FloatArray
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import FloatArray
 from .contact import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .indentation import raise_until
 from .path import SolveIncrement, State
-from .scene import FloatArray, Scene
+from .scene import Scene
 from .solution import increments
 
 RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction

@@ -8,11 +8,12 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from .accuracy import with_error, with_errors
+from .arrays import FloatArray
 from .caveats import score_caveats, solution_caveats
 from .edges import edge_intervals
 from .prediction import coarser_rows, prepared, rows_of, solve_scene
 from .roughness import CONSTANT, KEY, unpredicted_rows
-from .scene import FloatArray, Scene
+from .scene import Scene
 
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:

@@ -12,16 +12,20 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compliance import CondensedSection
+from .contact_law import Interface
 from .creep import Creep
 from .cycling import vibrate
+from .device import Cycle
 from .errors import ContactError, InertiaError
 from .gabor import filtered_readouts
 from .inertia import condense_vibrating, highest_frequency, inertia_effect
 from .mesh import SectionMesh
 from .prediction import Condensed
+from .readout import Readout
 from .roughness import NO_PREDICTION, SCORE_UNIT, roughness_score, score_span
-from .scene import Cycle, FloatArray, Interface, Readout, Scene
+from .scene import Scene
 from .solution import Indented, indent_device, named
 from .strain import maximum_principal
 

@@ -10,8 +10,9 @@ from .errors import ContactError
 from .frequency import vibration_scores
 from .mesh import SectionMesh
 from .prediction import Condensed
+from .readout import Readout
 from .roughness import NO_PREDICTION
-from .scene import Readout, Scene
+from .scene import Scene
 from .solution import Indented
 
 

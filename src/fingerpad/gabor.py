@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .scene import FloatArray, GaborFilter, Readout
+from .arrays import FloatArray
+from .readout import GaborFilter, Readout
 from .strain import FilteredReadouts, Resampling
 
 REACH = 6.0  # widths sigma [1] at which the kernel ends; source: exp(-18) = 1.5e-8 of its peak

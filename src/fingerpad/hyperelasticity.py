@@ -17,9 +17,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import FloatArray
 from .elasticity import lame
+from .finger import Material
 from .finite_strain import Principal, green_strain, principal_strain
-from .scene import FloatArray, Law, Material
+from .tissue_law import Law
 
 EQUAL = 1e-6  # difference of principal strains [1] below which its limit serves; source: it is off by the square
 

@@ -26,6 +26,7 @@ from .active_set import (
     touch_on_the_way,
     touched_status,
 )
+from .arrays import FloatArray
 from .contact import (
     OPEN,
     ContactProblem,
@@ -38,7 +39,6 @@ from .contact import (
 )
 from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
-from .scene import FloatArray
 
 GIVING = 1e-5  # of the load [1] by which a face may give way elsewhere than it touches; source: a tenth of what a
 # certificate allows

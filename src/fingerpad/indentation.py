@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from .arrays import FloatArray
 from .contact import OPEN, ContactProblem, ContactState, rest, touching_height
+from .contact_law import Criterion
 from .errors import CriterionError
 from .increment import solve_increment
 from .path import SolveIncrement, State, advance
 from .profile import profile
-from .scene import Criterion, FloatArray
 
 END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8

@@ -13,13 +13,16 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from .compliance import VOIGT, CondensedSection
-from .condensation import condense_parts, contact_tractions, right_half, section_stiffness
+from .condensation import condense_parts, section_stiffness
 from .contact import Status
 from .creep import stiffened
+from .device import Cycle
 from .elasticity import mass
+from .halves import right_half
 from .mesh import SectionMesh
+from .reach import contact_tractions
 from .roughness import score_span
-from .scene import Cycle, Scene
+from .scene import Scene
 from .solution import Indented
 
 

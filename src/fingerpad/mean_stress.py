@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from skfem import Basis, MeshTri2
 
-from .scene import FloatArray
+from .arrays import FloatArray
 
 COLLINEAR = 1e-8  # of a patch's moments [1], below which it has no gradient that way; source: rounding
 

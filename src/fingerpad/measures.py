@@ -10,9 +10,10 @@ from enum import StrEnum
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compliance import VOIGT
 from .elasticity import lame
-from .scene import FloatArray, Material
+from .finger import Material
 from .strain import maximum_principal
 
 

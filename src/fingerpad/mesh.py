@@ -17,8 +17,12 @@ import numpy as np
 from scipy.special import ellipeinc
 from skfem import MeshTri, MeshTri2
 
+from .arrays import FloatArray
+from .device import ActuatorRow
 from .errors import MeshError
-from .scene import ActuatorRow, Finger, FloatArray, Numerics, Scene
+from .finger import Finger
+from .numerics import Numerics
+from .scene import Scene
 from .store import reading, save_arrays
 
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs

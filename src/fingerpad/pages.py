@@ -9,7 +9,8 @@ import pandas as pd
 
 from .benchmark.ladder import OWN_LADDER
 from .closedforms.comparison import ORDER_OF
-from .scene import Interface, Readout
+from .contact_law import Interface
+from .readout import Readout
 
 AIM = 0.005  # error [1] that every score should keep; source: the project's aim
 COMPARED_AT = 0.01  # error [1] at which run times are compared

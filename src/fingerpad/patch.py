@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import FloatArray
 from .contact import ContactProblem, face_compliance
-from .scene import FloatArray
 
 ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; source: fewest seconds of 16 to 50 (measured)
 

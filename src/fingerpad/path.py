@@ -8,11 +8,11 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from .active_set import NotConvergedError
+from .arrays import FloatArray
 from .contact import ContactProblem, ContactState
 from .errors import ContactError, ConvergenceError, InvertedError, SnapError, UniquenessError
 from .increment import solve_increment
 from .patch import Patch
-from .scene import FloatArray
 
 State = TypeVar("State", bound=ContactState)
 

@@ -17,9 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import FloatArray
 from .contact import ContactProblem
+from .device import ActuatorRow
 from .errors import ContactError
-from .scene import ActuatorRow, FloatArray
 
 MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]
 MAX_HALVINGS = 8  # of a Newton step, and of an increment [1]

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 from scipy.stats import kendalltau, pearsonr
 
+from .arrays import FloatArray
 from .csvrows import listed
 from .errors import RatingError
 from .ratings import NO_RATINGS, RatingKind, order_matrix
 from .roughness import CONSTANT, KEY, NO_PREDICTION
-from .scene import FloatArray
 
 BoolArray = NDArray[np.bool_]
 

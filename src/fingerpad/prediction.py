@@ -8,18 +8,24 @@ from functools import partial
 from typing import Any
 
 from .accuracy import COARSENING
+from .actuator_body import body_of
+from .arrays import FloatArray
 from .compliance import CondensedBody, CondensedSection
-from .condensation import arc_length, body_of, condense_section, receptor_strain
+from .condensation import condense_section
+from .contact_law import Interface
 from .deformed_solution import pressed_finger, stimulate_deformed
+from .device import Condition
 from .errors import CondensationError, ContactError, MeshError
 from .gabor import filtered_readouts
 from .mesh import SectionMesh, mesh_section
 from .pressing import press
+from .receptors import arc_length, receptor_strain
 from .resampling import resampling_to_grid
 from .roughness import ERROR_UNKNOWN, score_rows, unsolved_rows
-from .scene import Condition, FloatArray, Interface, Kinematics, Scene
+from .scene import Scene
 from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
+from .tissue_law import Kinematics
 
 
 @dataclass(frozen=True)

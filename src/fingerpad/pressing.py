@@ -13,21 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csc_matrix
 
+from .actuator_body import body_of
+from .arrays import FloatArray
 from .compliance import CondensedBody, CondensedSection
-from .condensation import (
-    Parts,
-    arc_length,
-    body_of,
-    condense_section,
-    contact_tractions,
-    fill_reducing_order,
-    receptor_strain,
-    right_half,
-    unfold,
-    unfolding,
-    whole,
-)
+from .condensation import condense_section
 from .contact import ContactState, rest, touching_height
+from .contact_law import Interface
 from .deformation import elements_of
 from .deformed import (
     DeformedState,
@@ -41,15 +32,20 @@ from .deformed import (
 )
 from .elasticity import displacement_basis
 from .ellipticity import require_elliptic
+from .factors import fill_reducing_order
 from .force_curve import curve_of, recording
+from .halves import Parts, right_half, unfold, unfolding, whole
 from .hyperelasticity import tissue_of
 from .indentation import raise_until
 from .mesh import SectionMesh
 from .path import advance
-from .scene import FloatArray, Interface, Kinematics, Scene
+from .reach import contact_tractions
+from .receptors import arc_length, receptor_strain
+from .scene import Scene
 from .skin import require_uncrossed, skin_of
 from .solution import contact_problem, increments, indent_device, named
 from .symmetry import MIRROR, half_of, mirrors, unfolded
+from .tissue_law import Kinematics
 
 NONE = np.empty((0, 0))  # the compliance that contact on undeformed tissue would have: nobody asks for it
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .scene import ActuatorRow, FloatArray
+from .arrays import FloatArray
+from .device import ActuatorRow
 
 WALL_ANGLE = np.deg2rad(75.0)  # rad; beyond it the circle goes on as its tangent; source: skin wraps by less (measured)
 # ASSUME: actuators.edge_radius = 0 is regularised to this radius, so that a node at the edge has one slope

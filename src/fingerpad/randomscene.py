@@ -13,33 +13,16 @@ from enum import StrEnum
 
 import numpy as np
 
+from .arrays import FloatArray
+from .contact_law import ContactLaw, Criterion, TurningNormal
+from .device import ActuatorRow, Body, Condition, Control, Device
 from .errors import SceneError
-from .scene import (
-    ActuatorRow,
-    Body,
-    Condition,
-    ContactLaw,
-    Control,
-    Criterion,
-    Device,
-    Finger,
-    FloatArray,
-    GaborFilter,
-    Kinematics,
-    Law,
-    Layer,
-    Material,
-    Model,
-    Numerics,
-    ReadoutRule,
-    Relaxation,
-    Scene,
-    Side,
-    Skips,
-    TissueLaw,
-    TurningNormal,
-    VibrationRule,
-)
+from .finger import Finger, Layer, Material
+from .numerics import Numerics, Skips
+from .readout import GaborFilter, ReadoutRule, Side
+from .scene import Model, Scene
+from .tissue_law import Kinematics, Law, TissueLaw
+from .vibration_rule import Relaxation, VibrationRule
 
 GROUP = 50  # scenes that share a finger [1]
 

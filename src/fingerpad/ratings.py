@@ -12,9 +12,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from .contact_law import Interface
 from .csvrows import checked_rows, listed, number, told
 from .errors import RatingError
-from .scene import Interface, Readout
+from .readout import Readout
 
 RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
 ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")

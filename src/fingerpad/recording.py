@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from .arrays import FloatArray
 from .csvrows import checked_rows, number, told
 from .errors import SceneError
-from .scene import FloatArray
 
 COLUMNS = ("time", "actuator", "normal", "tangential")  # [s], [1] from 1 at the left, [mm], [mm]
 LATEST = 1e6  # time [s]; source: as in the schema of `kind: history`

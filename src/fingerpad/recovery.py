@@ -7,10 +7,12 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 from skfem import MeshTri2
 
-from .condensation import contact_tractions, section_stiffness
+from .arrays import FloatArray
+from .condensation import section_stiffness
 from .elasticity import displacement_basis, node_dofs
 from .mesh import SectionMesh
-from .scene import FloatArray, Scene
+from .reach import contact_tractions
+from .scene import Scene
 
 
 def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from .scene import FloatArray
+from .arrays import FloatArray
 from .strain import Resampling
 
 

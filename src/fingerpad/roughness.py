@@ -6,7 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from .scene import ActuatorRow, Condition, FloatArray, Interface, Readout, Scene
+from .arrays import FloatArray
+from .contact_law import Interface
+from .device import ActuatorRow, Condition
+from .readout import Readout
+from .scene import Scene
 from .strain import FilteredReadouts
 
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]

@@ -13,32 +13,16 @@ from typing import Any
 import yaml
 
 from .bodies import BODIES
+from .contact_law import ContactLaw, Criterion, TurningNormal
+from .device import ActuatorRow, Body, Control, Device
 from .errors import SceneError
-from .scene import (
-    ActuatorRow,
-    Body,
-    ContactLaw,
-    Control,
-    Criterion,
-    Device,
-    Finger,
-    GaborFilter,
-    Kinematics,
-    Law,
-    Layer,
-    Material,
-    Model,
-    Numerics,
-    ReadoutRule,
-    Relaxation,
-    Scene,
-    Side,
-    Skips,
-    TissueLaw,
-    TurningNormal,
-    VibrationRule,
-)
+from .finger import Finger, Layer, Material
+from .numerics import Numerics, Skips
+from .readout import GaborFilter, ReadoutRule, Side
+from .scene import Model, Scene
 from .stimuli import CYCLES, KINDS
+from .tissue_law import Kinematics, Law, TissueLaw
+from .vibration_rule import Relaxation, VibrationRule
 
 MERGE = "tag:yaml.org,2002:merge"
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike

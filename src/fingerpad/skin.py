@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import FloatArray
 from .errors import CrossingError
 from .mesh import SectionMesh
-from .scene import FloatArray
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState, Status, pressing_and_shearing, reevaluated_gap
+from .contact_law import Interface
+from .device import Condition
 from .errors import CertificateError, ContactError, MeshError, ReachError
 from .indentation import indent
 from .path import follow
 from .profile import profile
-from .scene import Condition, FloatArray, Interface, Kinematics, Readout, Scene
+from .readout import Readout
+from .scene import Scene
 from .strain import receptor_readouts
 from .symmetry import indent_by_halves
+from .tissue_law import Kinematics
 
 FRICTIONLESS_SHARE = 4  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 

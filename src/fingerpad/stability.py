@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import SuperLU
 
+from .arrays import FloatArray
 from .contact import ContactProblem, Status, face_compliance, touch
-from .scene import FloatArray
 
 
 def unstable_directions(problem: ContactProblem, status: np.ndarray, place: FloatArray, factors: SuperLU) -> int:

@@ -11,9 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import MeshTri2
 
-from .condensation import body_of, condense_section, contact_tractions
+from .actuator_body import body_of
+from .arrays import FloatArray
+from .condensation import condense_section
 from .contact import pressing_and_shearing
+from .contact_law import Interface
 from .deformed_solution import PressedFinger, certified_moves, pressed_finger
+from .device import Condition
 from .elasticity import displacement_basis
 from .fields import Fields
 from .finite_strain import logarithmic_strain
@@ -22,10 +26,12 @@ from .mean_stress import element_means, recover_linear
 from .measures import stress
 from .mesh import SectionMesh
 from .pressing import press
+from .reach import contact_tractions
 from .recovery import gradient_at, recover_displacement, strain_of
-from .scene import Condition, FloatArray, Interface, Kinematics, Scene
+from .scene import Scene
 from .solution import Solution, solve_condition
 from .strain import maximum_principal
+from .tissue_law import Kinematics
 
 CORNERS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # of the reference triangle
 

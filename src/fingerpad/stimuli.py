@@ -14,9 +14,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from .arrays import ComplexArray, FloatArray
+from .device import Condition, Cycle
 from .errors import SceneError
 from .recording import read_recording
-from .scene import ComplexArray, Condition, Cycle, FloatArray
 
 # The plain values under `stimulus`, the number of actuators and the device file's folder, to conditions
 Builder = Callable[[Mapping[str, Any], int, Path], list[Condition]]

@@ -12,9 +12,9 @@ from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 
+from .arrays import FloatArray
 from .errors import ResultError
 from .files import replacing
-from .scene import FloatArray
 
 Record = TypeVar("Record")
 SEPARATOR = "/"  # between the name of a nested dataclass and its field

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arrays import FloatArray
 from .compliance import VOIGT
-from .scene import FloatArray, Readout
+from .readout import Readout
 
 
 def maximum_principal(components: FloatArray) -> FloatArray:

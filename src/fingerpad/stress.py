@@ -10,14 +10,18 @@ from itertools import groupby
 
 import numpy as np
 
+from .actuator_body import body_of
 from .compliance import CondensedSection
-from .condensation import body_of, condense_section, contact_tractions
+from .condensation import condense_section
+from .contact_law import Interface
 from .deformed_solution import pressed_finger, stimulate_deformed
+from .device import ActuatorRow, Condition
 from .errors import CertificateError, FingerpadError, MeshError
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
 from .randomscene import GROUP, random_deformed_scene, random_group, random_scene
-from .scene import ActuatorRow, Condition, Interface, Scene
+from .reach import contact_tractions
+from .scene import Scene
 from .solution import Solution, solve_condition
 
 SOLVED = "solved"

@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from .contact import ContactProblem, ContactState, Status
+from .contact_law import Criterion
 from .indentation import indent
-from .scene import Criterion
 
 MIRROR = np.array([-1.0, 1.0])  # of the components x and y
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])

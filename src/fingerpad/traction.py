@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array, kron
 
-from .scene import FloatArray
+from .arrays import FloatArray
 
 
 @dataclass(frozen=True)

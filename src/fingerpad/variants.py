@@ -13,12 +13,16 @@ from typing import Any
 import numpy as np
 from scipy.stats import kendalltau, pearsonr
 
+from .arrays import FloatArray
 from .compliance import CondensedSection
+from .contact_law import Interface
+from .finger import Material
 from .gabor import filtered_readouts
 from .measures import Measure, measured
+from .readout import Readout, Side
 from .resampling import resampling_to_grid
 from .roughness import CONSTANT, KEY, SCORE_UNIT, score_rows
-from .scene import FloatArray, Interface, Material, Readout, Scene, Side
+from .scene import Scene
 from .solution import Solution
 from .strain import receptor_readouts
 

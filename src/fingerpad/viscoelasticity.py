@@ -13,7 +13,8 @@ import math
 
 import numpy as np
 
-from .scene import FloatArray, Relaxation
+from .arrays import FloatArray
+from .vibration_rule import Relaxation
 
 
 def stiffening(relaxation: Relaxation, rate: complex) -> complex:

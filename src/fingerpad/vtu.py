@@ -13,12 +13,14 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 
-from .condensation import contact_tractions
+from .arrays import FloatArray
 from .files import replacing, write_text
 from .mesh import SectionMesh
-from .scene import FloatArray, Kinematics, Scene
+from .reach import contact_tractions
+from .scene import Scene
 from .states import States, strain_at, stress_at
 from .strain import maximum_principal
+from .tissue_law import Kinematics
 
 NODES = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])  # corners, midpoints 01, 12, 20
 TURNED = [0, 2, 1, 5, 4, 3]  # the same nodes in the opposite sense

@@ -3,10 +3,11 @@
 
 from difflib import get_close_matches
 
+from fingerpad.contact_law import Interface
 from fingerpad.errors import FingerpadError
 from fingerpad.ratings import read_ratings, read_stated_order
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene, recordings
+from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
 

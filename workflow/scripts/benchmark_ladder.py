@@ -6,9 +6,9 @@ from typing import Any
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
 from fingerpad.calculix import installed
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

@@ -7,15 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from fingerpad.benchmark.timing import peak_memory, timed
-from fingerpad.condensation import contact_tractions
+from fingerpad.contact_law import Interface
+from fingerpad.device import Condition
 from fingerpad.edges import edge_intervals
 from fingerpad.mesh import SectionMesh, mesh_section
 from fingerpad.prediction import Condensed, Meshed, prepared, pressed_device, read_out
+from fingerpad.reach import contact_tractions
 from fingerpad.roughness import score_rows
-from fingerpad.scene import Condition, Interface, Kinematics, Scene
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import write_rows
+from fingerpad.tissue_law import Kinematics
 
 
 def steps_of(scene: Scene, repeats: int) -> tuple[SectionMesh, dict[str, list[float]]]:

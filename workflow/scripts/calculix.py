@@ -5,8 +5,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from fingerpad.actuator_body import body_of
 from fingerpad.calculix import installed
-from fingerpad.condensation import body_of, condense_section
+from fingerpad.condensation import condense_section
 from fingerpad.crosscheck import (
     ContactModel,
     Outcome,
@@ -19,9 +20,10 @@ from fingerpad.crosscheck import (
 from fingerpad.deformed_crosscheck import deformed_outcome
 from fingerpad.edges import mesh_device
 from fingerpad.errors import CalculixError, ContactError
-from fingerpad.scene import Kinematics, Scene
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
+from fingerpad.tissue_law import Kinematics
 
 SHARED = ("kinematics", "law", "edges", "friction")  # what two cases must share for CalculiX to be compared with itself
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from fingerpad.edges import load_edges
 from fingerpad.prediction import coarser_rows
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
+from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, kinematics: str, edges: Path, scores: Path) -> None:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.condensation import condense_body
+from fingerpad.actuator_body import condense_body
 from fingerpad.scenefile import load_scene
 from fingerpad.store import save
 

@@ -3,14 +3,15 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody
+from fingerpad.contact_law import Interface
 from fingerpad.deformed_solution import pressed_finger
 from fingerpad.mesh import load_section
 from fingerpad.pressing import Pressed
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.states import deformed_states, linear_states
 from fingerpad.store import load
+from fingerpad.tissue_law import Kinematics
 from fingerpad.vtu import field_meshes, write_path
 
 

@@ -5,15 +5,16 @@ from pathlib import Path
 import numpy as np
 
 from fingerpad.compliance import CondensedBody
+from fingerpad.contact_law import Interface
 from fingerpad.deformed_solution import pressed_finger
 from fingerpad.mesh import load_section
 from fingerpad.pressing import Pressed
 from fingerpad.recovery import recover_displacement
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.states import deformed_states, states_fields
 from fingerpad.store import load, save
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

@@ -5,10 +5,10 @@ from pathlib import Path
 from fingerpad.fields import Fields
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.style import save
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import load
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

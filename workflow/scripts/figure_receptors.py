@@ -5,10 +5,10 @@ from pathlib import Path
 from fingerpad.compliance import CondensedSection
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.style import save
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load
 from fingerpad.strain import FilteredReadouts
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

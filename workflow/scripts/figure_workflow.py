@@ -5,13 +5,14 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.compliance import CondensedSection
+from fingerpad.contact_law import Interface
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load
 from fingerpad.strain import FilteredReadouts
+from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, condensed: Path, filtered: list[Path], scores: Path, stem: Path) -> None:

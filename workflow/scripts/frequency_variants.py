@@ -3,10 +3,10 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.contact_law import Interface
 from fingerpad.frequency_variants import variant_rows
 from fingerpad.mesh import load_section
 from fingerpad.prediction import Condensed
-from fingerpad.scene import Interface
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import indent_device
 from fingerpad.store import load, write_rows

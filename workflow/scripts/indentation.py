@@ -2,13 +2,15 @@
 
 from pathlib import Path
 
+from fingerpad.arrays import FloatArray
 from fingerpad.compliance import CondensedBody, CondensedSection
+from fingerpad.contact_law import Interface
 from fingerpad.force_curve import limit_points, small_strain_curve
 from fingerpad.pressing import Pressed
-from fingerpad.scene import FloatArray, Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import contact_problem
 from fingerpad.store import load, write_rows
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

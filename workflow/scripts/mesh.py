@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from fingerpad.condensation import arc_length, receptor_strain
 from fingerpad.edges import edge_intervals, save_edges
 from fingerpad.mesh import mesh_section, save_section
+from fingerpad.receptors import arc_length, receptor_strain
 from fingerpad.resampling import resampling_to_grid
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import save
+from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, resampling: Path) -> None:

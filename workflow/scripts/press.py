@@ -3,11 +3,12 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody
+from fingerpad.contact_law import Interface
 from fingerpad.mesh import load_section
 from fingerpad.pressing import press
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load, save
+from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: str, pressed: Path) -> None:

@@ -6,8 +6,10 @@ from pathlib import Path
 
 from fingerpad.compliance import CondensedSection
 from fingerpad.condensation import condense_section
+from fingerpad.contact_law import Interface
 from fingerpad.mesh import load_section
-from fingerpad.scene import Interface, Scene, Side
+from fingerpad.readout import Side
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 from fingerpad.store import load, write_rows

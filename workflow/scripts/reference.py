@@ -6,9 +6,9 @@ from fingerpad.accuracy import REFINEMENT
 from fingerpad.edges import edge_intervals
 from fingerpad.mesh import mesh_section
 from fingerpad.prediction import rows_at
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
+from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, kinematics: Kinematics, scores: Path) -> None:

@@ -2,11 +2,12 @@
 
 from pathlib import Path
 
+from fingerpad.contact_law import Interface
 from fingerpad.roughness import score_rows
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.strain import FilteredReadouts
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

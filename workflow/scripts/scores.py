@@ -4,9 +4,9 @@ from pathlib import Path
 
 from fingerpad.accuracy import with_errors
 from fingerpad.roughness import unpredicted_rows
-from fingerpad.scene import Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.scene import Interface
+from fingerpad.contact_law import Interface
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import solve_condition
 from fingerpad.store import load, save

@@ -3,12 +3,13 @@
 from pathlib import Path
 
 from fingerpad.compliance import CondensedBody
+from fingerpad.contact_law import Interface
 from fingerpad.deformed_solution import pressed_finger, stimulate_deformed
 from fingerpad.mesh import load_section
 from fingerpad.pressing import Pressed
-from fingerpad.scene import Interface, Kinematics
 from fingerpad.scenefile import load_scene
 from fingerpad.store import load, save
+from fingerpad.tissue_law import Kinematics
 
 
 def main(

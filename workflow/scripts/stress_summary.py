@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from fingerpad.scene import Kinematics
 from fingerpad.store import read_rows, write_rows
 from fingerpad.stress import summary
+from fingerpad.tissue_law import Kinematics
 
 
 def main(scenes: dict[str, list[Path]], table: Path) -> None:

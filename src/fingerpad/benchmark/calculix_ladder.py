@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from ..crosscheck import calculix_outcome, coarsened, differences, prepared
+from ..device import Condition
 from ..edges import mesh_device
-from ..scene import Condition, Readout, Scene
+from ..readout import Readout
+from ..scene import Scene
 
 
 def calculix_ladder(

@@ -12,9 +12,12 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri2
 
-from ..condensation import body_of, condense_parts, contact_tractions, right_half, section_stiffness
+from ..actuator_body import body_of
+from ..condensation import condense_parts, section_stiffness
+from ..halves import right_half
 from ..mesh import SectionMesh
 from ..prediction import Condensed
+from ..reach import contact_tractions
 from ..resampling import resampling_to_grid
 from ..scene import Scene
 

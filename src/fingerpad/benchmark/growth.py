@@ -9,10 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from ..contact_law import Criterion, Interface
+from ..device import ActuatorRow, Condition
 from ..edges import edge_intervals
 from ..mesh import mesh_section
+from ..numerics import Numerics
 from ..prediction import condense_scene
-from ..scene import ActuatorRow, Condition, Criterion, Interface, Numerics, Scene
+from ..scene import Scene
 from ..solution import indent_device, stimulate
 from .timing import exponent, fewest
 

@@ -6,14 +6,18 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from ..condensation import contact_tractions
+from ..contact_law import Interface
+from ..device import Condition
 from ..edges import edge_intervals
 from ..errors import SceneError
 from ..mesh import SectionMesh, mesh_section
 from ..prediction import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out
+from ..reach import contact_tractions
+from ..readout import Readout
 from ..roughness import score_rows
-from ..scene import Condition, Interface, Kinematics, Readout, Scene
+from ..scene import Scene
 from ..solution import Solution, increments, indent_device
+from ..tissue_law import Kinematics
 from .first_order import condense_first_order
 from .plain import plain_scores
 from .timing import fewest, peak_memory

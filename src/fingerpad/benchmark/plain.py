@@ -11,16 +11,20 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..compliance import CondensedSection
 from ..condensation import condense_section
 from ..contact import ContactState, rest, touching_height
+from ..contact_law import Interface
+from ..device import Condition
 from ..gabor import filtered_readouts
 from ..increment import solve_increment
 from ..mesh import SectionMesh
 from ..path import advance
+from ..readout import Readout
 from ..resampling import resampling_to_grid
 from ..roughness import score_rows
-from ..scene import Condition, FloatArray, Interface, Readout, Scene
+from ..scene import Scene
 from ..solution import contact_problem
 from ..strain import receptor_readouts
 

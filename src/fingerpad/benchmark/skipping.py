@@ -10,14 +10,17 @@ from typing import Any
 import numpy as np
 
 from ..accuracy import CASE, has_error
+from ..contact_law import Interface
 from ..edges import edge_intervals
 from ..mesh import SectionMesh, mesh_section
+from ..numerics import Skips
 from ..prediction import condense_scene, predicted_rows, prepared
 from ..recovery import recover_displacement
-from ..scene import Interface, Kinematics, Scene, Skips
+from ..scene import Scene
 from ..solution import indent_device, stimulate
 from ..states import states_fields
 from ..strain import receptor_readouts
+from ..tissue_law import Kinematics
 from .timing import fewest
 
 Row = dict[str, Any]

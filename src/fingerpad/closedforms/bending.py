@@ -21,11 +21,13 @@ from numpy.polynomial import Chebyshev
 from skfem import Basis, ElementTriP2, ElementVector, MeshTri, MeshTri2
 from skfem.helpers import grad
 
+from ..arrays import FloatArray
 from ..deformation import displacement_gradient, elements_of
 from ..elasticity import displacement_basis, lame, node_dofs
+from ..finger import Material
 from ..hyperelasticity import tissue_of
 from ..mean_stress import element_means, recover_linear
-from ..scene import FloatArray, Law, Material
+from ..tissue_law import Law
 from .comparison import Comparison, compare, on_two_meshes
 from .equilibrium import equilibrium
 from .layers import TOLERANCE

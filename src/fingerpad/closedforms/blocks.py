@@ -9,11 +9,13 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri, MeshTri2
 
-from ..condensation import condense, unit_loads
+from ..arrays import FloatArray
+from ..condensation import condense
 from ..contact import ContactProblem, ContactState, rest, touching_height
-from ..elasticity import displacement_basis, node_dofs, stiffness
+from ..device import ActuatorRow
+from ..elasticity import displacement_basis, node_dofs, stiffness, unit_loads
+from ..finger import Material
 from ..path import follow
-from ..scene import ActuatorRow, FloatArray, Material
 from ..traction import linear_tractions
 
 TOLERANCE = 1e-10  # of the contact equations [1]; source: far below any error that is measured

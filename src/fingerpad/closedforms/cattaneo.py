@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..contact import Status, switch_friction
 from ..path import follow
-from ..scene import FloatArray
 from .blocks import element_means, half_plane, lift, pressed
 from .comparison import Comparison, compare, refined
 from .hertz import CYLINDER, DEPTH, INCREMENTS, SPACINGS, TOLERANCE, half_width, pressure

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..scene import FloatArray
+from ..arrays import FloatArray
 
 ORDER_OF = "order, "  # before the name of a quantity whose error falls with it
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from skfem import Basis
 
-from ..condensation import factorise, fill_reducing_order
+from ..arrays import FloatArray
 from ..deformation import elements_of, internal_force_and_tangent
 from ..elasticity import node_dofs
 from ..errors import ConvergenceError
+from ..factors import factorise, fill_reducing_order
 from ..hyperelasticity import Tissue
-from ..scene import FloatArray
 
 STEP = 1e-9  # last change of displacement over the largest of it [1]; source: its square is below rounding
 MAX_STEPS = 20  # of Newton's method [1]; source: 4-7 are usual

@@ -13,10 +13,11 @@ import numpy as np
 from skfem import Basis, ElementTriP2, ElementVector, LinearForm
 from skfem.helpers import ddot, grad
 
+from ..arrays import FloatArray
 from ..elasticity import displacement_basis, node_dofs
 from ..hyperelasticity import tissue_of
 from ..mesh import mesh_section, nominal_edges
-from ..scene import FloatArray, Scene
+from ..scene import Scene
 from .comparison import Comparison, compare, orders
 from .energy import first_stress
 from .equilibrium import equilibrium

@@ -12,9 +12,10 @@ import numpy as np
 from scipy.optimize import brentq
 from skfem import MeshTri, MeshTri2
 
+from ..arrays import FloatArray
 from ..elasticity import displacement_basis, node_dofs
 from ..hyperelasticity import Tissue, tissue_of
-from ..scene import FloatArray, Law
+from ..tissue_law import Law
 from .comparison import Comparison, compare
 from .energy import first_stress
 from .equilibrium import equilibrium

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..contact import ContactState, Status
-from ..scene import ActuatorRow, FloatArray
+from ..device import ActuatorRow
 from .blocks import HALF_WIDTH, Block, element_means, half_plane, pressed
 from .comparison import Comparison, compare, refined
 

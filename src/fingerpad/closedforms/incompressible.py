@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from ..scene import Layer, Model
+from ..finger import Layer
+from ..scene import Model
 from . import hertz, layers, punch
 from .comparison import Comparison, refined
 

@@ -18,9 +18,11 @@ from functools import partial
 import numpy as np
 from skfem import ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri2
 
-from ..condensation import condense, unit_loads
-from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
-from ..scene import FloatArray, Layer, Model
+from ..arrays import FloatArray
+from ..condensation import condense
+from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness, unit_loads
+from ..finger import Layer
+from ..scene import Model
 from .blocks import refined_block
 from .comparison import Comparison, compare, refined
 

@@ -12,10 +12,11 @@ import numpy as np
 from skfem import Basis, ElementTriP2, ElementVector, LinearForm
 from skfem.helpers import ddot, eye, sym_grad, trace
 
+from ..arrays import FloatArray
 from ..condensation import section_stiffness
 from ..elasticity import lame
 from ..mesh import mesh_section, nominal_edges
-from ..scene import FloatArray, Scene
+from ..scene import Scene
 from .comparison import Comparison, compare, orders
 from .patch import solved
 

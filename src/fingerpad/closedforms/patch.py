@@ -7,8 +7,10 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import spsolve
 from skfem import MeshTri, MeshTri2
 
+from ..arrays import FloatArray
+from ..device import ActuatorRow
 from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
-from ..scene import ActuatorRow, FloatArray, Material
+from ..finger import Material
 from .blocks import block_contact, block_mesh, pressed
 from .comparison import Comparison, compare
 

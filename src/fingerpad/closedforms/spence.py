@@ -19,8 +19,8 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import ellipk, ellipkm1
 
+from ..arrays import FloatArray
 from ..contact import ContactProblem, Status
-from ..scene import FloatArray
 from .blocks import HALF_WIDTH, pressed
 from .comparison import Comparison, compare, refined
 from .punch import DEPTH, punched

@@ -15,10 +15,11 @@ import numpy as np
 from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri, MeshTri2
 
+from ..arrays import FloatArray
 from ..elasticity import displacement_basis, lame, node_dofs, stiffness
+from ..finger import Material
 from ..mean_stress import element_means, recover_linear
 from ..recovery import gradient_at
-from ..scene import FloatArray, Material
 from .comparison import Comparison, compare, on_two_meshes
 from .punch import TOLERANCE
 

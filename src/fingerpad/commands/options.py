@@ -9,9 +9,12 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from ..checkout import find_checkout
+from ..contact_law import Interface
 from ..csvrows import listed
+from ..device import Condition
 from ..errors import UsageError
-from ..scene import Condition, Interface, Kinematics, Scene
+from ..scene import Scene
+from ..tissue_law import Kinematics
 from ..validation import check_device
 
 

@@ -13,7 +13,8 @@ from tqdm import tqdm
 
 from ..forecast import forecast, steps
 from ..roughness import KEY
-from ..scene import Kinematics, Scene
+from ..scene import Scene
+from ..tissue_law import Kinematics
 from .options import add_scene_options, checked_scene
 from .printing import aligned, print_csv, titled
 

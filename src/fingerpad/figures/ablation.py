@@ -11,7 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..scene import Interface, Kinematics, Readout
+from ..contact_law import Interface
+from ..readout import Readout
+from ..tissue_law import Kinematics
 from .style import (
     BLUE,
     GREY,

@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon, Rectangle
 
+from ..arrays import FloatArray
+from ..device import ActuatorRow
 from ..profile import profile
-from ..scene import ActuatorRow, FloatArray
 from .style import THIN
 
 PROFILE_POINTS = 41  # along a rounded edge [1]

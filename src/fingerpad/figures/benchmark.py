@@ -8,7 +8,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..scene import Kinematics
+from ..tissue_law import Kinematics
 from .style import (
     BLACK,
     BLUE,

@@ -11,8 +11,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..contact_law import Interface
 from ..ratings import NO_RATINGS
-from ..scene import Interface, Kinematics, Readout
+from ..readout import Readout
+from ..tissue_law import Kinematics
 from .style import (
     GREY,
     KINEMATICS_NAME,

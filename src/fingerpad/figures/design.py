@@ -18,9 +18,10 @@ from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
+from ..arrays import FloatArray
 from ..design import Answer
+from ..readout import Readout
 from ..roughness import SCORE_UNIT, score_span
-from ..scene import FloatArray, Readout
 from .receptors import face_arcs
 from .style import (
     BLUE,

@@ -9,8 +9,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..contact_law import Interface
+from ..device import Device
 from ..frequency import SLOWLY
-from ..scene import Device, Interface, Readout
+from ..readout import Readout
 from .style import (
     GREY,
     INTERFACE_NAME,

@@ -12,7 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..scene import Interface, Kinematics, Readout
+from ..contact_law import Interface
+from ..readout import Readout
+from ..tissue_law import Kinematics
 from .ablation import BAR, name_conditions
 from .style import (
     BLUE,

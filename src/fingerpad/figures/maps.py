@@ -18,9 +18,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
 
+from ..arrays import FloatArray
+from ..device import ActuatorRow, Condition
 from ..fields import Fields
-from ..scene import ActuatorRow, Condition, FloatArray, Kinematics, Scene
+from ..scene import Scene
 from ..solution import Solution
+from ..tissue_law import Kinematics
 from .actuators import draw_actuators
 from .style import (
     BLUE,

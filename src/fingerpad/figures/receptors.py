@@ -9,9 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..arrays import FloatArray
 from ..compliance import CondensedSection
-from ..scene import Device, FloatArray, Kinematics, Readout
+from ..device import Device
+from ..readout import Readout
 from ..strain import FilteredReadouts
+from ..tissue_law import Kinematics
 from .style import (
     GREY,
     KINEMATICS_NAME,

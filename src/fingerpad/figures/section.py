@@ -12,9 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.path import Path
 from matplotlib.ticker import MultipleLocator
 
+from ..arrays import FloatArray
+from ..device import ActuatorRow, Device
 from ..mesh import SectionMesh
 from ..profile import profile
-from ..scene import ActuatorRow, Device, FloatArray, Model
+from ..scene import Model
 from .actuators import BASE, draw_actuators
 from .style import THIN, VERMILLION, WIDE, letter, new_figure, styled, subtitle
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.figure import Figure
 
-from ..scene import Interface, Kinematics, Readout
+from ..contact_law import Interface
+from ..readout import Readout
+from ..tissue_law import Kinematics
 from .correlation import caption, correlation_panel, shown_in
 from .style import (
     INTERFACE_NAME,

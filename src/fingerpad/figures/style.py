@@ -21,9 +21,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from ..contact_law import Interface
+from ..device import Device
 from ..files import replacing
+from ..readout import Readout
 from ..roughness import TYPESET_UNITS
-from ..scene import Device, Interface, Kinematics, Readout
+from ..tissue_law import Kinematics
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS

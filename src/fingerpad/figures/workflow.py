@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from ..readout import GaborFilter, Readout, ReadoutRule
 from ..roughness import score_span
-from ..scene import GaborFilter, Readout, ReadoutRule
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
     PERCENT,

@@ -6,9 +6,13 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+from ..contact_law import Interface
+from ..device import Device
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, counted, plain
+from ..readout import Readout
 from ..roughness import TYPESET_UNITS
-from ..scene import Device, Interface, Kinematics, Readout, Scene
+from ..scene import Scene
+from ..tissue_law import Kinematics
 from .tables import SLOPES, Row, error_of, measured, p_value
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from statistics import median
 
 from ..accuracy import has_error
+from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
-from ..scene import Interface, Kinematics, Readout
+from ..readout import Readout
+from ..tissue_law import Kinematics
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition
