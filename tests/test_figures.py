@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from fingerpad.arrays import FloatArray
+from fingerpad.certificate import Certificate
 from fingerpad.compliance import CondensedSection
 from fingerpad.contact import Status
 from fingerpad.contact_law import Interface
@@ -36,7 +37,7 @@ from fingerpad.perception import correlation_table
 from fingerpad.readout import Readout
 from fingerpad.scene import Scene
 from fingerpad.scenefile import build_model, read_yaml
-from fingerpad.solution import Certificate, Solution
+from fingerpad.solution import Solution
 from fingerpad.strain import FilteredReadouts
 
 ROOT = Path(__file__).parents[1]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from fingerpad.actuator_body import condense_body
+from fingerpad.certificate import certify
 from fingerpad.contact import face_shape, rest, touch
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
@@ -16,7 +17,7 @@ from fingerpad.gabor import filtered_readouts
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
-from fingerpad.solution import certify, contact_problem, indented_state, solve_condition
+from fingerpad.solution import contact_problem, indented_state, solve_condition
 from scenes import condensed, scene, solve, solved
 
 FINE = {"indentation_increments": 80, "stimulus_increments": 16}

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from .certificate import CONE_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT
 from .roughness import CONSTANT, KEY
-from .solution import CONE_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT, Solution
+from .solution import Solution
 
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
 NEAR = 0.1  # of a certificate's limit [1]; source: shipped devices stay below 0.05

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from .arrays import FloatArray
+from .certificate import Certificate, certify
 from .compliance import CondensedBody
 from .contact import ContactProblem
 from .contact_law import Interface
@@ -24,7 +25,7 @@ from .pressing import Pressed, whole_span
 from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
-from .solution import Certificate, Solution, certify, contact_problem, increments, named, solution
+from .solution import Solution, contact_problem, increments, named, solution
 from .strain import receptor_readouts
 
 

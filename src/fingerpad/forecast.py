@@ -20,8 +20,8 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
 
     error: whether to solve a second time, more coarsely, for `score_error`; without, or if that cannot be done, as the
-    note then says, that is None. step: called
-    after each of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
+    note then says, that is None. step: called after each of `steps`. rank: 1 for the largest score of a device,
+    interface and read-out; equal scores share one.
 
     Raises MeshError, CondensationError, ContactError.
     """

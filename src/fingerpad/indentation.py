@@ -15,7 +15,6 @@ from .profile import profile
 END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
 END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: 1e-4 of the indentation
-
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
 
 

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import FloatArray
+from .certificate import Certificate, certify
 from .compliance import CondensedBody, CondensedSection
-from .contact import ContactProblem, ContactState, Status, pressing_and_shearing, reevaluated_gap
+from .contact import ContactProblem, ContactState, pressing_and_shearing
 from .contact_law import Interface
 from .device import Condition
-from .errors import CertificateError, ContactError, MeshError, ReachError
+from .errors import ContactError, MeshError
 from .indentation import indent
 from .path import follow
-from .profile import profile
 from .readout import Readout
 from .scene import Scene
 from .strain import receptor_readouts
@@ -24,30 +24,6 @@ from .symmetry import indent_by_halves
 from .tissue_law import Kinematics
 
 FRICTIONLESS_SHARE = 4  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
-
-# What a certificate may not exceed; source: each lies two orders below the score error that is aimed at (0.5 %)
-PENETRATION_LIMIT = 1e-4  # of the indentation [1]
-TENSION_LIMIT = 1e-6  # of the largest pressure [1]
-CONE_LIMIT = 1e-6  # of the largest shear that friction allows [1]
-ADJACENT = 0.75  # distance of two nodes over the skin that belongs to them [1]; at most 0.6 if none lies between
-DISSIPATION_LIMIT = 1e-9  # of the work of friction's largest force along the indentation [1]
-
-
-@dataclass(frozen=True)
-class Certificate:
-    """What a solution found when it checked itself.
-
-    equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
-    penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
-    Coulomb's limit, over the largest limit [1]. dissipation: frictional work [N mm per mm].
-    """
-
-    equilibrium: float
-    contact: float
-    penetration: float
-    smallest_pressure: float
-    cone_excess: float
-    dissipation: float
 
 
 @dataclass(frozen=True)
@@ -212,67 +188,3 @@ def named(what: str) -> Iterator[None]:
         yield
     except ContactError as error:
         raise type(error)(f"{what}: {error}") from error
-
-
-def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
-    """Check a state against the laws it was solved for. Raises CertificateError, with the figures, beyond a limit, and
-    ReachError if contact comes to the last node considered."""
-    active = state.status != Status.OPEN
-    pressing, shearing = pressing_and_shearing(problem, state)
-    pressure = pressing / section.weight
-    largest = float(pressure.max(initial=0.0))
-    friction_limit = problem.friction * float(pressing.max(initial=0.0))
-    excess = np.abs(shearing) - problem.friction * pressing
-    certificate = Certificate(
-        section.residual,
-        state.residual,
-        max(float(-reevaluated_gap(problem, state).min()), 0.0),
-        float(pressure[active].min()) if active.any() else 0.0,
-        max(float(excess.max()), 0.0) / friction_limit if friction_limit > 0.0 else 0.0,
-        state.dissipation,
-    )
-    indentation = float(np.abs(state.actuator).max())
-    work = friction_limit * indentation
-    # what lies within the tolerance of gaps may just touch, and rounding may pull
-    slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max() * section.weight.max())
-    checks = {
-        "contact residual": (certificate.contact, problem.tolerance),
-        "penetration [mm]": (certificate.penetration, PENETRATION_LIMIT * indentation),
-        "tension [MPa]": (-certificate.smallest_pressure, max(TENSION_LIMIT * largest, slight)),
-        "excess over the friction cone": (certificate.cone_excess, CONE_LIMIT),
-        "negative dissipation [N mm/mm]": (-certificate.dissipation, DISSIPATION_LIMIT * work),
-    }
-    for name, (found, allowed) in checks.items():
-        if not found <= allowed:
-            raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
-    _require_within_reach(problem, section, state, PENETRATION_LIMIT * indentation)
-    return certificate
-
-
-def _require_within_reach(
-    problem: ContactProblem, section: CondensedSection, state: ContactState, allowed: float
-) -> None:
-    """Raise ReachError if an actuator touches, or overlaps by more than `allowed` [mm], skin that was not considered
-    to be its own.
-
-    Contact may reach an actuator's last node where the next node of the skin is a neighbour's; but no node may press
-    into another actuator than the one it was given to.
-    """
-    own, x = problem.actuator_of, problem.position[:, 0]
-    active = state.status != Status.OPEN
-    # nodes of second-order elements are half an element apart, and carry at least 1/6 and 4/6 of it
-    adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
-    first = np.append(True, ~adjacent)
-    last = np.append(~adjacent, True)
-    centre = np.asarray(problem.row.positions)[:, None] + state.actuator[:, :1]
-    place = (state.place + centre[own, 0] - centre).T  # (n, n_actuators)
-    nearest = np.argmin(np.abs(place), axis=1)
-    there = place[np.arange(x.size), nearest]
-    height = state.gap - profile(problem.row, state.place)[0] + (state.actuator[own] - state.actuator[nearest])[:, 1]
-    overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
-    beyond = np.flatnonzero(active & (first | last) | overlapping)
-    if beyond.size:
-        raise ReachError(
-            f"certificate: contact at the actuator at x = {problem.row.positions[own[beyond[0]]]:g} mm reaches the last"
-            " skin node that was considered; the stimulus moves it too far sideways"
-        )
