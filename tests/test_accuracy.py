@@ -9,13 +9,13 @@ import pytest
 from fingerpad.accuracy import true_errors, with_errors
 
 
-def row(condition: str, score: float | str | None, interface: str = "shear") -> dict[str, Any]:
+def row(condition: str, score: float | str | None, interface: str = "shear", readout: str = "strain") -> dict[str, Any]:
     return {
         "kinematics": "small",
         "device": "d",
         "condition": condition,
         "interface": interface,
-        "readout": "strain",
+        "readout": readout,
         "score": score,
         "unit": "mm2",
     }
@@ -28,6 +28,22 @@ def test_error_is_the_difference_and_no_less_than_the_median() -> None:
     assert [each["score_error"] for each in found] == pytest.approx([0.02, 0.04, 0.24])
     columns = ["kinematics", "device", "condition", "interface", "readout", "score", "score_error", "unit"]
     assert list(found[0]) == columns
+
+
+def test_two_unlike_halves_are_not_averaged() -> None:
+    """Without shear a sideways drive changes strain by next to nothing, of which a small error is all. That half of the
+    scores says nothing of the other."""
+    scores = [row("a", "1.0"), row("b", "1.0"), row("a", "1e-5", "frictionless"), row("b", "1e-5", "frictionless")]
+    coarser = [row("a", "1.01"), row("b", "1.02"), row("a", "2e-5", "frictionless"), row("b", "2e-5", "frictionless")]
+    found = with_errors(scores, coarser)
+    assert [each["score_error"] for each in found] == pytest.approx([0.02, 0.02, 1e-5, 1e-5])
+
+
+def test_a_change_is_known_no_better_than_strain() -> None:
+    """Its difference is 0 by chance, that of strain is 3 %."""
+    scores = [row("a", "1.0"), row("a", "0.1", readout="change_of_strain")]
+    found = with_errors(scores, [row("a", "1.03"), row("a", "0.1", readout="change_of_strain")])
+    assert [each["score_error"] for each in found] == pytest.approx([0.03, 0.003])
 
 
 def test_a_stimulus_that_is_none_has_no_error() -> None:

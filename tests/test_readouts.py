@@ -23,6 +23,14 @@ def test_principal_strain_equals_the_largest_eigenvalue() -> None:
     assert np.abs(maximum_principal(rows.ravel()) - np.linalg.eigvalsh(tensors)[:, -1]).max() < 1e-12
 
 
+def test_a_change_of_rounding_is_none() -> None:
+    """The solver's tolerance leaves a billionth of strain; what changes by less has not changed."""
+    before = np.array([0.1, -0.2, 0.05])
+    for share, changed in ((1e-12, False), (1e-6, True)):
+        readouts = receptor_readouts(np.array([before, before * (1.0 + share)]))
+        assert readouts[Readout.CHANGE_OF_STRAIN].any() == changed
+
+
 def test_readout_of_a_cycle_is_taken_at_its_peak() -> None:
     """Of several times, the one with the largest change."""
     before, *along = np.array([0.1, 0.1, 0.3, 0.2])[:, None] * np.array([1.0, 0.0, 0.0])

@@ -9,15 +9,18 @@ import pytest
 
 from fingerpad.actuator_body import condense_body
 from fingerpad.certificate import certify
+from fingerpad.condensation import condense_section
 from fingerpad.contact import face_shape, rest, touch
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
+from fingerpad.edges import mesh_device
 from fingerpad.errors import ContactError
 from fingerpad.gabor import filtered_readouts
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
-from fingerpad.solution import contact_problem, indented_state, solve_condition
+from fingerpad.scene import Scene
+from fingerpad.solution import Solution, contact_problem, indented_state, solve_condition
 from scenes import condensed, scene, solve, solved
 
 FINE = {"indentation_increments": 80, "stimulus_increments": 16}
@@ -124,6 +127,33 @@ def test_normal_and_lateral_histories_combine() -> None:
     assert solution.force.shape[0] == 3
     assert pressed[3] == 0.0
     assert min(pressed[:3]) > 0.01
+
+
+def solve_anew(changed: Scene, condition: Condition) -> Solution:
+    """A condition without friction on a scene of a mesh of its own."""
+    section = condense_section(mesh_device(changed), changed)
+    return solve_condition(changed, section, None, condition, Interface.FRICTIONLESS)
+
+
+def test_a_deep_drive_stays_within_reach() -> None:
+    """Pins that go 0.5 mm into the skin push it sideways by more than the margin: reach grows with their stroke."""
+    base = scene("device2")
+    row = np.array([[0.5, -0.5, 0.5, -0.5]])
+    deep = Condition("deep", "test", 0.0, np.array([1.0]), row, np.zeros_like(row))
+    device = replace(base.device, conditions=(deep,))
+    assert device.stroke == 0.5
+    found = solve_anew(replace(base, device=device).coarsened(2.0), deep)
+    assert found.certificate.penetration <= 1e-4 * found.indentation
+
+
+def test_a_row_too_wide_says_what_helps() -> None:
+    base = scene("device2")
+    still = lateral("still", [0.0, 0.0])
+    row = replace(base.device.actuators, positions=(-7.0, 7.0))
+    wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,)))
+    advice = r"a narrower row needs less indentation, and so does contact\.criterion: touch"
+    with pytest.raises(ContactError, match=advice):
+        solve_anew(wide.coarsened(4.0), still)
 
 
 def test_failures_name_device_condition_and_interface() -> None:

@@ -13,7 +13,7 @@ import pytest
 from fingerpad.readout import GaborFilter
 from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
-from support import fingerprint, path_of, reached_modules, stroke
+from support import fingerprint, path_of, reached_modules
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -144,10 +144,6 @@ def test_every_material_matters(scene: Scene) -> None:
         softer = dataclasses.replace(layer, material=dataclasses.replace(layer.material, poisson=0.4))
         changed = dataclasses.replace(finger, pad=(*finger.pad[:i], softer, *finger.pad[i + 1 :]))
         assert fingerprint(changed) != fingerprint(finger), layer.name
-
-
-def test_stroke_is_the_largest_tangential_displacement(scene: Scene) -> None:
-    assert stroke(scene) == pytest.approx(0.020)
 
 
 def test_path_holds_no_names(scene: Scene) -> None:

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from fingerpad.device import Condition
-from fingerpad.scene import Scene
 
 PACKAGE = "fingerpad"
 THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -72,11 +71,6 @@ def _program(path: Path) -> str:
 def fingerprint(*parts: Any) -> str:
     """The values (not the sources) of parts of a scene, as text: a job reruns when what it depends on changes."""
     return json.dumps([_plain(part) for part in parts], sort_keys=True)
-
-
-def stroke(scene: Scene) -> float:
-    """Largest tangential displacement of any condition [mm]: it decides which skin nodes are condensed."""
-    return max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
 
 
 def path_of(condition: Condition) -> tuple[Any, ...]:

@@ -161,6 +161,11 @@ class Device:
                 f" the device has {count}",
             )
 
+    @property
+    def stroke(self) -> float:
+        """Farthest [mm] that any condition moves an actuator along x or y: it decides which skin is within reach."""
+        return max(float(np.abs([each.normal, each.tangential]).max()) for each in self.conditions)
+
     def condition(self, name: str) -> Condition:
         """The condition of that name. Raises SceneError if there is none."""
         for condition in self.conditions:

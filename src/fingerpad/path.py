@@ -73,8 +73,8 @@ def advance(
                 raise kind(
                     f"contact did not converge: {done:.1%} of the way from {_located(start)} to {_located(target)} mm,"
                     f" increment {int(done * increments) + 1}/{increments} halved {cuts - 1} times, residual"
-                    f" {failure.residual:.1e} > {problem.tolerance:.0e}; {advice} or a finer mesh at the"
-                    " actuators' edges"
+                    f" {failure.residual:.1e}, tolerance {problem.tolerance:.0e}; {advice}"
+                    f"{', stiffer bodies' if problem.body else ''} or a finer mesh at the actuators' edges"
                 ) from failure
     return state, carried
 

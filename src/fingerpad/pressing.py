@@ -43,7 +43,7 @@ from .reach import contact_tractions
 from .receptors import arc_length, receptor_strain
 from .scene import Scene
 from .skin import require_uncrossed, skin_of
-from .solution import contact_problem, increments, indent_device, named
+from .solution import contact_problem, increments, indent_device, named_pressing
 from .symmetry import MIRROR, half_of, mirrors, unfolded
 from .tissue_law import Kinematics
 
@@ -98,7 +98,7 @@ def press(
         when = f"in increment {len(states)} of the tissue, with the faces at {state.actuator[0, 1]:.4g} mm"
         require_uncrossed(skin, state.displacement, when)
 
-    with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
+    with named_pressing(scene, interface):
         start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
         count, within = increments_of(increments(scene, problem)[0])
         solve = recording(solver_on(spans[0], within), note)

@@ -14,15 +14,17 @@ CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the 
 
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
-    """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one; and on
-    its mirror image. Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
+    """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one, as skin
+    that is pressed farther goes farther sideways too; and on its mirror image.
+
+    Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
     """
     row = scene.device.actuators
-    stroke = max(float(np.abs(condition.tangential).max()) for condition in scene.device.conditions)
     points = section.mesh.doflocs[:, section.skin]
     x, y = points
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
-    within = (distance <= row.width / 2.0 + stroke + CONTACT_MARGIN) & (y < scene.model.finger.height / 2.0)
+    reach = row.width / 2.0 + scene.device.stroke + CONTACT_MARGIN
+    within = (distance <= reach) & (y < scene.model.finger.height / 2.0)
     out_of_reach = (x == 0.0) & ~within  # without such a node both halves are alike, and one is enough
     near = within[1::2] & ~out_of_reach[:-1:2] & ~out_of_reach[2::2]
     if not near.any():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from .arrays import FloatArray
 from .certificate import Certificate, certify
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState, pressing_and_shearing
-from .contact_law import Interface
+from .contact_law import Criterion, Interface
 from .device import Condition
 from .errors import ContactError, MeshError
 from .indentation import indent
@@ -124,7 +124,7 @@ def indent_device(
     cannot be followed.
     """
     problem = contact_problem(scene, section, body, interface)
-    with named(f"device={scene.device.name}, interface={interface}, pre-indentation"):
+    with named_pressing(scene, interface):
         return Indented(interface, problem, indented_state(scene, problem))
 
 
@@ -182,9 +182,16 @@ def solve_condition(
 
 
 @contextmanager
-def named(what: str) -> Iterator[None]:
-    """Name in every ContactError what was being solved."""
+def named(what: str, advice: str = "") -> Iterator[None]:
+    """Name in every ContactError what was being solved, and say what else may help."""
     try:
         yield
     except ContactError as error:
-        raise type(error)(f"{what}: {error}") from error
+        raise type(error)(f"{what}: {error}{advice}") from error
+
+
+def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
+    """`named`, for pre-indentation, which goes the deeper the wider the row is."""
+    full = scene.model.contact.criterion is Criterion.FULL
+    advice = "; a narrower row needs less indentation" + (", and so does contact.criterion: touch" if full else "")
+    return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)

@@ -11,6 +11,8 @@ from .arrays import FloatArray
 from .compliance import VOIGT
 from .readout import Readout
 
+UNCHANGED = 1e-9  # of the largest value [1], below which a change is none; source: the solver's tolerance
+
 
 def maximum_principal(components: FloatArray) -> FloatArray:
     """Largest of the three principal strains (m,) [1] in plane strain, from (3m,) exx, eyy, gxy point by point.
@@ -32,10 +34,12 @@ def receptor_readouts(
 
     components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. Of several times the one is
     read at which the measure has changed most (largest root mean square): the reference actuator's peak for a snapshot,
-    the peak of the cycle otherwise. measure: of strains (3m,).
+    the peak of the cycle otherwise. Changes within UNCHANGED everywhere are rounding, and zero. measure: of strains
+    (3m,).
     """
     before, *strains = (measure(each) for each in components)
-    changes = [strain - before for strain in strains]
+    changes = np.array(strains) - before
+    changes[np.abs(changes).max(axis=1) <= UNCHANGED * np.abs(before).max()] = 0.0
     peak = int(np.argmax(np.linalg.norm(changes, axis=1)))
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 

@@ -24,7 +24,7 @@ rule condense:
             scene_of(w).model.finger,
             scene_of(w).model.readout,
             scene_of(w).device.actuators,
-            support.stroke(scene_of(w)),
+            scene_of(w).device.stroke,
         ),
     script:
         "../scripts/condense.py"

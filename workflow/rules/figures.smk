@@ -70,7 +70,7 @@ rule fields:
         ENVIRONMENT
     params:
         scene=lambda w: support.fingerprint(
-            scene_of(w).model.finger, scene_of(w).device.actuators, support.stroke(scene_of(w)), tissue_of(w)
+            scene_of(w).model.finger, scene_of(w).device.actuators, scene_of(w).device.stroke, tissue_of(w)
         ),
     script:
         "../scripts/fields.py"

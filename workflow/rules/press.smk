@@ -30,7 +30,7 @@ rule press:
             scene_of(w).model.numerics,
             scene_of(w).model.skips,
             scene_of(w).device.actuators,
-            support.stroke(scene_of(w)),
+            scene_of(w).device.stroke,
         ),
     script:
         "../scripts/press.py"

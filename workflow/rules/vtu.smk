@@ -36,7 +36,7 @@ rule field_output:
             scene_of(w).model.finger,
             tissue_of(w),
             scene_of(w).device.actuators,
-            support.stroke(scene_of(w)),
+            scene_of(w).device.stroke,
             condition_of(w).time,
         ),
     script:
