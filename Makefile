@@ -24,7 +24,7 @@ reproduce: environment  ## Compute everything: snakemake all.
 	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/snakemake all --cores $(CORES)
 
 test: environment  ## Run all tests.
-	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pytest -rs -n auto --dist loadgroup --no-loadscope-reorder
+	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/python -m pytest -rs -n auto --dist loadfile --no-loadscope-reorder
 
 lint: environment  ## Check formats, lint and types.
 	$(BIN)/ruff check .

@@ -35,14 +35,8 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests that run Snakemake first: they are the longest, and no core should wait for them at the end.
-
-    Those that need the complete run share it, as it takes minutes; other files of tests stay together.
-    """
+    """Tests that run Snakemake first: they are the longest, and no core should wait for them at the end."""
     items.sort(key=lambda item: item.get_closest_marker("workflow") is None)
-    for item in items:
-        complete = "finished" in getattr(item, "fixturenames", ())
-        item.add_marker(pytest.mark.xdist_group("complete" if complete else item.path.stem))
 
 
 @dataclass(frozen=True)
