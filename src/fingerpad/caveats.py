@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .certificate import CONE_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT
-from .roughness import CONSTANT, KEY
+from .readout import CONSTANT
+from .roughness import KEY
 from .solution import Solution
 
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3

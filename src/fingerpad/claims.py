@@ -14,8 +14,8 @@ from typing import Any
 import pandas as pd
 
 from .contact_law import Interface
-from .readout import Readout
-from .roughness import CONSTANT, KEY, NO_PREDICTION, TYPESET_UNITS
+from .readout import CONSTANT, Readout
+from .roughness import KEY, NO_PREDICTION, TYPESET_UNITS
 
 COLUMNS = ["kinematics", "claim", "source", "holds", "evidence"]
 DISPERSIONS = ("low", "medium", "high")

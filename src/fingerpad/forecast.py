@@ -12,7 +12,8 @@ from .arrays import FloatArray
 from .caveats import score_caveats, solution_caveats
 from .edges import edge_intervals
 from .prediction import coarser_rows, prepared, rows_of, solve_scene
-from .roughness import CONSTANT, KEY, unpredicted_rows
+from .readout import CONSTANT
+from .roughness import KEY, unpredicted_rows
 from .scene import Scene
 
 

@@ -18,7 +18,8 @@ from .arrays import FloatArray
 from .csvrows import listed
 from .errors import RatingError
 from .ratings import NO_RATINGS, RatingKind, order_matrix
-from .roughness import CONSTANT, KEY, NO_PREDICTION
+from .readout import CONSTANT
+from .roughness import KEY, NO_PREDICTION
 
 BoolArray = NDArray[np.bool_]
 

@@ -88,8 +88,7 @@ def random_scene(number: int) -> Scene:
     model = replace(
         group.model, contact=replace(group.model.contact, friction=friction, criterion=criterion), numerics=numerics
     )
-    stroke = float(np.abs(group.device.conditions[0].tangential).max())
-    condition = _condition(rng, len(row.positions), stroke)
+    condition = _condition(rng, len(row.positions), group.device.stroke)
     return Scene(model, Device(f"stress_{number:05d}", "random", Control.DISPLACEMENT, row, (condition,)))
 
 

@@ -7,6 +7,8 @@ from enum import StrEnum
 
 from .requirements import require_positive
 
+CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
+
 
 class Readout(StrEnum):
     """What is read at the receptors: SA-1 proxy (strain) or RA-1 proxy (change of strain)."""

@@ -16,7 +16,6 @@ from .strain import FilteredReadouts
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
 TYPESET_UNITS = {SCORE_UNIT: "mm²"}  # where people read them; tables keep to plain letters
 KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table: what has one score a condition
-CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
 NO_PREDICTION = "no prediction"
 ERROR_UNKNOWN = "error unknown"
 

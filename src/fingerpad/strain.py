@@ -9,9 +9,7 @@ import numpy as np
 
 from .arrays import FloatArray
 from .compliance import VOIGT
-from .readout import Readout
-
-UNCHANGED = 1e-9  # of the largest value [1], below which a change is none; source: the solver's tolerance
+from .readout import CONSTANT, Readout
 
 
 def maximum_principal(components: FloatArray) -> FloatArray:
@@ -34,12 +32,12 @@ def receptor_readouts(
 
     components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. Of several times the one is
     read at which the measure has changed most (largest root mean square): the reference actuator's peak for a snapshot,
-    the peak of the cycle otherwise. Changes within UNCHANGED everywhere are rounding, and zero. measure: of strains
+    the peak of the cycle otherwise. Where all values count as equal the change is zero. measure: of strains
     (3m,).
     """
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
-    changes[np.abs(changes).max(axis=1) <= UNCHANGED * np.abs(before).max()] = 0.0
+    changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
     peak = int(np.argmax(np.linalg.norm(changes, axis=1)))
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 

@@ -19,9 +19,9 @@ from .contact_law import Interface
 from .finger import Material
 from .gabor import filtered_readouts
 from .measures import Measure, measured
-from .readout import Readout, Side
+from .readout import CONSTANT, Readout, Side
 from .resampling import resampling_to_grid
-from .roughness import CONSTANT, KEY, SCORE_UNIT, score_rows
+from .roughness import KEY, SCORE_UNIT, score_rows
 from .scene import Scene
 from .solution import Solution
 from .strain import receptor_readouts
