@@ -8,12 +8,13 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 BASE = Path(workflow.basedir)
+BASE = Path() if BASE == Path.cwd() else BASE  # names of inputs: a project that is moved is not computed again
 SOURCE = BASE / "src"
-sys.path[:0] = [str(SOURCE), str(BASE / "workflow")]
+sys.path[:0] = [str(SOURCE.absolute()), str(Path(workflow.basedir, "workflow"))]
 import support
 
 # jobs find the library; one thread each: results do not depend on the machine's cores, and jobs run beside each other
-os.environ |= {"PYTHONPATH": str(SOURCE), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
+os.environ |= {"PYTHONPATH": str(SOURCE.absolute()), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
 
 
 # priorities: 3 for the longest, 2 for what the tables wait for, 1 for what is long or what long jobs wait for; so that no

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import dataclasses
+import functools
 import json
 import shutil
 import subprocess
@@ -29,22 +30,21 @@ def reached_modules(script: Path, source: Path) -> list[str]:
         if path in reached:
             continue
         reached.add(path)
-        waiting.extend(_imported(path, source))
+        package = path.parent.relative_to(source).parts if path.is_relative_to(source) else ()
+        waiting.extend(_imported(_program(path), package, source))
     return sorted(str(path) for path in reached)
 
 
-def _imported(path: Path, source: Path) -> list[Path]:
-    """Files of the package that one file imports."""
+@functools.cache  # nearly all rules reach nearly the same modules
+def _imported(program: str, package: tuple[str, ...], source: Path) -> list[Path]:
+    """Files that the text of a program, part of a package, imports from the package."""
     found: list[Path] = []
-    for node in ast.walk(ast.parse(_program(path))):
+    for node in ast.walk(ast.parse(program)):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
-            if node.level:
-                here = path.parent.relative_to(source).parts
-                base = ".".join(here[: len(here) - node.level + 1] + ((node.module,) if node.module else ()))
-            else:
-                base = node.module or ""
+            above = package[: len(package) - node.level + 1] if node.level else ()
+            base = ".".join((*above, node.module) if node.module else above)
             names = [base] + [f"{base}.{alias.name}" for alias in node.names]
         else:
             continue

@@ -19,11 +19,14 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from jsonschema import Draft202012Validator, ValidationError, validators
 
 from .errors import SceneError
+from .imports import without
 from .scene import Model, Scene
 from .scenefile import build_device, build_model, read_yaml
+
+with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
+    from jsonschema import Draft202012Validator, ValidationError, validators
 
 Schema = dict[str, Any]
 Key = list[str | int]

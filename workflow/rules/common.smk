@@ -18,7 +18,7 @@ if unknown := [name for name in config if name not in SETTINGS]:
 SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
 DATA = BASE / "data"
-ENVIRONMENT = BASE / "environment.yml"
+ENVIRONMENT = Path(workflow.basedir, "environment.yml")  # relative, Snakemake would look for it beside a rule
 
 try:
     check_config(CONFIG, BASE / "workflow" / "schemas")
