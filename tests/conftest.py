@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import re
@@ -9,6 +10,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -144,22 +146,35 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
     return with_small_kinematics(Project(folder))
 
 
+@contextmanager
+def alone(lock: Path) -> Iterator[None]:
+    """While it lasts, no other process of the tests is within it."""
+    with lock.open("w", encoding="utf-8") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
 @pytest.fixture(scope="session")
-def finished(project: Project) -> Project:
-    """The project after one complete run of everything. Tests leave it as it is, or take `changeable`."""
-    run = project.snakemake("all")
-    assert run.status == 0, run.text
-    return project
+def finished(project: Project, tmp_path_factory: pytest.TempPathFactory, testrun_uid: str) -> Project:
+    """The project after one complete run of everything, which all processes of the tests share: a project may be moved.
+    Tests leave it as it is, or take `changeable`."""
+    shared = tmp_path_factory.getbasetemp().parent / f"finished-{testrun_uid}"
+    with alone(shared.with_suffix(".lock")):
+        if not shared.exists():
+            made = Project(tmp_path_factory.mktemp("made") / "fingerpad")
+            shutil.copytree(project.folder, made.folder)
+            run = made.snakemake("all")
+            assert run.status == 0, run.text
+            made.folder.rename(shared)
+    return Project(shutil.copytree(shared, tmp_path_factory.mktemp("finished") / "fingerpad", symlinks=True))
 
 
 @pytest.fixture
-def changeable(finished: Project) -> Iterator[Project]:
-    """The finished project, at the same place, for a test that changes it: it is put back afterwards."""
-    kept = finished.folder.with_name("kept")
-    shutil.copytree(finished.folder, kept, symlinks=True)
-    yield finished
-    shutil.rmtree(finished.folder)
-    kept.rename(finished.folder)
+def changeable(finished: Project, tmp_path: Path) -> Iterator[Project]:
+    """A copy of the finished project, for a test that changes it."""
+    folder = tmp_path / "changeable"
+    yield Project(shutil.copytree(finished.folder, folder, symlinks=True))
+    shutil.rmtree(folder)
 
 
 def coarsened(config: str) -> str:

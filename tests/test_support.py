@@ -13,7 +13,7 @@ import pytest
 from fingerpad.readout import GaborFilter
 from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
-from support import fingerprint, path_of, reached_modules
+from support import checksum, fingerprint, path_of, reached_modules
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -129,6 +129,18 @@ def test_fingerprint_holds_no_source_and_no_comment(scene: Scene, tmp_path: Path
         assert edits > 3
         copy.write_text(f"# a remark\n{text}", encoding="utf-8")
     assert whole(load_scene(config, device)) == whole(scene)
+
+
+def test_checksum_minds_what_files_say_not_where_or_when(tmp_path: Path) -> None:
+    first, second = tmp_path / "first.py", tmp_path / "second.py"
+    first.write_text("x = 1\n", encoding="utf-8")
+    second.write_text("x = 2\n", encoding="utf-8")
+    before = checksum([str(first), str(second)])
+    moved = first.rename(tmp_path / "moved.py")
+    moved.touch()
+    assert checksum([str(moved), str(second)]) == before
+    moved.write_text("x = 3\n", encoding="utf-8")
+    assert checksum([str(moved), str(second)]) != before
 
 
 @pytest.mark.parametrize("name", [field.name for field in dataclasses.fields(GaborFilter)])

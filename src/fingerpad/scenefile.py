@@ -6,6 +6,7 @@ Every leaf of a scene file is a quantity: a mapping with `value`, `unit` and `so
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,43 @@ from .vibration_rule import Relaxation, VibrationRule
 
 MERGE = "tag:yaml.org,2002:merge"
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
+REMEMBERED = 16  # texts of files [1]; source: config, two schemas and some devices
 LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema allows takes as much
+
+
+class _Loader(yaml.SafeLoader):
+    """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, which make lists
+    beyond any memory from a few lines.
+    """
+
+    def get_single_node(self) -> yaml.Node | None:
+        node = super().get_single_node()
+        known: dict[int, int] = {}
+        if node is not None and _written_out(node, known) - len(known) > MOST_REPEATED:
+            problem = f"found aliases that repeat more than {MOST_REPEATED} values, allowed: values written out"
+            raise yaml.MarkedYAMLError(problem=problem)
+        return node
+
+    def construct_undefined(self, node: yaml.Node) -> Any:
+        tag = node.tag.replace("tag:yaml.org,2002:", "!!")
+        raise yaml.MarkedYAMLError(problem=f"found the tag {tag}, allowed: none", problem_mark=node.start_mark)
+
+    def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
+        node = super().compose_mapping_node(anchor)
+        seen: dict[str, int] = {}
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode) or key.tag == MERGE:
+                found = f"{key.id} as a key" if key.tag != MERGE else "merge key <<"
+                problem = f"found a {found}, allowed: texts as keys, each with its value written out"
+                raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
+            if key.value in seen:
+                problem = f"found the key {key.value!r} twice (first in line {seen[key.value]}), allowed once"
+                raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
+            seen[key.value] = key.start_mark.line + 1
+        return node
+
+
+_Loader.add_constructor(None, _Loader.construct_undefined)
 
 
 def read_yaml(path: Path) -> dict[str, Any]:
@@ -34,43 +71,11 @@ def read_yaml(path: Path) -> dict[str, Any]:
 
     Raises SceneError if the file is missing, empty, too large, not YAML, or has a key twice, a tag or many aliases.
     """
-
-    class Loader(yaml.SafeLoader):
-        """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, which make
-        lists beyond any memory from a few lines.
-        """
-
-        def get_single_node(self) -> yaml.Node | None:
-            node = super().get_single_node()
-            known: dict[int, int] = {}
-            if node is not None and _written_out(node, known) - len(known) > MOST_REPEATED:
-                problem = f"found aliases that repeat more than {MOST_REPEATED} values, allowed: values written out"
-                raise yaml.MarkedYAMLError(problem=problem)
-            return node
-
-        def construct_undefined(self, node: yaml.Node) -> Any:
-            tag = node.tag.replace("tag:yaml.org,2002:", "!!")
-            raise yaml.MarkedYAMLError(problem=f"found the tag {tag}, allowed: none", problem_mark=node.start_mark)
-
-        def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
-            node = super().compose_mapping_node(anchor)
-            seen: dict[str, int] = {}
-            for key, _ in node.value:
-                if not isinstance(key, yaml.ScalarNode) or key.tag == MERGE:
-                    found = f"{key.id} as a key" if key.tag != MERGE else "merge key <<"
-                    problem = f"found a {found}, allowed: texts as keys, each with its value written out"
-                    raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
-                if key.value in seen:
-                    problem = f"found the key {key.value!r} twice (first in line {seen[key.value]}), allowed once"
-                    raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
-                seen[key.value] = key.start_mark.line + 1
-            return node
-
-    Loader.add_constructor(None, Loader.construct_undefined)
     try:
         if (size := path.stat().st_size) > LARGEST_FILE:
             raise SceneError(f"{path}: found {size} bytes; allowed: at most {LARGEST_FILE}")
-        document = yaml.load(path.read_text(encoding="utf-8"), Loader)  # Loader is a SafeLoader
+        node = _composed(path.read_text(encoding="utf-8"))
+        document = None if node is None else _Loader("").construct_document(node)
     except OSError as error:
         raise SceneError(f"{path}: cannot be read as a YAML file: {error.strerror}") from error
     except UnicodeDecodeError as error:
@@ -89,6 +94,12 @@ def read_yaml(path: Path) -> dict[str, Any]:
         found = "an empty file" if document is None else f"the {type(document).__name__} {document!r:.40}"
         raise SceneError(f"{path}: must hold a mapping of keys to values, found {found}")
     return document
+
+
+@functools.lru_cache(maxsize=REMEMBERED)  # a workflow reads each of its few files many times, and this takes longest
+def _composed(text: str) -> yaml.Node | None:
+    """The nodes of a YAML text."""
+    return yaml.compose(text, _Loader)
 
 
 def _written_out(node: yaml.Node, known: dict[int, int]) -> int:

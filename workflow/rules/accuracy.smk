@@ -17,13 +17,14 @@ rule honesty:
     input:
         scores="results/scores.csv",
         references=[f"results/{kinematics}/{name}/reference.csv" for kinematics in KINEMATICS for name in DEVICES],
-        code=code("honesty.py"),
     output:
         table="results/accuracy/scores.csv",
     log:
         "results/logs/honesty.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("honesty.py"),
     script:
         "../scripts/honesty.py"
 
@@ -33,7 +34,6 @@ rule reference:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        code=code("reference.py"),
     output:
         scores="results/{kinematics}/{device}/reference.csv",
     log:
@@ -46,6 +46,7 @@ rule reference:
         mem_mb=8000,
         runtime=240,
     params:
+        code=code("reference.py"),
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
     script:
         "../scripts/reference.py"
@@ -57,7 +58,6 @@ rule increments:
         devices=DEVICE_FILES,
         recordings=ALL_RECORDINGS,
         scores="results/scores.csv",
-        code=code("increments.py"),
     output:
         table="results/accuracy/increments.csv",
     log:
@@ -65,6 +65,7 @@ rule increments:
     conda:
         ENVIRONMENT
     params:
+        code=code("increments.py"),
         multiples=[2, 4, 16],
     script:
         "../scripts/increments.py"
@@ -75,7 +76,6 @@ rule closed_forms:
         config=ancient(CONFIG),
         device=ancient(SCENES / "devices" / f"{DEVICES[0]}.yaml"),
         recordings=ancient(RECORDINGS[DEVICES[0]]),
-        code=code("closed_forms.py"),
     output:
         table="results/accuracy/closed_forms.csv",
     log:
@@ -85,6 +85,7 @@ rule closed_forms:
     conda:
         ENVIRONMENT
     params:
+        code=code("closed_forms.py"),
         scene=support.fingerprint(
             SCENE[DEVICES[0]].model.finger,
             SCENE[DEVICES[0]].model.readout,
@@ -98,7 +99,6 @@ rule closed_forms:
 rule figure_accuracy:
     input:
         table="results/accuracy/closed_forms.csv",
-        code=code("figure_accuracy.py"),
     output:
         png="results/figures/accuracy_closed_forms.png",
         pdf="results/figures/accuracy_closed_forms.pdf",
@@ -106,5 +106,7 @@ rule figure_accuracy:
         "results/logs/figure_accuracy.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("figure_accuracy.py"),
     script:
         "../scripts/figure_accuracy.py"

@@ -20,7 +20,6 @@ rule benchmark_steps:
         devices=DEVICE_FILES,
         finite=DEVICE_FILES if Kinematics.FINITE in KINEMATICS else [],
         recordings=ALL_RECORDINGS,
-        code=code("benchmark_steps.py"),
     output:
         timings="results/benchmark/timings.csv",
     log:
@@ -32,6 +31,7 @@ rule benchmark_steps:
         mem_mb=6000,
         runtime=60,
     params:
+        code=code("benchmark_steps.py"),
         repeats={"small": 5, "finite": 3},
     script:
         "../scripts/benchmark_steps.py"
@@ -64,7 +64,6 @@ rule benchmark_ladder:
         device=SCENES / "devices" / "device2.yaml",
         recordings=lambda w: RECORDINGS["device2"],
         references=[f"results/{kinematics}/device2/reference.csv" for kinematics in KINEMATICS],
-        code=code("benchmark_ladder.py"),
     output:
         table="results/benchmark/ladder.csv",
         decks=directory("results/benchmark/decks"),
@@ -77,6 +76,7 @@ rule benchmark_ladder:
         mem_mb=6000,
         runtime=60,
     params:
+        code=code("benchmark_ladder.py"),
         condition="alternate_180",
         kinematics=KINEMATICS,
         factors={
@@ -100,7 +100,6 @@ rule benchmark_growth:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
         recordings=lambda w: RECORDINGS["device2"],
-        code=code("benchmark_growth.py"),
     output:
         sizes="results/benchmark/growth.csv",
         fits="results/benchmark/exponents.csv",
@@ -113,6 +112,7 @@ rule benchmark_growth:
         mem_mb=6000,
         runtime=60,
     params:
+        code=code("benchmark_growth.py"),
         factors=[2.0, 1.4, 1.0, 0.7, 0.5],
         counts=[4, 8, 16, 32, 64],
         repeats=3,
@@ -127,7 +127,6 @@ rule skipping:
         finite=DEFORMED_FILES,
         recordings=ALL_RECORDINGS,
         scores="results/scores.csv",
-        code=code("skipping.py"),
     output:
         switches="results/benchmark/skipping.csv",
         always="results/benchmark/always.csv",
@@ -140,6 +139,7 @@ rule skipping:
         mem_mb=6000,
         runtime=60,
     params:
+        code=code("skipping.py"),
         repeats={"small": 3, "finite": 1},
     script:
         "../scripts/skipping.py"
@@ -150,7 +150,6 @@ rule figure_benchmark:
         ladder="results/benchmark/ladder.csv",
         sizes="results/benchmark/growth.csv",
         fits="results/benchmark/exponents.csv",
-        code=code("figure_benchmark.py"),
     output:
         png="results/figures/benchmark.png",
         pdf="results/figures/benchmark.pdf",
@@ -158,5 +157,7 @@ rule figure_benchmark:
         "results/logs/figure_benchmark.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("figure_benchmark.py"),
     script:
         "../scripts/figure_benchmark.py"

@@ -28,7 +28,6 @@ rule calculix:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
         recordings=lambda w: RECORDINGS["device2"],
-        code=code("calculix.py"),
     output:
         table="results/accuracy/calculix.csv",
         decks=directory("results/calculix"),
@@ -41,6 +40,7 @@ rule calculix:
         mem_mb=4000,
         runtime=120,
     params:
+        code=code("calculix.py"),
         condition="alternate_180",
         limit=1800,
         cases={

@@ -6,12 +6,13 @@ rule claims:
     input:
         scores="results/scores.csv",
         correlations="results/correlations.csv",
-        code=code("claims.py"),
     output:
         claims="results/claims.csv",
     log:
         "results/logs/claims.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("claims.py"),
     script:
         "../scripts/claims.py"

@@ -105,9 +105,16 @@ def pressed_of(wildcards):
     )
 
 
+def code_of(program):
+    """What a script or notebook and the modules that it reaches say: a rule reruns when that changes. As a parameter it is
+    compared once; as inputs, Snakemake would look at each module of each waiting job again and again.
+    """
+    return support.checksum(support.reached_modules(program, SOURCE))
+
+
 def code(script):
-    """The script and the modules that it reaches, as inputs."""
-    return support.reached_modules(BASE / "workflow" / "scripts" / script, SOURCE)
+    """`code_of` a rule's script."""
+    return code_of(BASE / "workflow" / "scripts" / script)
 
 
 def cases(pattern, devices=DEVICES):

@@ -9,7 +9,6 @@ rule condense:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
         mesh="results/small/{device}/mesh.npz",
-        code=code("condense.py"),
     output:
         condensed="results/small/{device}/condensed.npz",
     log:
@@ -20,6 +19,7 @@ rule condense:
     conda:
         ENVIRONMENT
     params:
+        code=code("condense.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             scene_of(w).model.readout,
@@ -35,7 +35,6 @@ rule condense_body:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        code=code("condense_body.py"),
     output:
         body="results/{device}/body.npz",
     log:
@@ -46,6 +45,7 @@ rule condense_body:
     conda:
         ENVIRONMENT
     params:
+        code=code("condense_body.py"),
         scene=lambda w: support.fingerprint(scene_of(w).device.actuators, scene_of(w).model.numerics),
     script:
         "../scripts/condense_body.py"

@@ -8,7 +8,6 @@ rule correlate:
         ratings=DATA / "ratings.csv",
         order=DATA / "stated_order.csv",
         published=DATA / "published_r2.csv",
-        code=code("correlate.py"),
     output:
         correlations="results/correlations.csv",
     log:
@@ -17,6 +16,7 @@ rule correlate:
     conda:
         ENVIRONMENT
     params:
+        code=code("correlate.py"),
         conditions=support.fingerprint(KNOWN),
     script:
         "../scripts/correlate.py"

@@ -14,13 +14,14 @@ rule docs:
 rule assumptions:
     input:
         files=[CONFIG, *DEVICE_FILES],
-        code=code("assumptions.py"),
     output:
         listed="docs/assumptions.md",
     log:
         "results/logs/assumptions.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("assumptions.py"),
     script:
         "../scripts/assumptions.py"
 
@@ -30,13 +31,14 @@ rule code_map:
         package=[SOURCE / "fingerpad" / "__init__.py", *sorted(SOURCE.glob("fingerpad/**/*.py"))],
         rules=sorted((BASE / "workflow" / "rules").glob("*.smk")),
         scripts=sorted((BASE / "workflow" / "scripts").glob("*.py")),
-        code=code("code_map.py"),
     output:
         page="docs/map.md",
     log:
         "results/logs/code_map.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("code_map.py"),
     script:
         "../scripts/code_map.py"
 

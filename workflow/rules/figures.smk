@@ -58,7 +58,6 @@ rule fields:
             for condition in scene_of(w).device.conditions
             if scene_of(w).device.first_with_stimulus_of(condition.name) is condition
         ],
-        code=code("fields.py"),
     output:
         fields="results/{kinematics}/{device}/fields.npz",
     log:
@@ -69,6 +68,7 @@ rule fields:
     conda:
         ENVIRONMENT
     params:
+        code=code("fields.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger, scene_of(w).device.actuators, scene_of(w).device.stroke, tissue_of(w)
         ),
@@ -87,7 +87,6 @@ rule figure_receptors:
             for name in DEVICES
             for condition in SCENE[name].device.conditions
         ],
-        code=code("figure_receptors.py"),
     output:
         png="results/figures/figure_4_receptors{mode}.png",
         pdf="results/figures/figure_4_receptors{mode}.pdf",
@@ -96,6 +95,7 @@ rule figure_receptors:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_receptors.py"),
         kinematics=mode_of,
         scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     script:
@@ -110,7 +110,6 @@ rule figure_correlation:
         scores="results/scores.csv",
         ratings=DATA / "ratings.csv",
         correlations="results/correlations.csv",
-        code=code("figure_correlation.py"),
     output:
         png="results/figures/figure_5_correlation{mode}.png",
         pdf="results/figures/figure_5_correlation{mode}.pdf",
@@ -119,6 +118,7 @@ rule figure_correlation:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_correlation.py"),
         kinematics=mode_of,
         titles=[SCENE[name].device.title for name in DEVICES],
         conditions=support.fingerprint(KNOWN),
@@ -133,7 +133,6 @@ rule figure_ablation:
         recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         correlations="results/correlations.csv",
-        code=code("figure_ablation.py"),
     output:
         png="results/figures/ablation_shear{mode}.png",
         pdf="results/figures/ablation_shear{mode}.pdf",
@@ -142,6 +141,7 @@ rule figure_ablation:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_ablation.py"),
         kinematics=mode_of,
         titles=[SCENE[name].device.title for name in DEVICES],
     script:
@@ -155,7 +155,6 @@ rule figure_kinematics:
         recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         curves="results/indentation.csv",
-        code=code("figure_kinematics.py"),
     output:
         png="results/figures/kinematics.png",
         pdf="results/figures/kinematics.pdf",
@@ -164,6 +163,7 @@ rule figure_kinematics:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_kinematics.py"),
         titles=[SCENE[name].device.title for name in DEVICES],
     script:
         "../scripts/figure_kinematics.py"
@@ -175,7 +175,6 @@ rule figure_section:
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
         mesh=f"results/small/{DEVICES[0]}/mesh.npz",
-        code=code("figure_section.py"),
     output:
         png="results/figures/section.png",
         pdf="results/figures/section.pdf",
@@ -184,6 +183,7 @@ rule figure_section:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_section.py"),
         scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_section.py"
@@ -200,7 +200,6 @@ rule figure_map:
             for condition in scene_of(w).device.conditions
             if condition.dispersion == w.dispersion
         ],
-        code=code("figure_map.py"),
     output:
         png="results/figures/map_{device}_{dispersion}{mode}.png",
         pdf="results/figures/map_{device}_{dispersion}{mode}.pdf",
@@ -212,6 +211,7 @@ rule figure_map:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_map.py"),
         kinematics=mode_of,
         scene=lambda w: support.fingerprint(scene_of(w).device),
     script:
@@ -231,7 +231,6 @@ if LATERAL:
                 for condition in SCENE[LATERAL].device.conditions
             ],
             scores="results/scores.csv",
-            code=code("figure_workflow.py"),
         output:
             png="results/figures/figure_3_workflow.png",
             pdf="results/figures/figure_3_workflow.pdf",
@@ -240,6 +239,7 @@ if LATERAL:
         conda:
             ENVIRONMENT
         params:
+            code=code("figure_workflow.py"),
             scene=support.fingerprint(SCENE[LATERAL].device, SCENE[LATERAL].model.gabor, SCENE[LATERAL].model.readout),
         script:
             "../scripts/figure_workflow.py"
@@ -252,7 +252,6 @@ if LATERAL:
             scores="results/scores.csv",
             ratings=DATA / "ratings.csv",
             correlations="results/correlations.csv",
-            code=code("figure_shear.py"),
         output:
             png="results/figures/figure_6_shear{mode}.png",
             pdf="results/figures/figure_6_shear{mode}.pdf",
@@ -261,6 +260,7 @@ if LATERAL:
         conda:
             ENVIRONMENT
         params:
+            code=code("figure_shear.py"),
             kinematics=mode_of,
             title=SCENE[LATERAL].device.title,
             conditions=support.fingerprint(KNOWN),

@@ -10,7 +10,6 @@ rule filter:
         recordings=ancient(recordings_of),
         resampling="results/{kinematics}/{device}/resampling.npz",
         solution=solution_of,
-        code=code("filter.py"),
     output:
         filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
     log:
@@ -19,6 +18,7 @@ rule filter:
     conda:
         ENVIRONMENT
     params:
+        code=code("filter.py"),
         scene=lambda w: support.fingerprint(scene_of(w).model.gabor),
     script:
         "../scripts/filter.py"

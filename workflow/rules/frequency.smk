@@ -23,7 +23,6 @@ rule vibrate:
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
         resampling="results/small/{device}/resampling.npz",
-        code=code("vibrate.py"),
     output:
         scores="results/small/{device}/frequency.csv",
     log:
@@ -36,6 +35,7 @@ rule vibrate:
         mem_mb=2000,
         runtime=20,
     params:
+        code=code("vibrate.py"),
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
     script:
         "../scripts/vibrate.py"
@@ -50,7 +50,6 @@ rule frequency_variants:
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
         resampling="results/small/{device}/resampling.npz",
-        code=code("frequency_variants.py"),
     output:
         table="results/small/{device}/frequency_variants.csv",
     log:
@@ -63,6 +62,7 @@ rule frequency_variants:
         mem_mb=2000,
         runtime=20,
     params:
+        code=code("frequency_variants.py"),
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
         frequency=VARIED_AT,
     script:
@@ -73,7 +73,6 @@ rule frequencies:
     input:
         scores=expand("results/small/{device}/frequency.csv", device=VIBRATING),
         variants=expand("results/small/{device}/frequency_variants.csv", device=VIBRATING),
-        code=code("frequencies.py"),
     output:
         table="results/frequency.csv",
         variants="results/frequency_variants.csv",
@@ -81,6 +80,8 @@ rule frequencies:
         "results/logs/frequencies.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("frequencies.py"),
     script:
         "../scripts/frequencies.py"
 
@@ -91,7 +92,6 @@ rule figure_frequency:
         devices=ancient([SCENES / "devices" / f"{name}.yaml" for name in VIBRATING]),
         recordings=ancient([path for name in VIBRATING for path in RECORDINGS[name]]),
         table="results/frequency.csv",
-        code=code("figure_frequency.py"),
     output:
         png="results/figures/frequency.png",
         pdf="results/figures/frequency.pdf",
@@ -100,6 +100,7 @@ rule figure_frequency:
     conda:
         ENVIRONMENT
     params:
+        code=code("figure_frequency.py"),
         titles=[SCENE[name].device.title for name in VIBRATING],
     script:
         "../scripts/figure_frequency.py"

@@ -7,7 +7,6 @@ rule mesh:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        code=code("mesh.py"),
     output:
         edges="results/{kinematics}/{device}/edges.csv",
         mesh="results/{kinematics}/{device}/mesh.npz",
@@ -20,6 +19,7 @@ rule mesh:
     conda:
         ENVIRONMENT
     params:
+        code=code("mesh.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             tissue_of(w),

@@ -27,10 +27,6 @@ rule notebook:
     input:
         notebook=BASE / "notebooks" / "{notebook}.ipynb",
         results=lambda w: READ_BY[w.notebook],
-        code=lambda w: [
-            *code("notebook.py"),
-            *support.reached_modules(BASE / "notebooks" / f"{w.notebook}.ipynb", SOURCE),
-        ],
     output:
         page="results/notebooks/{notebook}.html",
     log:
@@ -41,6 +37,7 @@ rule notebook:
     conda:
         ENVIRONMENT
     params:
+        code=lambda w: [code("notebook.py"), code_of(BASE / "notebooks" / f"{w.notebook}.ipynb")],
         scene=support.fingerprint(SHIPPED["device2"].model, SHIPPED["device2"].device),
     script:
         "../scripts/notebook.py"

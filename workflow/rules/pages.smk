@@ -25,7 +25,6 @@ rule accuracy_page:
         exponents="results/benchmark/exponents.csv",
         graph="results/benchmark/graph.csv",
         figures=expand("results/figures/{name}", name=MEASURED_FIGURES),
-        code=code("accuracy_page.py"),
     output:
         page="docs/accuracy.md",
         figures=expand("docs/figures/{name}", name=MEASURED_FIGURES),
@@ -33,6 +32,8 @@ rule accuracy_page:
         "results/logs/accuracy_page.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("accuracy_page.py"),
     script:
         "../scripts/accuracy_page.py"
 
@@ -42,13 +43,14 @@ rule skipping_page:
         template=BASE / "workflow" / "pages" / "skipping.md",
         switches="results/benchmark/skipping.csv",
         always="results/benchmark/always.csv",
-        code=code("skipping_page.py"),
     output:
         page="docs/skipping.md",
     log:
         "results/logs/skipping_page.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("skipping_page.py"),
     script:
         "../scripts/skipping_page.py"
 
@@ -59,7 +61,6 @@ rule frequency_page:
         table="results/frequency.csv",
         variants="results/frequency_variants.csv",
         figure="results/figures/frequency.png",
-        code=code("frequency_page.py"),
     output:
         page="docs/frequency.md",
         figure="docs/figures/frequency.png",
@@ -67,5 +68,7 @@ rule frequency_page:
         "results/logs/frequency_page.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("frequency_page.py"),
     script:
         "../scripts/frequency_page.py"

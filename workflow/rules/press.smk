@@ -11,7 +11,6 @@ rule press:
         recordings=ancient(recordings_of),
         mesh="results/finite/{device}/mesh.npz",
         body=body_of,
-        code=code("press.py"),
     output:
         pressed="results/finite/{device}/{interface}/pressed.npz",
     log:
@@ -22,6 +21,7 @@ rule press:
     conda:
         ENVIRONMENT
     params:
+        code=code("press.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             scene_of(w).model.tissue,
@@ -44,7 +44,6 @@ rule stimulate:
         mesh="results/finite/{device}/mesh.npz",
         body=body_of,
         pressed="results/finite/{device}/{interface}/pressed.npz",
-        code=code("stimulate.py"),
     output:
         solution="results/finite/{device}/{condition}/{interface}/solution.npz",
     log:
@@ -55,6 +54,7 @@ rule stimulate:
     conda:
         ENVIRONMENT
     params:
+        code=code("stimulate.py"),
         path=lambda w: support.fingerprint(support.path_of(condition_of(w))),
     script:
         "../scripts/stimulate.py"
@@ -72,7 +72,6 @@ rule indentation:
             for name in (DEVICES if Kinematics.FINITE in KINEMATICS else [])
             for interface in SCENE[name].device.interfaces()
         ],
-        code=code("indentation.py"),
     output:
         table="results/indentation.csv",
     log:
@@ -80,6 +79,7 @@ rule indentation:
     conda:
         ENVIRONMENT
     params:
+        code=code("indentation.py"),
         scenes=support.fingerprint(
             [(SCENE[name].model.contact, SCENE[name].model.numerics, SCENE[name].device) for name in DEVICES]
         ),

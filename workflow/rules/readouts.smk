@@ -17,7 +17,6 @@ rule readouts:
             for condition in SCENE[name].device.conditions
             for interface in SCENE[name].device.interfaces()
         ],
-        code=code("readouts.py"),
     output:
         table="results/ablation_readout.csv",
         agreement="results/ablation_agreement.csv",
@@ -28,6 +27,7 @@ rule readouts:
     conda:
         ENVIRONMENT
     params:
+        code=code("readouts.py"),
         scenes=support.fingerprint([(SCENE[name].model, SCENE[name].device) for name in DEVICES]),
     script:
         "../scripts/readouts.py"

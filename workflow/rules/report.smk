@@ -18,7 +18,6 @@ rule report:
         rules="results/figures/rules.png",
         template=BASE / "workflow" / "report" / "report.html",
         pyproject=BASE / "pyproject.toml",
-        code=code("report.py"),
     output:
         page="results/report.html",
     log:
@@ -26,6 +25,7 @@ rule report:
     conda:
         ENVIRONMENT
     params:
+        code=code("report.py"),
         commit=lambda w: support.commit(BASE),
         lateral=LATERAL,
     script:
@@ -37,7 +37,6 @@ rule rule_graph:
         config=ancient(CONFIG),
         snakefile=BASE / "Snakefile",
         rules=sorted((BASE / "workflow" / "rules").glob("*.smk")),
-        code=code("rule_graph.py"),
     output:
         graph="results/rule_graph.csv",
     log:
@@ -45,6 +44,7 @@ rule rule_graph:
     conda:
         ENVIRONMENT
     params:
+        code=code("rule_graph.py"),
         scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/rule_graph.py"
@@ -53,7 +53,6 @@ rule rule_graph:
 rule figure_rules:
     input:
         graph="results/rule_graph.csv",
-        code=code("figure_rules.py"),
     output:
         png="results/figures/rules.png",
         pdf="results/figures/rules.pdf",
@@ -61,5 +60,7 @@ rule figure_rules:
         "results/logs/figure_rules.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("figure_rules.py"),
     script:
         "../scripts/figure_rules.py"

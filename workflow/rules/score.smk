@@ -9,7 +9,6 @@ rule score:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
         filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
-        code=code("score.py"),
     output:
         score="results/{kinematics}/{device}/{condition}/{interface}/score.csv",
     log:
@@ -18,6 +17,7 @@ rule score:
     conda:
         ENVIRONMENT
     params:
+        code=code("score.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).device.actuators,
             scene_of(w).model.readout.span_margin,
@@ -34,7 +34,6 @@ rule check:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
         edges="results/{kinematics}/{device}/edges.csv",
-        code=code("check.py"),
     output:
         scores="results/{kinematics}/{device}/check.csv",
     log:
@@ -45,6 +44,7 @@ rule check:
     conda:
         ENVIRONMENT
     params:
+        code=code("check.py"),
         scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
     script:
         "../scripts/check.py"
@@ -57,7 +57,6 @@ rule scores:
         recordings=ancient(ALL_RECORDINGS),
         scores=cases("results/{kinematics}/{device}/{condition}/{interface}/score.csv"),
         checks=expand("results/{kinematics}/{device}/check.csv", kinematics=KINEMATICS, device=DEVICES),
-        code=code("scores.py"),
     output:
         scores="results/scores.csv",
     log:
@@ -66,6 +65,7 @@ rule scores:
     conda:
         ENVIRONMENT
     params:
+        code=code("scores.py"),
         devices=DEVICES,
         kinematics=KINEMATICS,
     script:

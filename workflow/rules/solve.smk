@@ -10,7 +10,6 @@ rule solve:
         recordings=ancient(recordings_of),
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
-        code=code("solve.py"),
     output:
         solution="results/small/{device}/{condition}/{interface}/solution.npz",
     log:
@@ -21,6 +20,7 @@ rule solve:
     conda:
         ENVIRONMENT
     params:
+        code=code("solve.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).device.actuators,
             scene_of(w).model.contact,

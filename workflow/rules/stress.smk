@@ -20,8 +20,6 @@ rule stress:
 
 
 rule stress_scenes:
-    input:
-        code=code("stress_scenes.py"),
     output:
         scenes="results/stress/scenes_{chunk}.csv",
     log:
@@ -34,6 +32,7 @@ rule stress_scenes:
         mem_mb=6000,
         runtime=60,
     params:
+        code=code("stress_scenes.py"),
         first=lambda w: int(w.chunk) * STRESS_CHUNK["stress_scenes"],
         stop=lambda w: min((int(w.chunk) + 1) * STRESS_CHUNK["stress_scenes"], STRESS_SCENES["stress_scenes"]),
     script:
@@ -41,8 +40,6 @@ rule stress_scenes:
 
 
 rule stress_finite:
-    input:
-        code=code("stress_finite.py"),
     output:
         scenes="results/stress/finite_{chunk}.csv",
     log:
@@ -55,6 +52,7 @@ rule stress_finite:
         mem_mb=6000,
         runtime=60,
     params:
+        code=code("stress_finite.py"),
         first=lambda w: int(w.chunk) * STRESS_CHUNK["stress_scenes_finite"],
         stop=lambda w: min(
             (int(w.chunk) + 1) * STRESS_CHUNK["stress_scenes_finite"], STRESS_SCENES["stress_scenes_finite"]
@@ -67,12 +65,13 @@ rule stress_summary:
     input:
         scenes=expand("results/stress/scenes_{chunk}.csv", chunk=STRESS_CHUNKS["stress_scenes"]),
         finite=expand("results/stress/finite_{chunk}.csv", chunk=STRESS_CHUNKS["stress_scenes_finite"]),
-        code=code("stress_summary.py"),
     output:
         summary="results/stress/summary.csv",
     log:
         "results/logs/stress_summary.log",
     conda:
         ENVIRONMENT
+    params:
+        code=code("stress_summary.py"),
     script:
         "../scripts/stress_summary.py"

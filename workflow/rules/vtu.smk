@@ -20,7 +20,6 @@ rule field_output:
         body=body_of,
         pressed=pressed_of,
         solution=solution_of,
-        code=code("field_output.py"),
     output:
         vtu="results/{kinematics}/{device}/{condition}/{interface}/fields.vtu",
         pvd="results/{kinematics}/{device}/{condition}/{interface}/fields.pvd",
@@ -32,6 +31,7 @@ rule field_output:
     conda:
         ENVIRONMENT
     params:
+        code=code("field_output.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             tissue_of(w),

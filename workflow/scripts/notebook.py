@@ -3,11 +3,13 @@
 import os
 from pathlib import Path
 
-import nbformat
-from nbclient import NotebookClient
-from nbconvert import HTMLExporter
-
 from fingerpad.files import write_text
+from fingerpad.imports import without
+
+with without("rfc3987_syntax"):  # a checker of web addresses, which notebooks here have none of; it takes seconds
+    import nbformat
+    from nbclient import NotebookClient
+    from nbconvert import HTMLExporter
 
 # of a page that needs nothing else: without scripts for formulas and diagrams, which notebooks here have none of
 TEMPLATE = """\
