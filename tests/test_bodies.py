@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from fingerpad.actuator_body import body_of
 from fingerpad.arrays import FloatArray
 from fingerpad.bodies import BODIES
+from fingerpad.contact_law import Interface
 from fingerpad.device import Body
 from fingerpad.errors import MeshError, SceneError
 from fingerpad.export import DeckSettings, input_deck
@@ -146,3 +147,14 @@ def test_it_is_drawn_as_it_is() -> None:
     outline = axes.patches[0].get_xy()
     assert np.ptp(outline[:, 0]) == pytest.approx(2.0 * other.width)
     assert outline[:, 1].min() == pytest.approx(-0.3)
+
+
+def test_a_body_a_third_as_stiff_as_the_tissue_is_pressed_without_halved_increments() -> None:
+    """Its face gives way by much, and elsewhere than foreseen."""
+    shipped = scene("device3").device.actuators.body
+    assert shipped is not None
+    soft = with_body(replace(shipped, material=replace(shipped.material, modulus=0.01)))
+    found = indent_device(soft, condensed("device3")[0], body_of(soft), Interface.SHEAR)
+    assert found.state.cuts == 0
+    each = np.bincount(found.problem.actuator_of, found.state.force[:, 1])
+    assert each == pytest.approx(each[::-1], rel=1e-6)  # the row mirrors

@@ -20,6 +20,7 @@ import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU
 
+from .acceleration import accelerated
 from .active_set import NotConvergedError
 from .arrays import FloatArray
 from .condensation import trailing_compliance
@@ -41,7 +42,6 @@ LOOSER = 1e3  # times [1] the tolerance of contact, to which tissue settles; sou
 CONTRACTION = 0.4  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
 CONTACT_INCREMENTS = 4  # in one of the tissue [1], at most; source: scores move by 0.15 of their errors at most
 TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; source: fewer are halved too often
-MEMORY = 12  # iterates [1] that are combined; source: fewest corrections of 6, 8, 12
 
 
 @dataclass(frozen=True)
@@ -171,8 +171,7 @@ def solve_deformed_increment(
                 continue
             steps.append(step)
             ends.append(displacement[free])
-            if len(steps) > 1:
-                displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
+            displacement[free] = accelerated(steps, ends)
     except InvertedError as error:
         raise NotConvergedError(float("inf"), inverted=str(error)) from error
     except CondensationError as error:
@@ -216,15 +215,6 @@ def tangent_at(span: Span, displacement: FloatArray) -> Tangent:
     _, matrix = internal_force_and_tangent(span.elements, displacement)
     factors = factorise(matrix)
     return Tangent(factors, *trailing_compliance(matrix, factors, span.loads))
-
-
-def accelerated(steps: list[FloatArray], ends: list[FloatArray]) -> FloatArray:
-    """Anderson's next iterate of a fixed point, from steps G(u) - u and ends G(u) of the last iterations, oldest first
-    (Walker and Ni 2011): the combination of ends whose steps nearly cancel.
-    """
-    differences = np.stack(steps[1:], axis=1) - np.stack(steps[:-1], axis=1)
-    weights = np.linalg.lstsq(differences, steps[-1], rcond=None)[0]
-    return np.asarray(ends[-1] - (np.stack(ends[1:], axis=1) - np.stack(ends[:-1], axis=1)) @ weights)
 
 
 def _followed(

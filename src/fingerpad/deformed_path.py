@@ -19,10 +19,11 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU
 
+from .acceleration import accelerated
 from .arrays import FloatArray
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import MEMORY, Span, accelerated, deformed, increments_of, is_far, solver_on, undeformed
+from .deformed import Span, deformed, increments_of, is_far, solver_on, undeformed
 from .errors import ContactError
 from .factors import factorise
 from .patch import Patch
@@ -164,8 +165,8 @@ def _corrected(
                 raise _UnsettledError
             defect = max(start.defect, defect)
             return Move(state, displacement, last, start.corrections + correction, start.tangents, defect)
-        if len(steps) > 1:
-            displacement[free] = accelerated(steps[-MEMORY:], ends[-MEMORY:])
+        if steps:
+            displacement[free] = accelerated(steps, ends)
     raise _UnsettledError
 
 

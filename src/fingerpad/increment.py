@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .acceleration import accelerated
 from .active_set import (
     MAX_ITERATIONS,
     SIMULTANEOUS,
@@ -82,7 +83,9 @@ def solve_increment(
     guess = start.place + start.drift[:, 0] * length if straight else start.place
     expected, there = guess, touch(problem, guess)
     patch = patch if there is None else None
-    iterations, searched, residual, bias, share = 0, False, float("inf"), None, 1.0
+    iterations, searched, residual, bias = 0, False, float("inf"), None
+    steps: list[FloatArray] = []
+    ends: list[FloatArray] = []
     while iterations < MAX_ITERATIONS:
         if patch is None or not holds(patch, needed, problem.position.shape[0]):
             try:
@@ -108,8 +111,9 @@ def solve_increment(
         if residual > problem.tolerance:
             bias = bias + found.moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left
         elif _gives_elsewhere(problem, found, there, gap_scale):
-            # after a first correction only half-way: nodes may pass each other for ever
-            expected, share = expected + share * (found.place - expected), 0.5
+            steps.append(np.where(status != OPEN, found.place - expected, 0.0))
+            ends.append(found.place)
+            expected = accelerated(steps, ends)
             there, patch, needed = touch(problem, expected), None, np.flatnonzero(status != OPEN)
         else:
             reached = _accepted(problem, start, actuator, found, slip, residual)

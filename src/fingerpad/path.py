@@ -100,9 +100,9 @@ def drifting_to(
 def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     """Class and advice of the error that ends a path."""
     if failure.inverted:
-        return InvertedError, f"{failure.inverted}; try less indentation"
+        return InvertedError, f"{failure.inverted}; try less indentation or movement"
     if failure.snaps:
-        return SnapError, "there the tissue has no stable state near, and would snap; try less indentation"
+        return SnapError, "there the tissue has no stable state near, and would snap; try less indentation or movement"
     if failure.turned:
         return UniquenessError, "there the states of contact have no unique solution; try less friction, less movement"
     return ConvergenceError, "try more increments"

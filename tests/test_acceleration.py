@@ -1,0 +1,24 @@
+"""Anderson's acceleration finds the fixed point of a linear map in as many steps as it has dimensions, and one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fingerpad.acceleration import accelerated
+
+ROUNDING = 1e-10  # of a system of four equations whose condition is some hundreds
+
+
+@pytest.mark.parametrize("largest", [0.5, -3.0], ids=["contraction", "expansion"])
+def test_linear_map(largest: float) -> None:
+    rng = np.random.default_rng(0)
+    basis = np.linalg.qr(rng.standard_normal((4, 4)))[0]
+    matrix, shift = basis @ np.diag([largest, 0.4, -0.2, 0.1]) @ basis.T, rng.standard_normal(4)
+    fixed = np.linalg.solve(np.eye(4) - matrix, shift)
+    point, steps, ends = np.zeros(4), [], []
+    for _ in range(5):
+        ends.append(matrix @ point + shift)
+        steps.append(ends[-1] - point)
+        point = accelerated(steps, ends)
+    assert point == pytest.approx(fixed, rel=ROUNDING)
