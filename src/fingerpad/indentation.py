@@ -53,7 +53,7 @@ def raise_until(
         if height - touch > limit:
             raise CriterionError(
                 f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm:"
-                f" {missing:.3g} mm are missing at {height - step - touch:.3g} mm"
+                f" {_lacking(missing)} at {height - step - touch:.3g} mm"
             )
         target = state.actuator.copy()
         target[:, 1] = height
@@ -89,6 +89,11 @@ def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion)
         for sign in (1, -1)
     )
     return problem.row.half_face - covered
+
+
+def _lacking(missing: float) -> str:
+    """In words what is missing [mm]."""
+    return f"{missing:.3g} mm are missing" if np.isfinite(missing) else "an actuator touches no skin"
 
 
 def _front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
