@@ -7,14 +7,15 @@ from snakemake.utils import min_version
 
 min_version("9.0")
 
-BASE = Path(workflow.basedir)
-BASE = Path() if BASE == Path.cwd() else BASE  # names of inputs: a project that is moved is not computed again
+PROJECT = Path(workflow.basedir)
+# inputs' names begin with it: relative, so that a project that is moved is not computed again
+BASE = Path() if PROJECT == Path.cwd() else PROJECT
 SOURCE = BASE / "src"
-sys.path[:0] = [str(SOURCE.absolute()), str(Path(workflow.basedir, "workflow"))]
+sys.path[:0] = [str(PROJECT / "src"), str(PROJECT / "workflow")]
 import support
 
 # jobs find the library; one thread each: results do not depend on the machine's cores, and jobs run beside each other
-os.environ |= {"PYTHONPATH": str(SOURCE.absolute()), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
+os.environ |= {"PYTHONPATH": str(PROJECT / "src"), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
 
 
 # priorities: 3 for the longest, 2 for what the tables wait for, 1 for what is long or what long jobs wait for; so that no

@@ -212,14 +212,19 @@ def both_scenes(coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -
 def finite_run(project: Project, both_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Project:
     """Results of a complete run of the coarse scenes with both kinematics."""
     there = Project(tmp_path_factory.mktemp("finite"))
-    run = project.snakemake("all", "--directory", there.folder, "--config", f"scenes={both_scenes}")
+    run = project.snakemake("all", *into(there.folder, both_scenes))
     assert run.status == 0, run.text
     return there
 
 
+def into(there: Path, scenes: Path) -> tuple[str | Path, ...]:
+    """Arguments of Snakemake for results of these scenes in another folder."""
+    return "--directory", there, "--config", f"scenes={scenes}"
+
+
 def coarse_run(scenes: Path, there: Path) -> tuple[str | Path, ...]:
     """Arguments of Snakemake for a table and a figure of these scenes, with results in another folder."""
-    return (*TABLE_AND_FIGURE, "--directory", there, "--config", f"scenes={scenes}")
+    return *TABLE_AND_FIGURE, *into(there, scenes)
 
 
 def results(folder: Path) -> dict[str, str]:

@@ -55,7 +55,7 @@ PRINTED = """
 LAWS = [Law.GREEN, Law.NEO_HOOKEAN, Law.OGDEN]  # that CalculiX has
 MATERIAL, EXPONENT = Material(0.08, 0.48), 9.0
 RECORDED = Path(__file__).with_name("expected") / "calculix_laws.csv"
-needs_calculix = pytest.mark.skipif(not calculix.installed(), reason="ccx is not installed")
+needs_calculix = pytest.mark.skipif(not calculix.installed(), reason="not installed: ccx (Debian: calculix-ccx)")
 
 
 def printed(tmp_path: Path, values: list[float]) -> Path:

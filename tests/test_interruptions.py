@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import LONGEST_RUN, TABLE_AND_FIGURE, Project, coarse_run, results
+from conftest import LONGEST_RUN, Project, coarse_run, into, results
 
 pytestmark = pytest.mark.workflow
 
@@ -40,7 +40,7 @@ def killed(process: subprocess.Popen[bytes]) -> None:
 
 
 def unlock(project: Project, coarse_scenes: Path, there: Path) -> None:
-    run = project.snakemake("--unlock", "--directory", there, "--config", f"scenes={coarse_scenes}")
+    run = project.snakemake("--unlock", *into(there, coarse_scenes))
     assert run.status == 0, run.text
 
 
@@ -116,7 +116,7 @@ def test_a_full_disk_is_said_and_nothing_is_lost(
 ) -> None:
     """The error names the disk; what was whole before stays whole, no half a file remains, and with room again the
     run goes on to the same bytes."""
-    first = ("results/small/device2/mesh.npz", *coarse_run(coarse_scenes, small_disk)[len(TABLE_AND_FIGURE) :])
+    first = ("results/small/device2/mesh.npz", *into(small_disk, coarse_scenes))
     run = project.snakemake(*first)
     assert run.status == 0, run.text
     before = results(small_disk)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, TABLE_AND_FIGURE, Project, coarse_run, results
+from conftest import ROOT, Project, into, results
 
 pytestmark = pytest.mark.workflow
 
@@ -45,7 +45,7 @@ def test_a_run_through_slurm_has_the_same_bytes(
 ) -> None:
     profile = project.folder / "profiles" / "slurm"
     quick = ("--slurm-init-seconds-before-status-checks", "2", "--seconds-between-status-checks", "2")
-    where = coarse_run(coarse_scenes, tmp_path)[len(TABLE_AND_FIGURE) :]
+    where = into(tmp_path, coarse_scenes)
     run = project.snakemake(SCORE, *where, "--profile", profile, *quick)
     assert run.status == 0, run.text
     assert run.text.count("has been submitted with SLURM jobid") == SUBMISSIONS

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run, results
+from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run, into, results
 
 pytestmark = pytest.mark.workflow
 
@@ -141,6 +141,11 @@ def test_solver_jobs_load_no_plots_no_tables_no_schemas(project: Project, name: 
     assert not {"matplotlib", "pandas", "jsonschema"} & loaded(project, RULES[name].script)
 
 
+@pytest.mark.parametrize("script", ["check", "notebook", "report"])
+def test_jobs_compile_no_grammar_of_web_addresses(project: Project, script: str) -> None:
+    assert "rfc3987_syntax" not in loaded(project, f"workflow/scripts/{script}.py")
+
+
 # What is planned
 
 
@@ -199,12 +204,9 @@ def test_second_run_does_nothing(finished: Project) -> None:
     assert finished.files() == before
 
 
-def test_moved_project_reruns_nothing(changeable: Project) -> None:
-    moved = Project(changeable.folder.rename(changeable.folder.with_name("moved")))
-    try:
-        assert NOTHING in moved.snakemake("-n", "all").text
-    finally:
-        moved.folder.rename(changeable.folder)
+def test_copied_project_reruns_nothing(finished: Project, changeable: Project) -> None:
+    assert changeable.folder != finished.folder
+    assert NOTHING in changeable.snakemake("-n", "all").text
 
 
 @pytest.mark.parametrize("folder", ["src", "workflow", "config", "data"])
@@ -312,7 +314,7 @@ class Elsewhere:
 def elsewhere(project: Project, coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Elsewhere:
     """Start everything in another folder, kill it as a power cut would, and go on up to the tables."""
     there = Project(tmp_path_factory.mktemp("elsewhere"))
-    where = ("--directory", there.folder, "--config", f"scenes={coarse_scenes}")
+    where = into(there.folder, coarse_scenes)
     before, planned = project.files(), project.snakemake("-n", "all", *where)
     with (there.folder / "killed.log").open("w", encoding="utf-8") as log:
         process = subprocess.Popen(

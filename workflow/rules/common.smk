@@ -18,7 +18,7 @@ if unknown := [name for name in config if name not in SETTINGS]:
 SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
 DATA = BASE / "data"
-ENVIRONMENT = Path(workflow.basedir, "environment.yml")  # relative, Snakemake would look for it beside a rule
+ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
 
 try:
     check_config(CONFIG, BASE / "workflow" / "schemas")
