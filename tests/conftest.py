@@ -23,6 +23,7 @@ TABLE_AND_FIGURE = (
     "results/figures/figure_4_receptors.png",
     "results/figures/figure_4_receptors.pdf",
 )
+SMALL_ONLY = "short"  # a device for which finite kinematics are left out
 COARSER = {"edge_size": 4.0, "face_size": 4.0, "receptor_size": 4.0}  # times the shipped sizes: a run of seconds
 NOT_RESULTS = ("results/logs/", "results/benchmarks/")  # they say when and how long
 LONGEST_RUN = 1800.0  # s; a complete run takes minutes, and one that takes longer hangs
@@ -201,9 +202,12 @@ def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) ->
 
 @pytest.fixture(scope="session")
 def both_scenes(coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The coarse scenes with both kinematics."""
+    """The coarse scenes with both kinematics, and SMALL_ONLY: Device 2 again, whose file leaves the finite ones out."""
     scenes = tmp_path_factory.mktemp("both") / "scenes"
     shutil.copytree(coarse_scenes, scenes)
+    text = (scenes / "devices" / "device2.yaml").read_text(encoding="utf-8")
+    key = 'kinematics: {value: small, unit: "1", source: "assumption: a test"}\n'
+    (scenes / "devices" / f"{SMALL_ONLY}.yaml").write_text(f"{text}\n{key}", encoding="utf-8")
     Project(scenes).edit("config.yaml", lambda text: text.replace("{value: small", "{value: both", 1))
     return scenes
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -11,10 +9,13 @@ from fingerpad.arrays import FloatArray
 from fingerpad.contact_law import Interface
 from fingerpad.deformed import deformed, solver_on
 from fingerpad.deformed_path import EQUILIBRIUM, DeformedTissue, move
-from fingerpad.deformed_solution import PressedFinger, pressed_finger
+from fingerpad.deformed_solution import PressedFinger, pressed_finger, stimulate_deformed
+from fingerpad.device import Condition
+from fingerpad.errors import ContactError
 from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.path import advance
 from fingerpad.pressing import press
+from fingerpad.scene import Scene
 from fingerpad.tissue_law import Kinematics
 from scenes import scene
 
@@ -23,9 +24,12 @@ ROUNDING = 1e-8  # relative, of what a soft mode magnifies
 
 
 @pytest.fixture(scope="module")
-def finger() -> PressedFinger:
-    base = scene("device1").coarsened(COARSER)
-    base = replace(base, model=replace(base.model, tissue=replace(base.model.tissue, kinematics=Kinematics.FINITE)))
+def base() -> Scene:
+    return scene("device1").coarsened(COARSER).with_kinematics(Kinematics.FINITE)
+
+
+@pytest.fixture(scope="module")
+def finger(base: Scene) -> PressedFinger:
     section = mesh_section(base, nominal_edges(base.device.actuators))
     pressed = press(base, section, None, Interface.FRICTIONLESS)
     return pressed_finger(base, section, None, pressed, Interface.FRICTIONLESS)
@@ -59,3 +63,10 @@ def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
     followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(span, 1))
     way = np.abs(followed.displacement - finger.start.displacement).max()
     assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * EQUILIBRIUM * way
+
+
+def test_a_stroke_that_cannot_be_followed_says_how_the_rest_goes_on(base: Scene, finger: PressedFinger) -> None:
+    far = np.full((1, 4), 0.9)
+    stroke = Condition("far", "test", 0.0, np.array([1.0]), np.zeros_like(far), far)
+    with pytest.raises(ContactError, match=r"condition=far.*`kinematics: small` in the device's file"):
+        stimulate_deformed(base, finger, stroke)

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conftest import Project
+from conftest import SMALL_ONLY, Project
 from fingerpad.solution import Solution
 from fingerpad.store import load
 
@@ -24,8 +24,15 @@ BOTH = {"figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablatio
 @pytest.mark.workflow
 def test_both_kinematics_stand_side_by_side(finite_run: Project) -> None:
     """On a coarse mesh: every case has a score with both, figures come twice, the order with shear is the same, and
-    tissue that deforms much is stiffer, as its stiff skin is stretched."""
+    tissue that deforms much is stiffer, as its stiff skin is stretched. A device that leaves finite kinematics out has
+    the scores of small ones, nothing else, and stops nothing."""
     scores = pd.read_csv(finite_run.folder / "results" / "scores.csv")
+    alone = scores[scores["device"] == SMALL_ONLY]
+    scores = scores[scores["device"] == "device2"]
+    same = scores[scores["kinematics"] == "small"]
+    assert set(alone["kinematics"]) == {"small"}
+    assert alone["score"].tolist() == same["score"].tolist()
+    assert not list((finite_run.folder / "results" / "finite").glob(f"{SMALL_ONLY}*"))
     small, finite = (scores[scores["kinematics"] == each].set_index(KEY[1:]) for each in ("small", "finite"))
     assert list(small.index) == list(finite.index)
     assert finite["score"].notna().all()
@@ -39,7 +46,9 @@ def test_both_kinematics_stand_side_by_side(finite_run: Project) -> None:
         ]
     stems = {path.stem for path in (finite_run.folder / "results" / "figures").iterdir()}
     assert BOTH | {f"{stem}_finite" for stem in BOTH} | {"kinematics"} <= stems
-    curves = pd.read_csv(finite_run.folder / "results" / "indentation.csv").groupby(["kinematics", "interface"])
+    curves = pd.read_csv(finite_run.folder / "results" / "indentation.csv")
+    assert set(curves.loc[curves["device"] == SMALL_ONLY, "kinematics"]) == {"small"}
+    curves = curves[curves["device"] == "device2"].groupby(["kinematics", "interface"])
     ends = curves.last()["force_N_per_mm"].unstack("kinematics")
     assert (ends["finite"] > 1.3 * ends["small"]).all()
 

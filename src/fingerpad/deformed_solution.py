@@ -25,7 +25,7 @@ from .pressing import Pressed, whole_span
 from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
-from .solution import Solution, contact_problem, increments, named, solution
+from .solution import LEAVE_OUT, Solution, contact_problem, increments, named, solution
 from .strain import receptor_readouts
 
 
@@ -82,7 +82,7 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
 
 def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:
     """`deformed_moves`, and the certificate of the last. Raises ContactError as `stimulate_deformed`."""
-    with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}"):
+    with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}", LEAVE_OUT):
         moves = deformed_moves(scene, finger, condition)
         last = moves[-1]
         section = replace(finger.pressed.section, residual=max(finger.pressed.section.residual, last.defect))

@@ -14,6 +14,7 @@ from .contact_law import Interface
 from .errors import SceneError
 from .finger import Material
 from .requirements import require, require_positive
+from .tissue_law import Kinematics
 
 ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
 
@@ -139,6 +140,7 @@ class Device:
     """A device: its actuators, what it controls, and the conditions it is tried in.
 
     cycles: the conditions as vibrations, none if they are given in time. frequencies: at which they are asked for [Hz].
+    kinematics: with which it may be predicted; strokes that turn elements inside out leave finite ones out.
     """
 
     name: str
@@ -148,6 +150,7 @@ class Device:
     conditions: tuple[Condition, ...]
     cycles: tuple[Cycle, ...] = ()
     frequencies: tuple[float, ...] = ()
+    kinematics: tuple[Kinematics, ...] = tuple(Kinematics)
 
     def __post_init__(self) -> None:
         require(len(self.conditions) >= 1, f"{self.name}: there must be at least one condition")

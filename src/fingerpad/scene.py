@@ -71,6 +71,11 @@ class Scene:
         """Of the tissue."""
         return self.model.tissue.kinematics
 
+    @property
+    def computed(self) -> tuple[Kinematics, ...]:
+        """Kinematics that the workflow computes: those of the model that the device's file does not leave out."""
+        return tuple(each for each in self.model.tissue.computed if each in self.device.kinematics)
+
     def with_kinematics(self, kinematics: Kinematics) -> Scene:
         """The scene with other kinematics."""
         tissue = replace(self.model.tissue, kinematics=kinematics)

@@ -27,6 +27,7 @@ from .vibration_rule import Relaxation, VibrationRule
 
 MERGE = "tag:yaml.org,2002:merge"
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
+KINEMATICS = {"both": tuple(Kinematics), "small": (Kinematics.SMALL,)}  # what files call them
 REMEMBERED = 16  # texts of files [1]; source: config, two schemas and some devices
 LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema allows takes as much
 
@@ -134,7 +135,6 @@ def build_model(config: dict[str, Any]) -> Model:
     finger, tissue, contact, readout, vibration = (
         _values(config[key]) for key in ("finger", "tissue", "contact", "readout", "vibration")
     )
-    computed = tuple(Kinematics) if tissue["kinematics"] == "both" else (Kinematics.SMALL,)
     return Model(
         Finger(
             finger["width"],
@@ -144,7 +144,7 @@ def build_model(config: dict[str, Any]) -> Model:
             tuple(_layer(entry) for entry in finger["pad"]),
             tuple(_layer(entry) for entry in finger["dorsal"]),
         ),
-        TissueLaw(Kinematics.SMALL, computed, Law(tissue["law"]), tissue["ogden_exponent"]),
+        TissueLaw(Kinematics.SMALL, KINEMATICS[tissue["kinematics"]], Law(tissue["law"]), tissue["ogden_exponent"]),
         ContactLaw(contact["friction"], TurningNormal(contact["turning_normal"]), Criterion(contact["criterion"])),
         GaborFilter(**_values(config["filter"])),
         ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
@@ -173,7 +173,14 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     frequencies = tuple(stimulus.get("frequency_hz", ()))
     cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if stimulus["kind"] in CYCLES else ()
     return Device(
-        path.stem, plain["title"], Control(plain["control"]), actuators, tuple(conditions), cycles, frequencies
+        path.stem,
+        plain["title"],
+        Control(plain["control"]),
+        actuators,
+        tuple(conditions),
+        cycles,
+        frequencies,
+        KINEMATICS[plain.get("kinematics", "both")],
     )
 
 

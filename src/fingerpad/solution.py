@@ -25,6 +25,8 @@ from .tissue_law import Kinematics
 
 FRICTIONLESS_SHARE = 4  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
+LEAVE_OUT = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
+
 
 @dataclass(frozen=True)
 class Solution:
@@ -194,4 +196,5 @@ def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager
     """`named`, for pre-indentation, which goes the deeper the wider the row is."""
     full = scene.model.contact.criterion is Criterion.FULL
     advice = "; a narrower row needs less indentation" + (", and so does contact.criterion: touch" if full else "")
+    advice += LEAVE_OUT if scene.kinematics is Kinematics.FINITE else ""
     return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)

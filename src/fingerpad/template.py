@@ -34,6 +34,8 @@ DRIVES = """\
 #      phase: {value: 0, unit: deg, source: "assumption: phase difference under which it is listed"}
 #      file: {value: tap.csv, unit: "1", source: "measured by whom, when and how"}
 # - displacements written here, at any times: `kind: history`; every kind is in workflow/schemas/device.schema.yaml.
+# - strokes that finite strain cannot follow end in an error that says so. The following leaves it out for this device.
+#kinematics: {value: small, unit: "1", source: "assumption: finite strain cannot follow these strokes"}
 """
 
 

@@ -16,7 +16,7 @@ rule accuracy:
 rule honesty:
     input:
         scores="results/scores.csv",
-        references=[f"results/{kinematics}/{name}/reference.csv" for kinematics in KINEMATICS for name in DEVICES],
+        references=[f"results/{each}/{name}/reference.csv" for each in KINEMATICS for name in DEVICES_WITH[each]],
     output:
         table="results/accuracy/scores.csv",
     log:

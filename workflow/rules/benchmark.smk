@@ -4,6 +4,8 @@
 # REQUIRED INPUTS: scene files, results/scores.csv, results/{kinematics}/device2/reference.csv.
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
+LADDERS = [each for each in KINEMATICS if "device2" in DEVICES_WITH[each]]
+
 
 rule benchmark:
     input:
@@ -18,7 +20,7 @@ rule benchmark_steps:
     input:
         config=CONFIG,
         devices=DEVICE_FILES,
-        finite=DEVICE_FILES if Kinematics.FINITE in KINEMATICS else [],
+        finite=files_with(Kinematics.FINITE),
         recordings=ALL_RECORDINGS,
     output:
         timings="results/benchmark/timings.csv",
@@ -63,7 +65,7 @@ rule benchmark_ladder:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
         recordings=lambda w: RECORDINGS["device2"],
-        references=[f"results/{kinematics}/device2/reference.csv" for kinematics in KINEMATICS],
+        references=[f"results/{each}/device2/reference.csv" for each in LADDERS],
     output:
         table="results/benchmark/ladder.csv",
         decks=directory("results/benchmark/decks"),
@@ -78,7 +80,7 @@ rule benchmark_ladder:
     params:
         code=code("benchmark_ladder.py"),
         condition="alternate_180",
-        kinematics=KINEMATICS,
+        kinematics=LADDERS,
         factors={
             "small": {
                 "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.25, 1.0, 0.7, 0.5],
@@ -124,7 +126,7 @@ rule skipping:
     input:
         config=CONFIG,
         devices=DEVICE_FILES,
-        finite=DEFORMED_FILES,
+        finite=[path for path in files_with(Kinematics.FINITE) if path.stem == "device2"],
         recordings=ALL_RECORDINGS,
         scores="results/scores.csv",
     output:

@@ -41,9 +41,10 @@ except FingerpadError as error:
 
 
 ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
-KINEMATICS = [str(each) for each in SCENE[DEVICES[0]].model.tissue.computed]
-DEFORMED_DEVICES = ["device2"] if Kinematics.FINITE in KINEMATICS else []  # whose finite solutions long targets study
-DEFORMED_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEFORMED_DEVICES]
+DEVICES_WITH = {
+    str(each): [name for name in DEVICES if each in SCENE[name].computed] for each in Kinematics
+}  # names of the devices that are predicted with those kinematics
+KINEMATICS = [each for each, names in DEVICES_WITH.items() if names]
 MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
@@ -74,6 +75,11 @@ def device_file(wildcards):
 def recordings_of(wildcards):
     """The files with measured displacements that the wildcard device's scene file names, if any."""
     return RECORDINGS[scene_of(wildcards).device.name]
+
+
+def files_with(kinematics):
+    """The scene files of the devices that are predicted with those kinematics."""
+    return [SCENES / "devices" / f"{name}.yaml" for name in DEVICES_WITH[kinematics]]
 
 
 def kinematics_of(wildcards):
@@ -117,12 +123,12 @@ def code(script):
     return code_of(BASE / "workflow" / "scripts" / script)
 
 
-def cases(pattern, devices=DEVICES):
-    """The pattern for all kinematics, and every device, condition and interface that can be predicted."""
+def cases(pattern, kinematics=KINEMATICS):
+    """The pattern for those kinematics, and every device, condition and interface that can be predicted with them."""
     return [
-        pattern.format(kinematics=kinematics, device=name, condition=condition.name, interface=interface)
-        for kinematics in (KINEMATICS if "{kinematics}" in pattern else [None])
-        for name in devices
+        pattern.format(kinematics=each, device=name, condition=condition.name, interface=interface)
+        for each in kinematics
+        for name in DEVICES_WITH[each]
         for condition in SCENE[name].device.conditions
         for interface in SCENE[name].device.interfaces()
     ]

@@ -13,20 +13,22 @@ LATERAL = min(
     key=lambda name: name != "device2",
     default=None,
 )
+# of each kinematics, with the devices that it shows
+SHOWN = {
+    "figure_4_receptors": DEVICES,
+    "figure_5_correlation": DEVICES,
+    "figure_6_shear": [LATERAL] if LATERAL else [],
+    "ablation_shear": DEVICES,
+}
 FIGURES = [
     f"results/figures/{stem}.{suffix}"
     for stem in (
         *(["figure_3_workflow"] if LATERAL else []),
         *(
             f"{stem}{mode}"
-            for stem in (
-                "figure_4_receptors",
-                "figure_5_correlation",
-                *(["figure_6_shear"] if LATERAL else []),
-                "ablation_shear",
-            )
+            for stem, names in SHOWN.items()
             for mode, kinematics in MODES.items()
-            if kinematics in KINEMATICS
+            if set(names) & set(DEVICES_WITH[kinematics])
         ),
         *(["kinematics"] if Kinematics.FINITE in KINEMATICS else []),
         "section",
@@ -40,7 +42,7 @@ rule finite_maps:
     input:
         expand(
             "results/figures/{map}_finite.{suffix}",
-            map=[f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]],
+            map=[f"map_{name}_{each}" for name in DEVICES_WITH[Kinematics.FINITE] for each in DISPERSIONS[name]],
             suffix=["png", "pdf"],
         ),
 
@@ -79,12 +81,12 @@ rule fields:
 rule figure_receptors:
     input:
         config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
+        devices=ancient(lambda w: files_with(mode_of(w))),
         recordings=ancient(ALL_RECORDINGS),
-        condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
+        condensed=lambda w: [f"results/small/{name}/condensed.npz" for name in DEVICES_WITH[mode_of(w)]],
         filtered=lambda w: [
             f"results/{mode_of(w)}/{name}/{condition.name}/shear/filtered.npz"
-            for name in DEVICES
+            for name in DEVICES_WITH[mode_of(w)]
             for condition in SCENE[name].device.conditions
         ],
     output:
@@ -97,7 +99,7 @@ rule figure_receptors:
     params:
         code=code("figure_receptors.py"),
         kinematics=mode_of,
-        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
+        scene=lambda w: support.fingerprint([SCENE[name].device for name in DEVICES_WITH[mode_of(w)]]),
     script:
         "../scripts/figure_receptors.py"
 
@@ -105,7 +107,7 @@ rule figure_receptors:
 rule figure_correlation:
     input:
         config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
+        devices=ancient(lambda w: files_with(mode_of(w))),
         recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         ratings=DATA / "ratings.csv",
@@ -120,7 +122,7 @@ rule figure_correlation:
     params:
         code=code("figure_correlation.py"),
         kinematics=mode_of,
-        titles=[SCENE[name].device.title for name in DEVICES],
+        titles=lambda w: [SCENE[name].device.title for name in DEVICES_WITH[mode_of(w)]],
         conditions=support.fingerprint(KNOWN),
     script:
         "../scripts/figure_correlation.py"
@@ -129,7 +131,7 @@ rule figure_correlation:
 rule figure_ablation:
     input:
         config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
+        devices=ancient(lambda w: files_with(mode_of(w))),
         recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         correlations="results/correlations.csv",
@@ -143,7 +145,7 @@ rule figure_ablation:
     params:
         code=code("figure_ablation.py"),
         kinematics=mode_of,
-        titles=[SCENE[name].device.title for name in DEVICES],
+        titles=lambda w: [SCENE[name].device.title for name in DEVICES_WITH[mode_of(w)]],
     script:
         "../scripts/figure_ablation.py"
 

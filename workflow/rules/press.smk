@@ -69,7 +69,7 @@ rule indentation:
         bodies=[f"results/{name}/body.npz" for name in DEVICES if SCENE[name].device.actuators.body],
         pressed=[
             f"results/finite/{name}/{interface}/pressed.npz"
-            for name in (DEVICES if Kinematics.FINITE in KINEMATICS else [])
+            for name in DEVICES_WITH[Kinematics.FINITE]
             for interface in SCENE[name].device.interfaces()
         ],
     output:

@@ -56,7 +56,7 @@ rule scores:
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
         scores=cases("results/{kinematics}/{device}/{condition}/{interface}/score.csv"),
-        checks=expand("results/{kinematics}/{device}/check.csv", kinematics=KINEMATICS, device=DEVICES),
+        checks=[f"results/{each}/{name}/check.csv" for each in KINEMATICS for name in DEVICES_WITH[each]],
     output:
         scores="results/scores.csv",
     log:
@@ -66,7 +66,6 @@ rule scores:
         ENVIRONMENT
     params:
         code=code("scores.py"),
-        devices=DEVICES,
-        kinematics=KINEMATICS,
+        computed=DEVICES_WITH,
     script:
         "../scripts/scores.py"

@@ -8,7 +8,7 @@
 
 rule vtu:
     input:
-        cases("results/small/{device}/{condition}/{interface}/fields.vtu"),
+        cases("results/{kinematics}/{device}/{condition}/{interface}/fields.vtu", [Kinematics.SMALL]),
 
 
 rule field_output:

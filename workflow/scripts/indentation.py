@@ -16,11 +16,10 @@ from fingerpad.tissue_law import Kinematics
 def main(
     config: Path, devices: list[Path], condensed: list[Path], bodies: list[Path], pressed: list[Path], table: Path
 ) -> None:
-    """Follow the small-strain curves, read the others, write all. bodies, pressed: of the devices that have them, in
-    the devices' order, a device's interfaces one after the other.
-    """
+    """Follow the small-strain curves, read the others, write all. bodies, pressed: of the devices that have them."""
     rows = []
-    waiting, actuators = iter(pressed), {path.parent.name: path for path in bodies}
+    curves = {(path.parent.parent.name, path.parent.name): path for path in pressed}
+    actuators = {path.parent.name: path for path in bodies}
     for path, section in zip(devices, condensed, strict=True):
         scene = load_scene(config, path)
         name = scene.device.name
@@ -28,8 +27,8 @@ def main(
         for interface in scene.device.interfaces():
             problem = contact_problem(scene, load(section, CondensedSection), body, interface)
             rows += _rows(name, interface, Kinematics.SMALL, small_strain_curve(scene, problem))
-            if pressed:
-                rows += _rows(name, interface, Kinematics.FINITE, load(next(waiting), Pressed).curve)
+            if (name, interface) in curves:
+                rows += _rows(name, interface, Kinematics.FINITE, load(curves[name, interface], Pressed).curve)
     write_rows(table, rows)
 
 

@@ -10,15 +10,24 @@ from fingerpad.tissue_law import Kinematics
 
 
 def main(
-    config: Path, devices: list[Path], kinematics: list[str], scores: list[Path], checks: list[Path], table: Path
+    config: Path,
+    devices: list[Path],
+    computed: dict[str, list[str]],
+    scores: list[Path],
+    checks: list[Path],
+    table: Path,
 ) -> None:
-    """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table."""
+    """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table.
+
+    computed: names of devices by the kinematics that they are predicted with.
+    """
     found = [row for path in scores for row in read_rows(path)]
     coarser = [row for path in checks for row in read_rows(path)]
     missing = [
         row
-        for each in kinematics
+        for each, names in computed.items()
         for device in devices
+        if device.stem in names
         for row in unpredicted_rows(load_scene(config, device, Kinematics(each)))
     ]
     write_rows(table, with_errors([*found, *missing], coarser))
@@ -29,7 +38,7 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         [Path(path) for path in job.input.devices],
-        job.params.kinematics,
+        job.params.computed,
         [Path(path) for path in job.input.scores],
         [Path(path) for path in job.input.checks],
         Path(job.output.scores),
