@@ -24,6 +24,7 @@ from fingerpad.fields import Fields
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.correlation import correlation_figure
+from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.section import section_figure
@@ -238,6 +239,29 @@ def test_ablation_says_where_there_is_no_prediction(correlations: pd.DataFrame) 
         assert len(forced.patches) == len(FORCED.conditions)
     for unrated in figure.axes[4:]:
         assert [label.get_text() for label in unrated.get_xticklabels()] == ["push", "shove"]
+
+
+def test_kinematics_shows_what_there_is_and_says_what_was_left_out() -> None:
+    """Bars of both kinematics for the first device, of small ones for the other, whose title says so."""
+    titles = {device.name: device.title for device in (FORCED, UNRATED)}
+    twice = SCORES[SCORES["device"] == FORCED.name].assign(kinematics="finite")
+    curves = pd.DataFrame(
+        [
+            (kinematics, device, "shear", height, height**2, False)
+            for kinematics, device in (("small", FORCED.name), ("finite", FORCED.name), ("small", UNRATED.name))
+            for height in (0.0, 1.0)
+        ],
+        columns=["kinematics", "device", "interface", "indentation_mm", "force_N_per_mm", "limit_point"],
+    )
+    figure = kinematics_figure(pd.concat([SCORES, twice]), curves, titles)
+    require_legible(figure)
+    assert [axes.get_title(loc="left") for axes in figure.axes[::3]] == [
+        FORCED.title,
+        f"{UNRATED.title} (small strain alone)",
+    ]
+    drawn = [sum(np.isfinite(bar.get_height()) for bar in axes.patches) for axes in figure.axes]
+    assert drawn[1:3] == [2 * len(FORCED.conditions)] * 2
+    assert drawn[4:] == [len(UNRATED.conditions)] * 2
 
 
 def test_accuracy_has_a_panel_a_case_and_shows_what_is_held_to_a_tolerance() -> None:

@@ -46,6 +46,7 @@ SMALL_TEXT = 5.0  # pt
 GROUP_GAP = 2.0  # between the dispersions' names and the axis' [pt]
 LIMIT = "x"  # marks a limit point
 NO_LIMITS = "No force falls on the way: there are no limit points."
+SMALL_ALONE = " (small strain alone)"  # of a device whose file leaves the other out
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
 CAPTION = (
     "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin."
@@ -63,7 +64,8 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
     grid = figure.subplots(len(titles), len(WIDTHS), squeeze=False, width_ratios=WIDTHS)
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         _curves(row[0], curves[curves["device"] == device])
-        row[0].set_title(title, loc="left")
+        alone = rows_with(curves[curves["device"] == device], Kinematics.FINITE).empty
+        row[0].set_title(f"{title}{SMALL_ALONE if alone else ''}", loc="left")
         own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
         for axes, readout in zip(row[1:], Readout, strict=True):
             _bars(axes, readout, own[own["readout"] == readout])
