@@ -28,6 +28,7 @@ from fingerpad.report.tables import (
 )
 from fingerpad.scenefile import load_scene, read_yaml
 from fingerpad.sources import Origin, page, quantities
+from fingerpad.tissue_law import Kinematics
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -221,6 +222,27 @@ def test_figures_come_in_reading_order(results: Results) -> None:
 def test_devices_without_a_lateral_one_have_captions(results: Results) -> None:
     stems = [stem for stem in FIGURES if stem not in {"figure_3_workflow", "figure_6_shear"}]
     assert set(words(stems, dataclasses.replace(results, lateral=None))) == set(stems)
+
+
+def test_captions_of_finite_figures_name_the_devices_that_they_show(results: Results) -> None:
+    """Device 2 leaves finite strain out: captions say nothing of it, nor of finite scores beside its small ones."""
+    first, *others = results.scenes
+    alone = dataclasses.replace(first, device=dataclasses.replace(first.device, kinematics=(Kinematics.SMALL,)))
+    finite = [row | {"kinematics": "finite"} for rows in (results.scores, results.correlations) for row in rows]
+    scores, correlations = finite[: len(results.scores)], finite[len(results.scores) :]
+    both = dataclasses.replace(
+        results,
+        scenes=(alone, *others),
+        scores=(*results.scores, *(row for row in scores if row["device"] != first.device.name)),
+        correlations=(*results.correlations, *(row for row in correlations if row["device"] != first.device.name)),
+    )
+    stems = ["figure_4_receptors_finite", "figure_5_correlation_finite", "ablation_shear_finite", "kinematics"]
+    *captions, beside = (said.caption for said in words(stems, both).values())
+    for caption in captions:
+        assert first.device.title not in caption
+        assert all(scene.device.title in caption for scene in others)
+    assert beside.count("small strain") == 2
+    assert beside.count("finite strain") == 1
 
 
 def test_figure_without_a_caption_is_an_error(results: Results) -> None:

@@ -65,11 +65,12 @@ def words(stems: Collection[str], results: Results) -> dict[str, Words]:
 
 
 def _of(results: Results, kinematics: Kinematics) -> Results:
-    """Results with those kinematics alone."""
+    """Results with those kinematics alone, of the devices that are predicted with them."""
+    scenes = tuple(scene for scene in results.scenes if kinematics in scene.computed)
     scores, correlations = (
         tuple(row for row in rows if row["kinematics"] == kinematics) for rows in (results.scores, results.correlations)
     )
-    return replace(results, scores=scores, correlations=correlations)
+    return replace(results, scenes=scenes, scores=scores, correlations=correlations)
 
 
 def _finite(write: Callable[[Results], Words], results: Results) -> Words:
@@ -178,15 +179,8 @@ def _ablation(results: Results) -> Words:
 def _kinematics(results: Results) -> Words:
     parts = []
     for scene in results.scenes:
-        shown = [
-            f"{KINEMATICS_NAME[kinematics]} {text}"
-            for kinematics in Kinematics
-            if (
-                text := _scores(
-                    _of(results, kinematics), scene.device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN
-                ).strip()
-            )
-        ]
+        key = scene.device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN
+        shown = [f"{KINEMATICS_NAME[each]} {_scores(_of(results, each), *key)}" for each in scene.computed]
         parts.append(f"{scene.device.title} ({counted(scene.device.conditions)}): {'; '.join(shown)}")
     return Words(
         "Small and finite strain side by side",
