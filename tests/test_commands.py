@@ -27,7 +27,9 @@ from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
 from fingerpad.contact_law import Interface
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import forecast, steps
+from fingerpad.scenefile import load_scene
 from fingerpad.template import DRIVES, device_text
+from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_device, checked_document
 from scenes import scene, solved
 
@@ -113,6 +115,15 @@ def test_the_drive_in_the_comments_is_valid(checkout: Path) -> None:
     (path.parent / "tap.csv").write_text(f"time,actuator,normal,tangential\n{rows}", encoding="utf-8")
     assert main(["check", str(path)]) == 0
     assert main(["new", "other", "--from", "mine"]) == 0  # beside it, so it has the same recording
+
+
+def test_the_line_that_leaves_finite_strain_out_does_so(checkout: Path) -> None:
+    main(["new", "mine", "--from", "device2"])
+    path = checkout / "config/devices/mine.yaml"
+    assert Kinematics.FINITE in load_scene(checkout / "config/config.yaml", path).computed
+    path.write_text(path.read_text(encoding="utf-8").replace("#   kinematics:", "kinematics:"), encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    assert load_scene(checkout / "config/config.yaml", path).computed == (Kinematics.SMALL,)
 
 
 def test_new_takes_recordings_along(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> None:

@@ -212,7 +212,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "misspelled section": (
         {"stimulus": DELETED, "stimuli": {}},
         "stimuli",
-        ["an unknown key", "title, control, actuators, stimulus", "did you mean stimulus?"],
+        ["an unknown key", "title, control, kinematics, actuators, stimulus", "did you mean stimulus?"],
     ),
     "empty title": ({"title.value": ""}, "title.value", ["found ''", "text, at least 1 long", "(what figures"]),
     "misspelled control": ({"control.value": "froce"}, "control.value", ["one of displacement, force", "mean force?"]),

@@ -19,6 +19,8 @@ HEADER = """\
 # a reference.
 # Check it with `fingerpad check`, predict its roughness with `fingerpad predict` or `snakemake all`.
 # The file name is the device's name. Ratings of perceived roughness are optional: rows in data/ratings.csv.
+# Where finite strain cannot follow a stroke, this line leaves it out:
+#   kinematics: {{value: small, unit: "1", source: "assumption: finite strain cannot follow these strokes"}}
 """
 DRIVES = """\
 # How to change the drive:
@@ -34,8 +36,6 @@ DRIVES = """\
 #      phase: {value: 0, unit: deg, source: "assumption: phase difference under which it is listed"}
 #      file: {value: tap.csv, unit: "1", source: "measured by whom, when and how"}
 # - displacements written here, at any times: `kind: history`; every kind is in workflow/schemas/device.schema.yaml.
-# - strokes that finite strain cannot follow end in an error that says so. The following leaves it out for this device.
-#kinematics: {value: small, unit: "1", source: "assumption: finite strain cannot follow these strokes"}
 """
 
 
