@@ -66,6 +66,5 @@ rule scores:
         ENVIRONMENT
     params:
         code=code("scores.py"),
-        computed=DEVICES_WITH,
     script:
         "../scripts/scores.py"

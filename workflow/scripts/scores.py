@@ -9,26 +9,17 @@ from fingerpad.store import read_rows, write_rows
 from fingerpad.tissue_law import Kinematics
 
 
-def main(
-    config: Path,
-    devices: list[Path],
-    computed: dict[str, list[str]],
-    scores: list[Path],
-    checks: list[Path],
-    table: Path,
-) -> None:
-    """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table.
-
-    computed: names of devices by the kinematics that they are predicted with.
-    """
+def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Path], table: Path) -> None:
+    """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table."""
     found = [row for path in scores for row in read_rows(path)]
     coarser = [row for path in checks for row in read_rows(path)]
+    scenes = [load_scene(config, device) for device in devices]
     missing = [
         row
-        for each, names in computed.items()
-        for device in devices
-        if device.stem in names
-        for row in unpredicted_rows(load_scene(config, device, Kinematics(each)))
+        for each in Kinematics
+        for scene in scenes
+        if each in scene.computed
+        for row in unpredicted_rows(scene.with_kinematics(each))
     ]
     write_rows(table, with_errors([*found, *missing], coarser))
 
@@ -38,7 +29,6 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         [Path(path) for path in job.input.devices],
-        job.params.computed,
         [Path(path) for path in job.input.scores],
         [Path(path) for path in job.input.checks],
         Path(job.output.scores),

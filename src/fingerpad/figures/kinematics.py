@@ -63,8 +63,9 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
     figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
     grid = figure.subplots(len(titles), len(WIDTHS), squeeze=False, width_ratios=WIDTHS)
     for row, (device, title) in zip(grid, titles.items(), strict=True):
-        _curves(row[0], curves[curves["device"] == device])
-        alone = rows_with(curves[curves["device"] == device], Kinematics.FINITE).empty
+        pressed = curves[curves["device"] == device]
+        _curves(row[0], pressed)
+        alone = rows_with(pressed, Kinematics.FINITE).empty
         row[0].set_title(f"{title}{SMALL_ALONE if alone else ''}", loc="left")
         own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
         for axes, readout in zip(row[1:], Readout, strict=True):
