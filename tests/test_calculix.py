@@ -17,9 +17,9 @@ from fingerpad.condensation import condense_section
 from fingerpad.crosscheck import (
     ContactModel,
     calculix_outcome,
-    coarsened,
     differences,
     fingerpad_outcome,
+    on_deck,
     printed_outcome,
     sharpened,
 )
@@ -103,7 +103,7 @@ def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
     The edges of a face are at fault in turn, and strain lies 0.6 mm deep: less than half of it is left there. Total
     forces do not feel it but in the second order.
     """
-    small = coarsened(sharpened(scene("device2")), 4.0)
+    small = on_deck(sharpened(scene("device2")), 4.0)
     small = replace(
         small, model=replace(small.model, numerics=replace(small.model.numerics, growth=0.8, largest_size=2.0))
     )
@@ -198,7 +198,7 @@ def test_contact_that_is_not_for_large_strains_is_refused(contact: ContactModel,
 @needs_calculix
 def test_calculix_agrees_on_a_small_case_of_large_strains(tmp_path: Path) -> None:
     """Nodes are half as far apart as in the case of small strains, so half of its differences are allowed."""
-    small = finite(coarsened(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
+    small = finite(on_deck(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
     numerics = replace(small.model.numerics, growth=1.2, receptor_size=0.6, largest_size=3.0)
     small = replace(small, model=replace(small.model, numerics=numerics))
     condition = small.device.condition("alternate_000")

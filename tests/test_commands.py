@@ -213,14 +213,14 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     """Much friction on narrow gaps: on the coarser mesh contact loses its way. A caveat says so, in the table too."""
     base = scene("device2")
     moved = base.device.condition("alternate_180")
-    moved = replace(moved, tangential=moved.tangential * 0.08 / np.abs(moved.tangential).max())
-    row = replace(base.device.actuators, positions=(-2.25, -0.75, 0.75, 2.25))
-    contact = replace(base.model.contact, friction=2.0)
+    moved = replace(moved, tangential=moved.tangential * 0.06 / np.abs(moved.tangential).max())
+    row = replace(base.device.actuators, positions=(-1.95, -0.65, 0.65, 1.95))
+    contact = replace(base.model.contact, friction=1.5)
     device = replace(base.device, actuators=row, conditions=(moved,))
     given = replace(base, device=device, model=replace(base.model, contact=contact))
     shear = [row for row in forecast(given) if row["interface"] == "shear"]
     assert all(row["score"] > 0.0 and row["score_error"] is None for row in shear)
-    (caveat,) = {caveat for row in shear for caveat in row["caveats"]}
+    (caveat,) = {caveat for row in shear for caveat in row["caveats"] if caveat.startswith("error unknown")}
     assert caveat.startswith("error unknown: on a mesh of twice the sizes, device=device2, condition=alternate_180")
     said = f"caveat: alternate_180 (shear, strain), alternate_180 (shear, change_of_strain): {caveat}"
     assert said in predicting.as_table(given, shear)

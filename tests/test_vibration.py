@@ -190,8 +190,10 @@ def test_slow_cycles_are_a_path_on_relaxed_tissue(interface: Interface) -> None:
         phase = 2.0 * np.pi * (number % 16 + 1) / 16
         target = indented.state.actuator + growth * displacement(cycle, phase)
         state = follow(indented.problem, state, target, 1)
-    # one carries its patch from step to step and one does not: equal to the contact solver's tolerance
-    assert np.abs(state.force - found.states[-1].force).max() < 1e-6 * np.abs(state.force).max()
+    # one carries its patch from step to step and one does not: apart by ten tolerances of the contact solver a step at
+    # most, as slips add up over the cycles (3 without friction, 14 with it)
+    steps = 16 * found.cycles
+    assert np.abs(state.force - found.states[-1].force).max() < 1e-8 * steps * np.abs(state.force).max()
 
 
 def test_read_out_does_not_know_the_number_of_steps() -> None:

@@ -19,7 +19,7 @@ def solution_caveats(solution: Solution) -> list[str]:
     certificate = solution.certificate
     found = []
     if solution.cuts:
-        found.append(f"increments were halved {solution.cuts} times")
+        found.append(f"increments were halved {'once' if solution.cuts == 1 else f'{solution.cuts} times'}")
     if solution.searches > MANY_SEARCHES:
         found.append(f"{solution.searches} increments did not settle at once")
     shares = {

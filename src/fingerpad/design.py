@@ -29,7 +29,7 @@ from .solution import Indented, Solution, indent_device, stimulate
 from .strain import FilteredReadouts
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
-SIZE = 2.0
+SIZE = 4.0
 COARSER = 2.0  # times the sizes and strides of the first condensation [1]; source: sizes on the skin go by halves
 ROOM = (
     0.6  # mm beside a pin in which its skin may lie; source: skin moves by 0.5 mm under far, slippery pins (measured)

@@ -27,7 +27,7 @@ from .tissue_law import Kinematics
 
 COLUMNS = ("start_mm", "stop_mm")  # of a table of intervals
 COARSER = 4.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.003 mm with small
-# kinematics, 0.007 mm with finite ones, of the edges' zone of 0.015 mm (measured against 1.5 and 2)
+# kinematics, 0.006 mm with finite ones (measured against 1.5 and 2), where elements have grown by a fifteenth
 REACH = 0.3  # mm by which edges may lie off their nominal place; source: largest shift in the shipped devices
 
 

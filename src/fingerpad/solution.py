@@ -23,7 +23,7 @@ from .strain import receptor_readouts
 from .symmetry import indent_by_halves
 from .tissue_law import Kinematics
 
-FRICTIONLESS_SHARE = 4  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
+FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
 LEAVE_OUT = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
 

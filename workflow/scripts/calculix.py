@@ -12,9 +12,9 @@ from fingerpad.crosscheck import (
     ContactModel,
     Outcome,
     calculix_outcome,
-    coarsened,
     differences,
     fingerpad_outcome,
+    on_deck,
     prepared,
 )
 from fingerpad.deformed_crosscheck import deformed_outcome
@@ -39,7 +39,7 @@ def compared(
 ) -> tuple[list[dict[str, Any]], Outcome]:
     """Rows of one case beside fingerpad's laws on the same mesh, and CalculiX's outcome. Raises CalculixError."""
     fine, settings = prepared(scene, case)
-    scene = coarsened(fine, case["coarsening"])
+    scene = on_deck(fine, case["coarsening"])
     section = mesh_device(scene)
     stimulus = scene.device.condition(condition)
     reference, seconds = calculix_outcome(scene, section, stimulus, settings, folder, limit)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..crosscheck import calculix_outcome, coarsened, differences, prepared
+from ..crosscheck import calculix_outcome, differences, on_deck, prepared
 from ..device import Condition
 from ..edges import mesh_device
 from ..readout import Readout
@@ -24,7 +24,7 @@ def calculix_ladder(
     fine, settings = prepared(scene, case)
     climbed = []
     for factor in sorted(factors, reverse=True):
-        other = coarsened(fine, factor)
+        other = on_deck(fine, factor)
         section = mesh_device(other)
         outcome, seconds = calculix_outcome(other, section, condition, settings, folder / f"{factor:g}", limit)
         climbed.append((factor, section, outcome, seconds))

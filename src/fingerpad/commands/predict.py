@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Mapping, Sequence
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -81,10 +80,11 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     shown = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
     lines = [titled(scene), *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
-    said = [(caveat, row) for row in ordered for caveat in row["caveats"]]
-    for caveat, group in groupby(said, key=lambda pair: pair[0]):
-        where = ", ".join(f"{row['condition']} ({row['interface']}, {row['readout']})" for _, row in group)
-        lines.append(f"caveat: {where}: {caveat}")
+    places: dict[str, list[str]] = {}
+    for row in ordered:
+        for caveat in row["caveats"]:
+            places.setdefault(caveat, []).append(f"{row['condition']} ({row['interface']}, {row['readout']})")
+    lines += [f"caveat: {', '.join(where)}: {caveat}" for caveat, where in places.items()]
     return "\n".join(lines)
 
 
