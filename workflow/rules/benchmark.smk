@@ -1,7 +1,7 @@
 # Run times: of set-up and of a condition in one process, of the whole graph against empty scripts, against error on ladders
 # of meshes (beside CalculiX where ccx is installed), with the size of a scene, and with every skip off.
 # Not part of `all`: ask for them with `snakemake benchmark`, alone on the machine (half an hour).
-# REQUIRED INPUTS: scene files, results/scores.csv, results/{kinematics}/device2/reference.csv.
+# REQUIRED INPUTS: scene files, results/scores.csv, results/small/device2/reference.csv.
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
 LADDERS = [each for each in KINEMATICS if "device2" in DEVICES_WITH[each]]
@@ -65,7 +65,7 @@ rule benchmark_ladder:
         config=CONFIG,
         device=SCENES / "devices" / "device2.yaml",
         recordings=lambda w: RECORDINGS["device2"],
-        references=[f"results/{each}/device2/reference.csv" for each in LADDERS],
+        reference="results/small/device2/reference.csv",
     output:
         table="results/benchmark/ladder.csv",
         decks=directory("results/benchmark/decks"),
@@ -81,6 +81,7 @@ rule benchmark_ladder:
         code=code("benchmark_ladder.py"),
         condition="alternate_180",
         kinematics=LADDERS,
+        finest=0.5,
         factors={
             "small": {
                 "fingerpad": [6.0, 4.0, 3.0, 2.0, 1.5, 1.25, 1.0, 0.7, 0.5],

@@ -1,20 +1,32 @@
 """Time one condition on ladders of meshes, by fingerpad, a plain solver and CalculiX, with the errors of its scores."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
 from fingerpad.calculix import installed
+from fingerpad.device import Condition
+from fingerpad.edges import edge_intervals
+from fingerpad.prediction import rows_at
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
 from fingerpad.tissue_law import Kinematics
 
 
+def alone(scene: Scene, condition: Condition) -> Scene:
+    """The scene with one condition."""
+    return replace(scene, device=replace(scene.device, conditions=(condition,)))
+
+
 def main(
     config: Path,
     device: Path,
-    references: dict[Kinematics, Path],
+    reference: Path,
+    kinematics: list[Kinematics],
+    finest: float,
     condition: str,
     factors: dict[str, dict[str, list[float]]],
     cases: dict[str, dict[str, Any]],
@@ -23,22 +35,24 @@ def main(
     folder: Path,
     table: Path,
 ) -> None:
-    """Read scene and references by kinematics, climb every ladder, write a row a mesh. Without ccx its ladders are left
-    out.
+    """Read scene and small kinematics' reference, climb every ladder, write a row a mesh. With finite kinematics the
+    reference is a mesh of `finest` [1] times the sizes. Without ccx its ladders are left out.
     """
     rows: list[dict[str, Any]] = []
-    for kinematics, reference in references.items():
-        scene, climbed = load_scene(config, device, kinematics), factors[kinematics]
-        asked, wanted = scene.device.condition(condition), read_rows(reference)
-        rows += own_ladder(scene, asked, climbed["fingerpad"], wanted, repeats[kinematics])
+    for each in kinematics:
+        scene, climbed = load_scene(config, device, each), factors[each]
+        asked = scene.device.condition(condition)
+        small = each is Kinematics.SMALL
+        wanted = read_rows(reference) if small else rows_at(alone(scene, asked), finest, edge_intervals(scene))
+        rows += own_ladder(scene, asked, climbed["fingerpad"], wanted, repeats[each])
         if climbed["first_order"]:
-            rows += first_order_ladder(scene, asked, climbed["first_order"], wanted, repeats[kinematics])
+            rows += first_order_ladder(scene, asked, climbed["first_order"], wanted, repeats[each])
         if climbed["plain"]:
             rows += plain_ladder(scene, asked, climbed["plain"], wanted)
-        decks = folder / kinematics
+        decks = folder / each
         decks.mkdir(parents=True, exist_ok=True)
         if installed():
-            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[kinematics], decks, limit)
+            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], decks, limit)
         else:
             print("CalculiX skipped: ccx not installed")
     columns = dict.fromkeys(key for row in rows for key in row)
@@ -50,7 +64,9 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         Path(job.input.device),
-        {Kinematics(each): Path(path) for each, path in zip(job.params.kinematics, job.input.references, strict=True)},
+        Path(job.input.reference),
+        [Kinematics(each) for each in job.params.kinematics],
+        job.params.finest,
         job.params.condition,
         job.params.factors,
         job.params.cases,
