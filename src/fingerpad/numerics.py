@@ -11,7 +11,8 @@ from .requirements import require, require_positive
 class Numerics:
     """Mesh sizes [mm], load increments and tolerances.
 
-    edge_size: element size on the skin within edge_zone of an actuator's edge. face_size: largest on the skin under an
+    edge_size: element size on the skin within edge_zone of an actuator's edge, finite_edges times that with finite
+    kinematics. face_size: largest on the skin under an
     actuator. growth: growth of element size with distance [1]. receptor_size: largest on the receptor line.
     largest_size: anywhere. indentation_increments, stimulus_increments: load increments (per segment of a stimulus).
     newton_tolerance: on forces relative to the largest and on gaps relative to the load. max_cuts: how often an
@@ -19,6 +20,7 @@ class Numerics:
     """
 
     edge_size: float
+    finite_edges: float
     edge_zone: float
     face_size: float
     growth: float
@@ -33,6 +35,7 @@ class Numerics:
         require_positive(
             "numerics",
             edge_size=self.edge_size,
+            finite_edges=self.finite_edges,
             edge_zone=self.edge_zone,
             face_size=self.face_size,
             growth=self.growth,

@@ -136,6 +136,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     spacing = span / _whole(rng, ELEMENTS)
     numerics = Numerics(
         edge_size=spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0)),
+        finite_edges=1.0,
         edge_zone=spacing * CLOSENESS,
         face_size=spacing,
         growth=1.0,
