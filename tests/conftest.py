@@ -24,7 +24,12 @@ TABLE_AND_FIGURE = (
     "results/figures/figure_4_receptors.pdf",
 )
 SMALL_ONLY = "short"  # a device for which finite kinematics are left out
-COARSER = {"edge_size": 8.0, "face_size": 2.0, "receptor_size": 4.0}  # times the shipped sizes: a run of seconds
+COARSER = {
+    "edge_size": 8.0,
+    "finite_edge_size": 4.0,
+    "face_size": 2.0,
+    "receptor_size": 4.0,
+}  # times the shipped sizes: a run of seconds
 NOT_RESULTS = ("results/logs/", "results/benchmarks/")  # they say when and how long
 LONGEST_RUN = 1800.0  # s; a complete run takes minutes, and one that takes longer hangs
 NOT_SOURCE = ("results", ".snakemake", ".venv", ".git", "__pycache__", "*.egg-info", ".ipynb_checkpoints", ".*_cache")
@@ -182,7 +187,7 @@ def coarsened(config: str) -> str:
     """The text of config.yaml with a coarse mesh."""
     for key, factor in COARSER.items():
         config = re.sub(
-            rf"({key}: {{value: )([\d.]+)",
+            rf"(\b{key}: {{value: )([\d.]+)",
             lambda found, factor=factor: f"{found[1]}{factor * float(found[2])}",
             config,
         )

@@ -42,7 +42,7 @@ from fingerpad.solution import Solution
 from fingerpad.strain import FilteredReadouts
 
 ROOT = Path(__file__).parents[1]
-COARSE = Numerics(0.4, 1.0, 0.1, 0.4, 0.6, 0.5, 1.5, 2, 1, 1e-9, 1)
+COARSE = Numerics(0.4, 0.1, 0.4, 0.1, 0.4, 0.6, 0.5, 1.5, 2, 1, 1e-9, 1)
 MODEL = build_model(read_yaml(ROOT / "config/config.yaml"))
 PINS = ActuatorRow((-2.0, 0.0, 2.0), 1.0, 0.1)
 PUCKS = ActuatorRow((-1.5, 1.5), 1.5, 0.0, Body(Material(1.0, 0.48), 0.15))

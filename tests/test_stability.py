@@ -43,14 +43,15 @@ def arch(width: float, nail: float) -> Scene:
     base = scene("device2").with_kinematics(Kinematics.FINITE)
     pad = (Layer("shell", SHELL, Material(10.0, 0.3)), Layer("soft", 8.0 - SHELL, Material(10.0 / CONTRAST, 0.0)))
     dorsal = (Layer("nail", 0.3, Material(100.0, 0.3)), Layer("nail_bed", 0.7, Material(100.0, 0.3)))
-    sizes = {"edge_size": 0.4, "edge_zone": 0.1, "face_size": 0.4, "receptor_size": 0.8, "largest_size": 2.0}
+    sizes = {"face_size": 0.4, "receptor_size": 0.8, "largest_size": 2.0}
+    at_edges = {"finite_edge_size": 0.4, "finite_edge_zone": 0.1}
     model = replace(
         base.model,
         finger=Finger(width, 12.0, 3.0, nail, pad, dorsal),
         readout=replace(base.model.readout, layer_above="shell"),
         vibration=STILL,
         tissue=replace(base.model.tissue, law=Law.HENCKY),
-        numerics=replace(base.model.numerics, **sizes, indentation_increments=48, max_cuts=2),
+        numerics=replace(base.model.numerics, **sizes, **at_edges, indentation_increments=48, max_cuts=2),
     )
     still = Condition("still", "test", 0.0, np.array([1.0]), np.zeros((1, 1)), np.zeros((1, 1)))
     return Scene(model, Device("arch", "arch", Control.DISPLACEMENT, ActuatorRow((0.0,), 1.0, 0.5), (still,)))

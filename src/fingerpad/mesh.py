@@ -24,7 +24,6 @@ from .finger import Finger
 from .numerics import Numerics
 from .scene import Scene
 from .store import reading, save_arrays
-from .tissue_law import Kinematics
 
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
@@ -97,9 +96,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
 
     edges: (k, 2) intervals of |x| [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
     size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
-    0), where edge_size is finite_edges times as large with finite kinematics. On the skin under the row it is at most
-    face_size + growth * depth, and at most receptor_size + growth * distance at the receptor line. The mesh is refined
-    for both signs of x, and so symmetric.
+    0), of the scene's kinematics. On the skin under the row it is at most face_size + growth * depth, and at most
+    receptor_size + growth * distance at the receptor line. The mesh is refined for both signs of x, and so symmetric.
 
     Raises MeshError if an element is inverted, or more than MAX_ELEMENTS are asked for.
     """
@@ -220,11 +218,11 @@ def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray)
     beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
     to_face = np.hypot(depth, beyond)
     to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)
-    at_edge = numerics.edge_size * (numerics.finite_edges if scene.kinematics is Kinematics.FINITE else 1.0)
+    edge_size, edge_zone = numerics.edges(scene.kinematics)
     size: FloatArray = np.minimum.reduce(
         [
             np.full(depth.shape, numerics.largest_size),
-            at_edge + numerics.growth * np.maximum(to_edge - numerics.edge_zone, 0.0),
+            edge_size + numerics.growth * np.maximum(to_edge - edge_zone, 0.0),
             numerics.face_size + numerics.growth * to_face,
             numerics.receptor_size + numerics.growth * to_receptors,
         ]

@@ -5,23 +5,24 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from .requirements import require, require_positive
+from .tissue_law import Kinematics
 
 
 @dataclass(frozen=True)
 class Numerics:
     """Mesh sizes [mm], load increments and tolerances.
 
-    edge_size: element size on the skin within edge_zone of an actuator's edge, finite_edges times that with finite
-    kinematics. face_size: largest on the skin under an
-    actuator. growth: growth of element size with distance [1]. receptor_size: largest on the receptor line.
-    largest_size: anywhere. indentation_increments, stimulus_increments: load increments (per segment of a stimulus).
-    newton_tolerance: on forces relative to the largest and on gaps relative to the load. max_cuts: how often an
-    increment may be halved.
+    edge_size: element size on the skin within edge_zone of an actuator's edge; finite_edge_size, finite_edge_zone: the
+    same with finite kinematics. face_size: largest on the skin under an actuator. growth: growth of element size with
+    distance [1]. receptor_size: largest on the receptor line. largest_size: anywhere. indentation_increments,
+    stimulus_increments: load increments (per segment of a stimulus). newton_tolerance: on forces relative to the
+    largest and on gaps relative to the load. max_cuts: how often an increment may be halved.
     """
 
     edge_size: float
-    finite_edges: float
     edge_zone: float
+    finite_edge_size: float
+    finite_edge_zone: float
     face_size: float
     growth: float
     receptor_size: float
@@ -35,8 +36,9 @@ class Numerics:
         require_positive(
             "numerics",
             edge_size=self.edge_size,
-            finite_edges=self.finite_edges,
             edge_zone=self.edge_zone,
+            finite_edge_size=self.finite_edge_size,
+            finite_edge_zone=self.finite_edge_zone,
             face_size=self.face_size,
             growth=self.growth,
             receptor_size=self.receptor_size,
@@ -47,11 +49,18 @@ class Numerics:
         )
         require(self.max_cuts >= 0, f"numerics: max_cuts {self.max_cuts} < 0")
 
+    def edges(self, kinematics: Kinematics) -> tuple[float, float]:
+        """Element size at an actuator's edge, and how far from it that holds [mm]."""
+        if kinematics is Kinematics.FINITE:
+            return self.finite_edge_size, self.finite_edge_zone
+        return self.edge_size, self.edge_zone
+
     def coarsened(self, factor: float) -> Numerics:
         """Element sizes, everywhere, and load increments `factor` times as large; finer below 1."""
         return replace(
             self,
             edge_size=factor * self.edge_size,
+            finite_edge_size=factor * self.finite_edge_size,
             face_size=factor * self.face_size,
             growth=factor * self.growth,
             receptor_size=factor * self.receptor_size,

@@ -82,6 +82,7 @@ def random_scene(number: int) -> Scene:
     numerics = replace(
         group.model.numerics,
         edge_size=row.width / BODY_ELEMENTS,
+        finite_edge_size=row.width / BODY_ELEMENTS,
         indentation_increments=_whole(rng, INDENTATION_INCREMENTS),
         stimulus_increments=_whole(rng, STIMULUS_INCREMENTS),
     )
@@ -134,10 +135,12 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     row = _row(rng, width * _decades(rng, SPAN))
     span = row.positions[-1] - row.positions[0] + row.width
     spacing = span / _whole(rng, ELEMENTS)
+    at_edges = spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0))
     numerics = Numerics(
-        edge_size=spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0)),
-        finite_edges=1.0,
+        edge_size=at_edges,
         edge_zone=spacing * CLOSENESS,
+        finite_edge_size=at_edges,
+        finite_edge_zone=spacing * CLOSENESS,
         face_size=spacing,
         growth=1.0,
         receptor_size=width / 30.0,

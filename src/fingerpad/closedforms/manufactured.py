@@ -91,5 +91,12 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
 
 def uniform(scene: Scene, size: float) -> Scene:
     """The scene, meshed with elements of one size [mm]."""
-    numerics = replace(scene.model.numerics, edge_size=size, face_size=size, receptor_size=size, largest_size=size)
+    numerics = replace(
+        scene.model.numerics,
+        edge_size=size,
+        finite_edge_size=size,
+        face_size=size,
+        receptor_size=size,
+        largest_size=size,
+    )
     return replace(scene, model=replace(scene.model, numerics=numerics))
