@@ -143,7 +143,7 @@ rule skipping:
         runtime=60,
     params:
         code=code("skipping.py"),
-        repeats={"small": 3, "finite": 1},
+        repeats={"small": 5, "finite": 2},
     script:
         "../scripts/skipping.py"
 
