@@ -24,6 +24,8 @@ HEADER = "time,actuator,normal,tangential\n"
 GOOD = ["0.5,1,0.01,0", "0.5,2,0,0", "1,1,0,0.02", "1,2,-0.01,0"]
 PHASED = {"amplitude": 0.02, "playback": "snapshot", "phases": [0, 180], "dispersions": {"all": [0, 1]}}
 
+ROWS = [{"phase": 0, "absolute": 0.2, "relative": 0.01}]
+
 
 def test_kinds_are_those_of_the_schema() -> None:
     schema = yaml.safe_load((SCHEMAS / "device.schema.yaml").read_text(encoding="utf-8"))
@@ -50,14 +52,15 @@ def test_limits_of_a_recording_are_those_of_a_history() -> None:
     ("direction", "normal", "tangential"), [("normal", 1, 0), ("lateral", 0, 1), ("both", 1, 1)], ids=str
 )
 def test_direction_says_where_actuators_move(direction: str, normal: int, tangential: int) -> None:
-    rows = [{"phase": 0, "absolute": 0.2, "relative": 0.01}]
-    made = [
-        (phased({**PHASED, "direction": direction}, 2, ROOT)[1], [[0.02, -0.02]]),
-        (alternating({"rows": rows, "direction": direction}, 2, ROOT)[0], [[0.205, 0.195]]),
-    ]
-    for condition, displacement in made:
-        assert condition.normal == pytest.approx(normal * np.array(displacement))
-        assert condition.tangential == pytest.approx(tangential * np.array(displacement))
+    for half_cycle, sign in (("first", 1.0), ("second", -1.0)):
+        drive = {"direction": direction, "half_cycle": half_cycle}
+        made = [
+            (phased({**PHASED, **drive}, 2, ROOT)[1], [[0.02, -0.02]]),
+            (alternating({"rows": ROWS, **drive}, 2, ROOT)[0], [[0.205, 0.195]]),
+        ]
+        for condition, displacement in made:
+            assert condition.normal == pytest.approx(sign * normal * np.array(displacement))
+            assert condition.tangential == pytest.approx(sign * tangential * np.array(displacement))
 
 
 def written(folder: Path, lines: list[str], header: str = HEADER) -> Path:

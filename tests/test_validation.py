@@ -259,7 +259,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "key of another kind": (
         {"stimulus.rows": []},
         "stimulus.rows",
-        ["an unknown key", "direction, frequency_hz, amplitude, playback, phases, dispersions"],
+        ["an unknown key", "direction, half_cycle, frequency_hz, amplitude, playback, phases, dispersions"],
     ),
     "unknown direction": (
         {"stimulus.direction.value": "latral"},

@@ -28,7 +28,9 @@ CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; 
 
 
 def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
-    """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over one period (cycle)."""
+    """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over one period (cycle); minus in the second
+    half-cycle, here as in all that follows.
+    """
     conditions = []
     for dispersion, phase, lag in _lags(stimulus, count):
         if stimulus["playback"] == "snapshot":
@@ -38,7 +40,7 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
         else:
             time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
             displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + lag)
-        directed = _directed(stimulus["direction"], displacement)
+        directed = _directed(stimulus, displacement)
         conditions.append(Condition(f"{dispersion}_{phase:03g}", dispersion, float(phase), time, **directed))
     return conditions
 
@@ -48,7 +50,7 @@ def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     cycles = []
     for dispersion, phase, lag in _lags(stimulus, count):
         amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * lag)
-        directed = _directed(stimulus["direction"], amplitude)
+        directed = _directed(stimulus, amplitude)
         cycles.append(Cycle(f"{dispersion}_{phase:03g}", dispersion, float(phase), **directed))
     return cycles
 
@@ -70,7 +72,7 @@ def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[C
             "alternate",
             float(row["phase"]),
             np.array([1.0]),
-            **_directed(stimulus["direction"], _alternating(row, count)[None, :]),
+            **_directed(stimulus, _alternating(row, count)[None, :]),
         )
         for row in stimulus["rows"]
     ]
@@ -81,7 +83,7 @@ def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     cycles = []
     for row in stimulus["rows"]:
         amplitude: ComplexArray = _alternating(row, count).astype(np.complex128)
-        directed = _directed(stimulus["direction"], amplitude)
+        directed = _directed(stimulus, amplitude)
         cycles.append(Cycle(f"alternate_{row['phase']:03g}", "alternate", float(row["phase"]), **directed))
     return cycles
 
@@ -142,10 +144,13 @@ CYCLES: Mapping[str, Callable[[Mapping[str, Any], int], list[Cycle]]] = {
 }
 
 
-def _directed(direction: str, displacement: Displacement) -> dict[str, Displacement]:
-    """Displacements (..., n_actuators) [mm] as normal and tangential ones; `both` is the same in both."""
-    still = np.zeros_like(displacement)
+def _directed(stimulus: Mapping[str, Any], displacement: Displacement) -> dict[str, Displacement]:
+    """Displacements (..., n_actuators) [mm] of a half-cycle as normal and tangential ones; `both` is the same in both."""
+    # ASSUME: stimulus.half_cycle: first, positive into the skin or to the right. A row that is not its own mirror image
+    # has other gaps open in the second, where every displacement has the opposite sign.
+    direction, still = stimulus["direction"], np.zeros_like(displacement)
+    shown = displacement if stimulus["half_cycle"] == "first" else still - displacement  # no -0
     return {
-        "normal": still if direction == "lateral" else displacement,
-        "tangential": still if direction == "normal" else displacement,
+        "normal": still if direction == "lateral" else shown,
+        "tangential": still if direction == "normal" else shown,
     }
