@@ -115,10 +115,10 @@ ORDER = pd.DataFrame(
 )
 PUBLISHED = pd.DataFrame(
     [
-        ("phased", "shear", "strain", 0.876, "good", "made up"),
-        ("forced", "shear", "strain", math.nan, "poor", "made up"),
+        ("phased", "shear", "strain", 0.876, 1, "good", "made up"),
+        ("forced", "shear", "strain", math.nan, None, "poor", "made up"),
     ],
-    columns=["device", "interface", "readout", "r2", "words", "source"],
+    columns=["device", "interface", "readout", "r2", "slope", "words", "source"],
 )
 
 
@@ -170,9 +170,8 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
         "n = 3",
         "R² = ",
         "τ = ",
-        "p ",
         "range ",
-        "published R² 0.876",
+        "published R² 0.876,\nrising",
         *TITLES.values(),
     ):
         assert said in text, said
@@ -187,6 +186,8 @@ def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) 
     text = words(correlation_figure(SCORES, RATINGS, measured, TITLES))
     assert "surrogate" not in text
     assert "(measured)" in text
+    assert ", p " in text
+    assert ", p " not in words(correlation_figure(SCORES, RATINGS, correlations, TITLES))
 
 
 def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame) -> None:

@@ -117,15 +117,16 @@ def test_a_file_that_is_no_text_is_named(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("row", "part"),
     [
-        ("device1,sheer,strain,0.5,x,y", "did you mean 'shear'"),
-        ("device1,shear,strains,0.5,x,y", "did you mean 'strain'"),
-        ("device1,shear,strain,1.5,x,y", "a number from 0 to 1"),
-        ("device1,shear,strain,high,x,y", "a number from 0 to 1"),
+        ("device1,sheer,strain,0.5,1,x,y", "did you mean 'shear'"),
+        ("device1,shear,strains,0.5,1,x,y", "did you mean 'strain'"),
+        ("device1,shear,strain,1.5,1,x,y", "a number from 0 to 1"),
+        ("device1,shear,strain,high,1,x,y", "a number from 0 to 1"),
+        ("device1,shear,strain,0.5,rising,x,y", "1, -1, or nothing"),
     ],
 )
 def test_bad_published_values_are_named(tmp_path: Path, row: str, part: str) -> None:
     path = tmp_path / "published.csv"
-    path.write_text(f"device,interface,readout,r2,words,source\n{row}\n")
+    path.write_text(f"device,interface,readout,r2,slope,words,source\n{row}\n")
     with pytest.raises(RatingError, match=part):
         read_published(path)
 
@@ -302,6 +303,7 @@ def make_scores(device: str, values: list[float], interface: str = "shear", note
             "interface": interface,
             "readout": "strain",
             "score": values,
+            "score_error": 0.25,
             "note": note,
         }
     )
@@ -324,11 +326,12 @@ def test_correlation_of_three_points_in_closed_form() -> None:
     row = make_table(make_scores("device2", [0.0, 2.0, 1.0])).iloc[0]
     assert row["n"] == 3
     assert row["slope_sign"] == 1
+    assert row["slope_over_error"] == pytest.approx(1.0 / (2.0 * 0.25))
     assert row["r2"] == pytest.approx(0.25)
     assert row["p"] == pytest.approx(1.0 - 2.0 / math.pi * math.atan(0.5 / math.sqrt(0.75)))
     assert row["kendall_tau"] == pytest.approx(1.0 / 3.0)
     assert (row["r2_lowest"], row["r2_highest"]) == pytest.approx((0.0, 0.75), abs=1e-12)
-    assert row["published_r2"] == 0.989
+    assert (row["published_r2"], row["published_slope"]) == (0.989, 1)
     assert row["rating_kind"] == "ordinal surrogate"
     assert row["note"] == ""
 

@@ -76,7 +76,7 @@ def correlation(device: str, interface: Interface, readout: Readout, r2: str) ->
         "n": "3" if r2 else "0",
     }
     last = {"rating_kind": "ordinal surrogate", "note": "" if r2 else "no prediction"}
-    return where | numbers | {"published_r2": "", "published_words": TRICK} | last
+    return where | numbers | {"published_r2": "", "published_slope": "", "published_words": TRICK} | last
 
 
 @pytest.fixture
@@ -108,8 +108,8 @@ def built(results: Results, folder: Path) -> str:
     for stem in FIGURES:
         (folder / f"{stem}.png").write_bytes(PIXEL)
     claims = [
-        {"kinematics": "small", "claim": "It rises.", "source": "paper: Results", "holds": "True", "evidence": TRICK},
-        {"kinematics": "finite", "claim": "It falls.", "source": "paper: Results", "holds": "False", "evidence": "no"},
+        {"kinematics": "small", "claim": "It rises.", "source": "paper: Results", "holds": "yes", "evidence": TRICK},
+        {"kinematics": "finite", "claim": "It falls.", "source": "paper: Results", "holds": "no", "evidence": "no"},
     ]
     return report(
         TEMPLATE.read_text(encoding="utf-8"),
@@ -198,8 +198,8 @@ def test_page_holds_no_path_of_this_machine(html: str, tmp_path: Path) -> None:
 def test_page_says_what_the_tables_say(html: str) -> None:
     text = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
     assert "0.4321 ± 0.0012" in text
-    assert "1 of n = 2 statements" in text
-    assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, p = 0.030, n = 3" in text  # noqa: RUF001  # as typeset
+    assert "With small strain, of n = 1 statements 1 are borne out, 0 are not" in text
+    assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, n = 3" in text  # noqa: RUF001  # as typeset
     assert text.count("no prediction") > 12
     assert "Ratings are ordinal surrogates." in text
     assert "0123abc" in text

@@ -1,13 +1,14 @@
 """The paper's statements, each checked against computed scores and correlations.
 
-Nothing here knows how a check will end: a claim is a test together with the numbers it looked at.
+Nothing here knows how a check will end: a claim is a test together with the numbers it looked at. Where scores differ
+by less than their errors, it is undecided. What the paper says in words is held against their usual bounds.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from itertools import pairwise
 from typing import Any
 
@@ -15,15 +16,28 @@ import pandas as pd
 
 from .contact_law import Interface
 from .readout import CONSTANT, Readout
-from .roughness import KEY, NO_PREDICTION, TYPESET_UNITS
+from .roughness import KEY, TYPESET_UNITS
 
 COLUMNS = ["kinematics", "claim", "source", "holds", "evidence"]
 DISPERSIONS = ("low", "medium", "high")
 PHASES = (0.0, 90.0, 180.0)
+NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than their errors
+# |r| [1] from which a correlation is called so; source: Evans 1996, Straightforward Statistics for the Behavioral
+# Sciences
+WEAK, MODERATE, STRONG, VERY_STRONG = 0.2, 0.4, 0.6, 0.8
+
+
+class Holds(StrEnum):
+    """Whether a statement holds; undecided where errors of scores leave it open."""
+
+    YES = "yes"
+    NO = "no"
+    UNDECIDED = "undecided"
+
 
 Key = tuple[str, str, str]  # device, interface, readout
-Chain = Sequence[tuple[str, float]]  # (label, score), in the order in which the scores should rise
-Verdict = tuple[bool, str]  # whether it holds, evidence
+Condition = tuple[str, float]  # dispersion, phase [deg]
+Verdict = tuple[Holds, str]  # whether it holds, evidence
 
 
 class _AbsentError(Exception):
@@ -31,18 +45,27 @@ class _AbsentError(Exception):
 
 
 @dataclass(frozen=True)
+class _Score:
+    """A score and its error, in one unit; an error of 0 where it is not known."""
+
+    value: float
+    error: float
+
+
+Chain = Sequence[tuple[str, _Score]]  # (label, score), in the order in which the scores should rise
+
+
+@dataclass(frozen=True)
 class _Scores:
-    """The scores of one key [in `unit`] by (dispersion, phase [deg]), and what is noted beside them."""
+    """The scores of one key [in `unit`] by condition."""
 
-    values: Mapping[tuple[str, float], float]
+    values: Mapping[Condition, _Score]
     unit: str
-    notes: tuple[str, ...]
 
-    def __getitem__(self, condition: tuple[str, float]) -> float:
-        value = self.values.get(condition, math.nan)
-        if math.isnan(value):
+    def __getitem__(self, condition: Condition) -> _Score:
+        if condition not in self.values:
             raise _AbsentError
-        return value
+        return self.values[condition]
 
 
 @dataclass(frozen=True)
@@ -75,11 +98,12 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
     """Which of the paper's statements hold.
 
     scores: columns kinematics, device, condition, dispersion, phase_deg, interface, readout, score [in `unit`, NaN
-    without a prediction], unit, note. correlations: from `perception.correlation_table`, or its CSV read back.
+    without a prediction], score_error [in `unit`, NaN if it is not known], unit. correlations: from
+    `perception.correlation_table`, or its CSV read back.
 
-    Returns the columns kinematics, claim, source, holds (True or False) and evidence (a sentence with the numbers). To
-    rise means by more than the solver's tolerance. A claim which needs a score or a rating that is not there has no
-    row: it is neither confirmed nor refuted.
+    Returns the columns kinematics, claim, source, holds (see `Holds`) and evidence (a sentence with the numbers). To
+    rise means by more than the larger of both errors, a slope's sign counts if no errors of that size change it. A
+    claim which needs a score or a rating that is not there has no row: it is neither confirmed nor refuted.
     """
     rows = []
     for kinematics in scores["kinematics"].unique():
@@ -89,18 +113,18 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
                 holds, evidence = claim.check(tables)
             except _AbsentError:
                 continue
-            rows.append((kinematics, claim.text, claim.source, holds, evidence))
-    return pd.DataFrame(rows, columns=COLUMNS).astype({"holds": bool})
+            rows.append((kinematics, claim.text, claim.source, str(holds), evidence))
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:
     by_key = {}
     for (device, interface, readout), group in scores.groupby(KEY[1:], sort=False):
-        rows = group[["dispersion", "phase_deg", "score"]].itertuples(index=False)
+        scored = group.astype({"score": float, "score_error": float}).dropna(subset=["score"])
+        rows = scored[["dispersion", "phase_deg", "score", "score_error"]].fillna({"score_error": 0.0})
         by_key[device, interface, readout] = _Scores(
-            {(dispersion, float(phase)): float(score) for dispersion, phase, score in rows},
+            {(dispersion, float(phase)): _Score(*score) for dispersion, phase, *score in rows.itertuples(index=False)},
             TYPESET_UNITS.get(group["unit"].iloc[0], group["unit"].iloc[0]),
-            tuple(group["note"].fillna("").unique()),
         )
     records = {(row["device"], row["interface"], row["readout"]): row for row in correlations.to_dict("records")}
     return _Tables(by_key, records)
@@ -109,24 +133,32 @@ def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:
 # --- orders --------------------------------------------------------------------------------------------------------
 
 
-def _step(low: float, high: float) -> str:
-    """How two scores compare: `<`, `=` (within the solver's tolerance) or `>`."""
-    if abs(high - low) <= CONSTANT * max(abs(low), abs(high)):
+def _step(low: _Score, high: _Score) -> str:
+    """How two scores compare: `<`, `=` (within the solver's tolerance), `≈` (within the larger of
+    their errors) or `>`.
+    """
+    difference = abs(high.value - low.value)
+    if difference <= CONSTANT * max(abs(low.value), abs(high.value)):
         return "="
-    return "<" if low < high else ">"
+    if difference < max(low.error, high.error):
+        return NEAR
+    return "<" if low.value < high.value else ">"
 
 
 def _steps(chain: Chain) -> list[str]:
     return [_step(low, high) for (_, low), (_, high) in pairwise(chain)]
 
 
-def _rises(chain: Chain) -> bool:
-    return all(step == "<" for step in _steps(chain))
+def _rises(steps: Sequence[str]) -> Holds:
+    """Whether each of the steps rises."""
+    if set(steps) <= {"<", NEAR}:
+        return Holds.UNDECIDED if NEAR in steps else Holds.YES
+    return Holds.NO
 
 
 def _shown(chain: Chain) -> str:
     """The chain as it is, right or wrong: `0°: 1.2 < 90°: 1.5 > 180°: 1.3`."""
-    texts = [f"{label}: {score:.4g}" for label, score in chain]
+    texts = [f"{label}: {score.value:.4g}" for label, score in chain]
     return " ".join([texts[0], *(f"{step} {text}" for step, text in zip(_steps(chain), texts[1:], strict=True))])
 
 
@@ -144,7 +176,7 @@ def _change_rises(device: str, phases: Sequence[float]) -> Callable[[_Tables], V
     def check(tables: _Tables) -> Verdict:
         scores = tables.scores(device, Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
         chain = _by_phase(scores, "alternate", phases)
-        return _rises(chain), f"Scores [{scores.unit}]: {_shown(chain)}."
+        return _rises(_steps(chain)), f"Scores [{scores.unit}]: {_shown(chain)}."
 
     return check
 
@@ -153,13 +185,14 @@ def _device1_phase(tables: _Tables) -> Verdict:
     scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
     chains = {dispersion: _by_phase(scores, dispersion) for dispersion in DISPERSIONS}
     shown = "; ".join(f"{dispersion} dispersion {_shown(chain)}" for dispersion, chain in chains.items())
-    return all(map(_rises, chains.values())), f"Scores [{scores.unit}]: {shown}."
+    steps = [step for chain in chains.values() for step in _steps(chain)]
+    return _rises(steps), f"Scores [{scores.unit}]: {shown}."
 
 
 def _device1_dispersion(tables: _Tables) -> Verdict:
     scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
     chain = _by_dispersion(scores, 180.0)
-    return _rises(chain), f"Scores at 180° [{scores.unit}]: {_shown(chain)}."
+    return _rises(_steps(chain)), f"Scores at 180° [{scores.unit}]: {_shown(chain)}."
 
 
 def _device1_strain(tables: _Tables) -> Verdict:
@@ -169,11 +202,18 @@ def _device1_strain(tables: _Tables) -> Verdict:
     chains["180°"] = _by_dispersion(scores, 180.0)
     steps = [step for chain in chains.values() for step in _steps(chain)]
     shown = "; ".join(f"{name} {_shown(chain)}" for name, chain in chains.items())
-    rising = steps.count("<")
-    return rising < len(steps), f"{rising} of {len(steps)} steps rise. Scores [{scores.unit}]: {shown}."
+    missed = {Holds.YES: Holds.NO, Holds.NO: Holds.YES, Holds.UNDECIDED: Holds.UNDECIDED}[_rises(steps)]
+    return missed, f"{steps.count('<')} of {len(steps)} steps rise. Scores [{scores.unit}]: {shown}."
 
 
 # --- correlations --------------------------------------------------------------------------------------------------
+
+
+_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
+
+
+def _held(holds: bool) -> Holds:
+    return Holds.YES if holds else Holds.NO
 
 
 def _slope(row: Mapping[str, Any]) -> int:
@@ -182,19 +222,36 @@ def _slope(row: Mapping[str, Any]) -> int:
 
 
 def _described(row: Mapping[str, Any]) -> str:
-    numbers = f"R² {row['r2']:.4g}, Kendall's tau {row['kendall_tau']:.3g}, p {row['p']:.2g}, "
+    numbers = f"R² {row['r2']:.4g}, Kendall's tau {row['kendall_tau']:.3g}, "
     reason = f"({row['note']}) " if isinstance(row["note"], str) and row["note"] else ""
     sign = "positive" if _slope(row) > 0 else "negative"
     what = f"{sign} slope, {numbers}" if _slope(row) else f"no slope {reason}with "
     return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']})"
 
 
-def _strain_falls(device: str, interface: Interface) -> Callable[[_Tables], Verdict]:
-    """The strain score's slope is negative."""
+def _correlates(
+    device: str, interface: Interface, readout: Readout, sign: int = 1, at_least: float = 0.0
+) -> Callable[[_Tables], Verdict]:
+    """The slope has that sign, and |r| is at least so large [1]."""
 
     def check(tables: _Tables) -> Verdict:
-        row = tables.correlation(device, interface, Readout.STRAIN)
-        return _slope(row) < 0, f"Strain, {_described(row)}."
+        row = tables.correlation(device, interface, readout)
+        evidence = f"{_NAME[readout]}, {_described(row)}."
+        if _slope(row) == 0 or float(row["r2"]) < at_least**2:
+            return Holds.NO, evidence
+        if row["slope_over_error"] < 1.0:
+            return Holds.UNDECIDED, evidence
+        return _held(_slope(row) == sign), evidence
+
+    return check
+
+
+def _correlates_less(device: str, interface: Interface, readout: Readout, than: float) -> Callable[[_Tables], Verdict]:
+    """|r| is less than that [1], whichever way the slope is."""
+
+    def check(tables: _Tables) -> Verdict:
+        row = tables.correlation(device, interface, readout)
+        return _held(_slope(row) == 0 or float(row["r2"]) < than**2), f"{_NAME[readout]}, {_described(row)}."
 
     return check
 
@@ -205,8 +262,9 @@ def _device2_weaker(tables: _Tables) -> Verdict:
         tables.correlation("device2", interface, Readout.CHANGE_OF_STRAIN)
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
-    strength = [_slope(row) * row["r2"] if _slope(row) else 0.0 for row in (off, on)]
-    return _step(*strength) == "<", f"Change of strain, {_described(off)}; {_described(on)}."
+    without, with_shear = (_slope(row) * row["r2"] if _slope(row) else 0.0 for row in (off, on))
+    evidence = f"Change of strain, {_described(off)}; {_described(on)}."
+    return _held(without < with_shear - CONSTANT), evidence
 
 
 # --- shear off -----------------------------------------------------------------------------------------------------
@@ -218,8 +276,10 @@ def _device2_spread(tables: _Tables) -> Verdict:
         tables.scores("device2", interface, Readout.CHANGE_OF_STRAIN)
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
-    spreads = [max(values) - min(values) for values in ([s["alternate", phase] for phase in PHASES] for s in (off, on))]
-    return _step(*spreads) == "<", (
+    spreads = [
+        max(values) - min(values) for values in ([s["alternate", phase].value for phase in PHASES] for s in (off, on))
+    ]
+    return _held(spreads[0] < spreads[1] * (1.0 - CONSTANT)), (
         f"Largest less smallest change-of-strain score [{on.unit}]: {spreads[0]:.4g} without shear,"
         f" {spreads[1]:.4g} with it."
     )
@@ -232,30 +292,20 @@ def _effect_of_shear(tables: _Tables, device: str, dispersions: Sequence[str]) -
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
     conditions = [(dispersion, phase) for dispersion in dispersions for phase in PHASES]
-    total = sum(on[c] for c in conditions)
+    total = sum(on[c].value for c in conditions)
     if total == 0.0:
         raise _AbsentError
-    return sum(abs(off[c] - on[c]) for c in conditions) / total
+    return sum(abs(off[c].value - on[c].value) for c in conditions) / total
 
 
 def _device1_insensitive(tables: _Tables) -> Verdict:
     """The device that moves normally depends less on shear than the one that moves laterally."""
     one = _effect_of_shear(tables, "device1", DISPERSIONS)
     two = _effect_of_shear(tables, "device2", ["alternate"])
-    return _step(one, two) == "<", (
+    return _held(one < two * (1.0 - CONSTANT)), (
         "Leaving out shear changes the change-of-strain scores, relative to their mean, on average by"
         f" {one:.3g} for Device 1 and {two:.3g} for Device 2."
     )
-
-
-def _device3_silent(tables: _Tables) -> Verdict:
-    """No score is a number, and each says that there is no prediction."""
-    parts = [tables.scores("device3", Interface.FRICTIONLESS, readout) for readout in Readout]
-    values = [value for part in parts for value in part.values.values()]
-    notes = {note for part in parts for note in part.notes}
-    numbers = sum(not math.isnan(value) for value in values)
-    noted = ", ".join(f"'{note}'" for note in sorted(notes))
-    return numbers == 0 and notes == {NO_PREDICTION}, f"{numbers} of {len(values)} scores are numbers; noted: {noted}."
 
 
 _ORDER = "paper: Introduction; Results"
@@ -268,15 +318,50 @@ _CLAIMS: tuple[_Claim, ...] = (
     ),
     _Claim("Device 1: the change of strain rises with phase at every dispersion.", _ORDER, _device1_phase),
     _Claim("Device 1: the change of strain rises with dispersion at 180°.", _ORDER, _device1_dispersion),
+    _Claim(
+        "Device 1: the change of strain correlates very well.",
+        _RESULTS,
+        _correlates("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
+    ),
+    _Claim(
+        "Device 2: the change of strain correlates very well.",
+        _RESULTS,
+        _correlates("device2", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
+    ),
+    _Claim(
+        "Device 3: the change of strain correlates very well.",
+        _RESULTS,
+        _correlates("device3", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
+    ),
+    _Claim(
+        "Device 2: the strain correlates well.",
+        _RESULTS,
+        _correlates("device2", Interface.SHEAR, Readout.STRAIN, at_least=STRONG),
+    ),
+    _Claim(
+        "Device 1: the strain correlates very poorly.",
+        _RESULTS,
+        _correlates_less("device1", Interface.SHEAR, Readout.STRAIN, than=WEAK),
+    ),
     _Claim("Device 1: the strain misses the order of roughness.", _RESULTS, _device1_strain),
-    _Claim("Device 3: the strain correlates negatively.", _RESULTS, _strain_falls("device3", Interface.SHEAR)),
+    _Claim(
+        "Device 3: the strain correlates negatively.",
+        _RESULTS,
+        _correlates("device3", Interface.SHEAR, Readout.STRAIN, sign=-1),
+    ),
     _Claim(
         "Device 2 without shear: the strain correlates negatively.",
         _SHEAR,
-        _strain_falls("device2", Interface.FRICTIONLESS),
+        _correlates("device2", Interface.FRICTIONLESS, Readout.STRAIN, sign=-1),
     ),
-    _Claim("Device 2 without shear: the change of strain correlates more weakly.", _SHEAR, _device2_weaker),
+    _Claim(
+        "Device 2 without shear: the change of strain correlates weakly.",
+        _SHEAR,
+        _correlates_less("device2", Interface.FRICTIONLESS, Readout.CHANGE_OF_STRAIN, than=MODERATE),
+    ),
+    _Claim(
+        "Device 2 without shear: the change of strain correlates more weakly than with it.", _SHEAR, _device2_weaker
+    ),
     _Claim("Device 2 without shear: the change of strain varies less with phase.", _SHEAR, _device2_spread),
     _Claim("Device 1: leaving out shear matters less than for Device 2.", _SHEAR, _device1_insensitive),
-    _Claim("Device 3 without shear: there is no prediction.", _SHEAR, _device3_silent),
 )

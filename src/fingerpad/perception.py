@@ -27,16 +27,20 @@ COLUMNS = [
     *KEY,
     "n",
     "slope_sign",
+    "slope_over_error",
     "r2",
     "r2_lowest",
     "r2_highest",
     "kendall_tau",
     "p",
     "published_r2",
+    "published_slope",
     "published_words",
     "rating_kind",
     "note",
 ]
+
+PUBLISHED = [column for column in COLUMNS if column.startswith("published")]
 
 MAX_UP_SETS = 2**16  # up-sets of a stated order that are enumerated; 16 conditions without any order have as many
 CONSTANT_SCORE = "constant score"
@@ -152,16 +156,19 @@ def correlation_table(
     """How each score correlates with perceived roughness: a row for each kinematics, device, interface and
     read-out.
 
-    scores: columns kinematics, device, condition, interface, readout, score [any unit, NaN without a prediction], note.
-    ratings, order, published: see `read_ratings`, `read_stated_order`, `read_published`.
+    scores: columns kinematics, device, condition, interface, readout, score [any unit, NaN without a prediction],
+    score_error [the same unit, NaN if it is not known], note. ratings, order, published: see `read_ratings`,
+    `read_stated_order`, `read_published`.
 
     Returns the columns COLUMNS:
-    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation.
+    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. slope_over_error: |slope| over what the
+    errors of scores can add up to in it; below 1 its sign is open; empty if errors are not known. r2: squared Pearson
+    correlation.
     r2_lowest, r2_highest: over all ratings that agree with the stated order (`r2_range`), whichever way the slope
     then is; empty without an order.
-    kendall_tau: tau-b. p: two-sided p of the Pearson correlation, every condition counted as independent, also
-    where conditions share a stimulus (the note then says how many are distinct). rating_kind: the `label` of
-    RatingKind. note: why numbers are missing, or what to beware of.
+    kendall_tau: tau-b. p: two-sided p of the Pearson correlation over distinct conditions: those that share a
+    stimulus count once (the note then says how many are distinct). published_slope: -1 or 1, empty if nothing is said
+    of it. rating_kind: the `label` of RatingKind. note: why numbers are missing, or what to beware of.
 
     Raises RatingError if scores and ratings of a device are not of the same conditions.
     """
@@ -169,12 +176,13 @@ def correlation_table(
         {**dict(zip(KEY, key, strict=True)), **_correlate(group, *(t[t["device"] == key[1]] for t in (ratings, order)))}
         for key, group in scores.groupby(KEY, sort=False)
     ]
-    said = published.rename(columns={"r2": "published_r2", "words": "published_words"})
-    computed = pd.DataFrame(rows, columns=[c for c in COLUMNS if not c.startswith("published")])
+    said = published.rename(columns={name: f"published_{name}" for name in ("r2", "slope", "words")})
+    computed = pd.DataFrame(rows, columns=[column for column in COLUMNS if column not in PUBLISHED])
     same = KEY[1:]  # the paper does not say with which kinematics
-    table = computed.merge(said[[*same, "published_r2", "published_words"]], how="left", on=same, validate="m:1")
-    floats = dict.fromkeys(("r2", "r2_lowest", "r2_highest", "kendall_tau", "p", "published_r2"), "float64")
-    table = table.astype({"n": "int64", "slope_sign": "Int64", **floats})
+    table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
+    numbers = ("slope_over_error", "r2", "r2_lowest", "r2_highest", "kendall_tau", "p", "published_r2")
+    signs = dict.fromkeys(("slope_sign", "published_slope"), "Int64")
+    table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
 
 
@@ -200,20 +208,23 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}
     notes = []
+    distinct = np.arange(x.size)
     if len(order):
         at_most = order_matrix(list(score.index), order)
         found["r2_lowest"], found["r2_highest"] = r2_range(x, at_most)
-        distinct = len(np.unique(at_most & at_most.T, axis=0))
-        if distinct < x.size:
-            notes.append(f"{distinct} of {x.size} conditions are distinct")
+        distinct = np.unique(at_most & at_most.T, axis=0, return_index=True)[1]
+        if distinct.size < x.size:
+            notes.append(f"{distinct.size} of {x.size} conditions are distinct")
         if np.any(at_most & (y[:, None] > y[None, :])):
             notes.append("ratings contradict the stated order")
-    pearson = pearsonr(x, y)
+    r = float(pearsonr(x, y).statistic)
+    weight, error = y - y.mean(), scores["score_error"].to_numpy(float)
     return {
         **found,
-        "slope_sign": int(np.sign(pearson.statistic)),
-        "r2": float(pearson.statistic) ** 2,
+        "slope_sign": int(np.sign(r)),
+        "slope_over_error": abs(float(weight @ x)) / float(np.abs(weight) @ error) if np.all(error > 0.0) else None,
+        "r2": r**2,
         "kendall_tau": float(kendalltau(x, y).statistic),
-        "p": float(pearson.pvalue),
+        "p": float(pearsonr(x[distinct], y[distinct]).pvalue) if distinct.size > 2 else None,
         "note": "; ".join(notes),
     }

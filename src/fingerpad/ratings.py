@@ -20,7 +20,8 @@ from .readout import Readout
 RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
 ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
 NO_RATINGS = "no ratings"  # note of a device that nobody has rated
-PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "words", "source")
+PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
+SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
 
 
 class RatingKind(StrEnum):
@@ -110,7 +111,8 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
 
 
 def read_published(path: Path) -> pd.DataFrame:
-    """The published correlations: device, interface, readout, r2 (NaN where there are only words), words, source.
+    """The published correlations: device, interface, readout, r2 (NaN where there are only words), slope (-1, 1, or
+    None where nothing is said of it), words, source.
 
     Raises RatingError as `read_ratings` does.
     """
@@ -121,7 +123,9 @@ def read_published(path: Path) -> pd.DataFrame:
         r2 = number(row["r2"])
         if row["r2"] and not 0.0 <= r2 <= 1.0:
             raise _error(path, line, "r2", row["r2"], "a number from 0 to 1, or nothing")
-        rows.append({**row, "r2": r2})
+        if row["slope"] not in SLOPES:
+            raise _error(path, line, "slope", row["slope"], "1, -1, or nothing")
+        rows.append({**row, "r2": r2, "slope": SLOPES[row["slope"]]})
     return pd.DataFrame(rows, columns=list(PUBLISHED_COLUMNS))
 
 

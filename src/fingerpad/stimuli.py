@@ -145,7 +145,7 @@ CYCLES: Mapping[str, Callable[[Mapping[str, Any], int], list[Cycle]]] = {
 
 
 def _directed(stimulus: Mapping[str, Any], displacement: Displacement) -> dict[str, Displacement]:
-    """Displacements (..., n_actuators) [mm] of a half-cycle as normal and tangential ones; `both` is the same in both."""
+    """Displacements (..., n_actuators) [mm] of a half-cycle as normal and tangential ones; `both` is both."""
     # ASSUME: stimulus.half_cycle: first, positive into the skin or to the right. A row that is not its own mirror image
     # has other gaps open in the second, where every displacement has the opposite sign.
     direction, still = stimulus["direction"], np.zeros_like(displacement)

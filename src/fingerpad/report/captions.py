@@ -13,7 +13,7 @@ from ..readout import Readout
 from ..roughness import TYPESET_UNITS
 from ..scene import Scene
 from ..tissue_law import Kinematics
-from .tables import SLOPES, Row, error_of, measured, p_value
+from .tables import SLOPES, Row, error_of, has_p, measured, p_value
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
@@ -85,11 +85,8 @@ def correlation_words(row: Row) -> str:
         return f"{row['note']}, n = {row['n']}"
     spread = f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
     tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
-    p = p_value(row["p"])
-    return (
-        f"R² = {float(row['r2']):.3f}{spread}, {SLOPES[row['slope_sign']]}, τ = {tau},"
-        f" p {p if p.startswith('<') else f'= {p}'}, n = {row['n']}"
-    )
+    p = f", p {p_value(row['p'])}" if has_p(row) else ""
+    return f"R² = {float(row['r2']):.3f}{spread}, {SLOPES[row['slope_sign']]}, τ = {tau}{p}, n = {row['n']}"
 
 
 def _section(results: Results) -> Words:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import base64
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
+from ..figures.style import KINEMATICS_NAME
 from ..ratings import RatingKind
 from ..sources import Origin, Quantity
+from ..tissue_law import Kinematics
 from .captions import Results, Words, words
 from .provenance import Provenance
 from .tables import (
@@ -68,7 +71,7 @@ def report(
         correlations=correlation_bodies(results.correlations, titles),
         surrogates=any(row["rating_kind"] == RatingKind.SURROGATE.label for row in results.correlations),
         claims=claims,
-        borne_out=sum(row["holds"] == "True" for row in claims),
+        verdicts=_verdicts(claims),
         assumptions={
             name: [each for each in listed if each.origin is Origin.ASSUMPTION] for name, listed in quantities.items()
         },
@@ -76,3 +79,11 @@ def report(
         graph=graph,
         made=made,
     )
+
+
+def _verdicts(claims: Sequence[Row]) -> dict[str, Counter[str]]:
+    """How many statements end in each verdict, by the name of the kinematics."""
+    found: dict[str, Counter[str]] = {}
+    for row in claims:
+        found.setdefault(KINEMATICS_NAME[Kinematics(row["kinematics"])], Counter())[row["holds"]] += 1
+    return found

@@ -10,6 +10,7 @@ from statistics import median
 from ..accuracy import has_error
 from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
+from ..ratings import RatingKind
 from ..readout import Readout
 from ..tissue_law import Kinematics
 
@@ -107,7 +108,10 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
     found: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
     for row in correlations:
         spread = f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}" if row["r2_lowest"] else NOTHING
-        published = f"{float(row['published_r2']):g}" if row["published_r2"] else row["published_words"] or NOTHING
+        published = row["published_words"] or NOTHING
+        if row["published_r2"]:
+            slope = SLOPES.get(row["published_slope"])
+            published = f"{float(row['published_r2']):g}{f', {slope}' if slope else ''}"
         cells = (
             READOUT_NAME[Readout(row["readout"])],
             row["n"],
@@ -115,7 +119,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             spread,
             SLOPES.get(row["slope_sign"], NOTHING),
             f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
-            p_value(row["p"]) if row["p"] else NOTHING,
+            p_value(row["p"]) if has_p(row) else NOTHING,
             row["rating_kind"] or NOTHING,
             published,
             row["note"] or NOTHING,
@@ -127,6 +131,11 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
 CORRELATION_COLUMNS = (
     "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published R²", "Note",
 )  # fmt: skip
+
+
+def has_p(row: Row) -> bool:
+    """Whether a correlation's p tests anything: the steps of ordinal surrogates are ours, and no measurement."""
+    return bool(row["p"]) and row["rating_kind"] != RatingKind.SURROGATE.label
 
 
 def p_value(text: str) -> str:
