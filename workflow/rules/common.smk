@@ -4,6 +4,7 @@
 from difflib import get_close_matches
 
 from fingerpad.contact_law import Interface
+from fingerpad.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.ratings import read_ratings, read_stated_order
 from fingerpad.scenefile import load_scene, recordings

@@ -1,6 +1,6 @@
 # Pages of docs/ that say what was measured. They need every long target; not part of `all`: `snakemake pages`.
-# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark and frequency.
-# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/figures/*.png
+# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble.
+# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/robustness.md, docs/figures/*.png
 
 MEASURED_FIGURES = ["accuracy_closed_forms.png", "benchmark.png"]
 
@@ -10,6 +10,7 @@ rule pages:
         "docs/accuracy.md",
         "docs/skipping.md",
         "docs/frequency.md",
+        "docs/robustness.md",
 
 
 rule accuracy_page:
@@ -72,3 +73,22 @@ rule frequency_page:
         code=code("frequency_page.py"),
     script:
         "../scripts/frequency_page.py"
+
+
+rule robustness_page:
+    input:
+        template=BASE / "workflow" / "pages" / "robustness.md",
+        claims="results/ensemble_claims.csv",
+        correlations="results/ensemble_correlations.csv",
+        figure="results/figures/ensemble.png",
+    output:
+        page="docs/robustness.md",
+        figure="docs/figures/ensemble.png",
+    log:
+        "results/logs/robustness_page.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("robustness_page.py"),
+    script:
+        "../scripts/robustness_page.py"

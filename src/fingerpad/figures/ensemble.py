@@ -1,0 +1,67 @@
+"""Which statements hold in every member of the ensemble over assumptions."""
+
+from __future__ import annotations
+
+from textwrap import wrap
+from typing import Any
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from ..alternatives import FIRST, SECOND
+from ..claims import Holds
+from ..tissue_law import Kinematics
+from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, letter, new_figure, styled, subtitle
+
+ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.0, 12.0, 52.0  # mm
+CLAIM_WIDTH = 44  # characters in a line of a statement
+ASIDE = {FIRST: -0.22, SECOND: 0.22}  # of a member's place [1], where its half-cycles are drawn
+SIZE = 3.4  # of a mark [pt]
+MARKS: dict[Holds, dict[str, Any]] = {
+    Holds.YES: {"marker": "o", "color": BLUE, "fillstyle": "full"},
+    Holds.NO: {"marker": "x", "color": VERMILLION},
+    Holds.UNDECIDED: {"marker": "o", "color": GREY, "fillstyle": "none"},
+}
+CAPTION = (
+    "n = {count} members: in each one assumption is varied, named below, or none. Left mark of a pair: first half-cycle"
+    " of the stimulus, right: second. No mark: a path that could not be followed, or no prediction. Ratings: ordinal"
+    " surrogates where data/ratings.csv calls them so."
+)
+
+
+@styled
+def ensemble_figure(claims: pd.DataFrame) -> Figure:
+    """A mark for every statement, member and half-cycle, a panel a kinematics.
+
+    claims: results/ensemble_claims.csv.
+    """
+    kinematics = list(claims["kinematics"].unique())
+    statements, members = list(claims["claim"].unique()), list(claims["varied"].unique())
+    height = len(kinematics) * (ROW_HEIGHT * len(statements) + NAMES_HEIGHT) + LEGEND_HEIGHT
+    figure = new_figure(WIDE, height)
+    panels = figure.subplots(len(kinematics), 1, squeeze=False, sharex=True)[:, 0]
+    for axes, each, text in zip(panels, kinematics, "AB", strict=False):
+        _marks(axes, claims[claims["kinematics"] == each], statements, members)
+        subtitle(axes, KINEMATICS_NAME[Kinematics(each)].capitalize(), "")
+        letter(axes, text)
+    panels[-1].set_xticks(range(len(members)), members, rotation=90)
+    handles = [Line2D([], [], linestyle="none", markersize=SIZE, label=str(each), **MARKS[each]) for each in Holds]
+    legend_below(figure, handles, CAPTION.format(count=len(members)))
+    return figure
+
+
+def _marks(axes: Axes, claims: pd.DataFrame, statements: list[str], members: list[str]) -> None:
+    """Marks of one kinematics: statements from the top down, members from the left."""
+    place = claims["varied"].map(members.index) + claims["half_cycle"].map(ASIDE)
+    row = claims["claim"].map(statements.index)
+    for holds, look in MARKS.items():
+        own = claims["holds"] == str(holds)
+        axes.plot(place[own], row[own], linestyle="none", markersize=SIZE, **look)
+    axes.set_yticks(range(len(statements)), ["\n".join(wrap(each, CLAIM_WIDTH)) for each in statements])
+    axes.set_xlim(-0.5, len(members) - 0.5)
+    axes.set_ylim(len(statements) - 0.5, -0.5)
+    for between in range(1, len(members)):
+        axes.axvline(between - 0.5, color=GREY, linewidth=0.2)
+    axes.tick_params(length=0.0)

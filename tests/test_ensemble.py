@@ -1,0 +1,177 @@
+"""The ensemble over assumptions: what is varied, that nothing else is, and what its tables say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from fingerpad.alternatives import (
+    AS_CONFIGURED,
+    FIRST,
+    HALF_CYCLES,
+    SECOND,
+    Alternative,
+    member_scenes,
+    named_alternative,
+    read_ensemble,
+    slug,
+    write_scenes,
+)
+from fingerpad.ensemble import ensemble_tables
+from fingerpad.errors import SceneError
+from fingerpad.figures.ensemble import ensemble_figure
+from fingerpad.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.robustness import robustness_values
+from fingerpad.scenefile import read_yaml
+from fingerpad.validation import check_device
+from test_claims import CONDITIONS, make_scores
+
+ROOT = Path(__file__).parents[1]
+SCHEMAS = ROOT / "workflow" / "schemas"
+SHIPPED = ROOT / "config" / "ensemble.yaml"
+CONFIG = read_yaml(ROOT / "config" / "config.yaml")
+DEVICES = {path.stem: read_yaml(path) for path in sorted((ROOT / "config" / "devices").glob("device?.yaml"))}
+FRICTION = Alternative("model", "contact.friction", 0.38, None, "Buchholz et al. 1988")
+DENSER = Alternative("devices", "actuators.pitch", None, 0.8, "assumption: a denser row")
+
+
+@pytest.mark.parametrize("alternative", [None, *read_ensemble(SHIPPED)], ids=lambda each: each.name if each else "none")
+def test_every_member_is_a_folder_of_valid_scenes(alternative: Alternative | None, tmp_path: Path) -> None:
+    config, devices = write_scenes(tmp_path, CONFIG, DEVICES, alternative, SECOND)
+    assert devices
+    for path in devices:
+        scene = check_device(path, SCHEMAS, config)
+        assert read_yaml(path)["stimulus"]["half_cycle"]["value"] == SECOND
+        assert scene.device.name in DEVICES
+
+
+def test_members_have_names_of_their_own() -> None:
+    alternatives = read_ensemble(SHIPPED)
+    assert len({slug(each.name) for each in alternatives} | {slug(AS_CONFIGURED)}) == len(alternatives) + 1
+    assert named_alternative(alternatives, slug(AS_CONFIGURED)) is None
+    assert named_alternative(alternatives, slug(alternatives[3].name)) == alternatives[3]
+    with pytest.raises(SceneError, match="found the member nobody"):
+        named_alternative(alternatives, "nobody")
+
+
+def test_one_value_changes_and_says_so() -> None:
+    scenes = member_scenes(CONFIG, DEVICES, FRICTION, FIRST)
+    assert scenes.config["contact"]["friction"] == {
+        "value": 0.38,
+        "unit": "1",
+        "source": "varied: Buchholz et al. 1988",
+    }
+    scenes.config["contact"]["friction"] = CONFIG["contact"]["friction"]
+    assert scenes.config == CONFIG
+    assert scenes.devices.keys() == DEVICES.keys()
+
+
+def test_devices_vary_in_what_they_assume_alone() -> None:
+    """Device 2's pitch is assumed, those of the others are known."""
+    scenes = member_scenes(CONFIG, DEVICES, DENSER, FIRST)
+    assert list(scenes.devices) == ["device2"]
+    assert scenes.devices["device2"]["actuators"]["pitch"]["value"] == 2.0
+    assert DEVICES["device2"]["actuators"]["pitch"]["value"] == 2.5
+
+
+def test_the_second_half_cycle_turns_every_displacement_round(tmp_path: Path) -> None:
+    found = {}
+    for half_cycle in HALF_CYCLES:
+        folder = tmp_path / half_cycle
+        config, devices = write_scenes(folder, CONFIG, DEVICES, None, half_cycle)
+        found[half_cycle] = [check_device(path, SCHEMAS, config).device.conditions for path in devices]
+    for first, second in zip(*found.values(), strict=True):
+        for one, other in zip(first, second, strict=True):
+            np.testing.assert_array_equal(one.normal, -other.normal)
+            np.testing.assert_array_equal(one.tangential, -other.tangential)
+
+
+@pytest.mark.parametrize(
+    ("document", "said"),
+    [
+        ({"finger": []}, "found the key finger; allowed: model, devices"),
+        ({"model": [{"key": "contact.friction", "values": [1.0]}]}, r"model\[0\]: found .*; allowed: the keys key"),
+        ({"model": [{"key": "a", "values": 1.0, "source": "s"}]}, "allowed: a list"),
+        ({"model": [{"key": "a", "times": ["x"], "source": "s"}]}, "allowed: a list, of numbers under times"),
+    ],
+)
+def test_bad_alternatives_are_named(document: dict[str, object], said: str, tmp_path: Path) -> None:
+    path = tmp_path / "ensemble.yaml"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    with pytest.raises(SceneError, match=said):
+        read_ensemble(path)
+
+
+@pytest.mark.parametrize(
+    ("alternative", "said"),
+    [
+        (Alternative("model", "contact.fricton", 0.1, None, "s"), "config.yaml has no value contact.fricton"),
+        (Alternative("devices", "actuators.ptich", None, 2.0, "s"), "no device assumes a value actuators.ptich"),
+        (Alternative("model", "readout.side", None, 2.0, "s"), "found 'dermis'; allowed: a number"),
+    ],
+)
+def test_what_cannot_be_varied_is_named(alternative: Alternative, said: str) -> None:
+    with pytest.raises(SceneError, match=said):
+        member_scenes(CONFIG, DEVICES, alternative, FIRST)
+
+
+@pytest.fixture(scope="module")
+def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Scores as the paper says; with less friction Device 2's strain falls, and in the second half-cycle Device 3's
+    strain is as good as level."""
+    usual, less = make_scores(), make_scores({("device2", "shear", "strain"): [3, 2, 1]})
+    level = make_scores({("device3", "shear", "strain"): [2.0, 2.0001, 2.0002]})
+    members = [
+        usual.assign(half_cycle=FIRST, varied=AS_CONFIGURED),
+        level.assign(half_cycle=SECOND, varied=AS_CONFIGURED),
+        *(less[less["device"] == "device2"].assign(half_cycle=each, varied=FRICTION.name) for each in HALF_CYCLES),
+    ]
+    return ensemble_tables(
+        pd.concat(members).drop(columns="score_error"),
+        usual,
+        read_ratings(ROOT / "data/ratings.csv", CONDITIONS),
+        read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS),
+        read_published(ROOT / "data/published_r2.csv"),
+    )
+
+
+def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+    """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
+    claims, correlations = tables
+    assert len(claims) == 4 * 16
+    verdict = claims.set_index(["half_cycle", "varied", "claim"])["holds"]
+    turned = verdict[verdict != "yes"].to_dict()
+    strain2, strain3 = "Device 2: the strain correlates well.", "Device 3: the strain correlates negatively."
+    assert turned == {
+        (FIRST, FRICTION.name, strain2): "no",
+        (SECOND, FRICTION.name, strain2): "no",
+        (SECOND, AS_CONFIGURED, strain3): "undecided",
+        (SECOND, FRICTION.name, strain3): "undecided",
+    }
+    assert set(correlations["varied"]) == {AS_CONFIGURED, FRICTION.name}
+
+
+def test_page_counts_members_and_names_what_turns_a_statement(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+    values = robustness_values(*tables)
+    assert values["members"] == 2
+    row = next(
+        line for line in str(values["statements"]).splitlines() if "Device 2: the strain correlates well" in line
+    )
+    assert row.count("yes, 1 of 2 | contact.friction 0.38") == 2
+    assert "Device 2: the strain correlates well" not in str(values["always"])
+    assert "- Device 1: the change of strain correlates very well." in str(values["always"])
+    assert "| small | device2 | strain | 0.989, rising | 1, rising | 1, rising | 2 of 4 |" in str(
+        values["correlations"]
+    )
+
+
+def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+    figure = ensemble_figure(tables[0])
+    figure.draw_without_rendering()
+    marks = sum(len(line.get_xdata()) for line in figure.axes[0].lines if line.get_linestyle() == "None")
+    assert marks == len(tables[0])
+    assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == [AS_CONFIGURED, FRICTION.name]

@@ -1,0 +1,88 @@
+# Which statements hang on which assumption: each varied alone, in either half-cycle of the stimuli, with all kinematics.
+# Not part of `all`: ask for it with `snakemake ensemble` (some ten minutes of one core with small kinematics, an hour with finite ones).
+# REQUIRED INPUTS: config/ensemble.yaml, results/scores.csv, data/.
+# OUTPUTS: results/ensemble/{kinematics}/{member}/{half_cycle}/ with scene files and scores,
+# results/ensemble_{claims,correlations}.csv, results/figures/ensemble.{png,pdf}
+
+ENSEMBLE = BASE / "config" / "ensemble.yaml"
+try:
+    MEMBERS = [slug(AS_CONFIGURED), *(slug(each.name) for each in read_ensemble(ENSEMBLE))]
+except FingerpadError as error:
+    raise WorkflowError(str(error)) from None
+
+
+rule ensemble:
+    input:
+        "results/ensemble_claims.csv",
+        "results/figures/ensemble.png",
+        "results/figures/ensemble.pdf",
+
+
+rule ensemble_member:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+        ensemble=ancient(ENSEMBLE),
+        schemas=[PROJECT / "workflow" / "schemas" / f"{name}.schema.yaml" for name in ("config", "device")],
+    output:
+        scenes=directory("results/ensemble/{kinematics}/{member}/{half_cycle}/scenes"),
+        scores="results/ensemble/{kinematics}/{member}/{half_cycle}/scores.csv",
+    log:
+        "results/logs/ensemble/{kinematics}/{member}/{half_cycle}.log",
+    wildcard_constraints:
+        member="|".join(MEMBERS),
+        half_cycle="|".join(HALF_CYCLES),
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        code=code("ensemble_member.py"),
+        scenes=support.fingerprint([(SCENE[name].model, SCENE[name].device) for name in DEVICES]),
+        ensemble=support.fingerprint(read_ensemble(ENSEMBLE)),
+    script:
+        "../scripts/ensemble_member.py"
+
+
+rule ensemble_tables:
+    input:
+        members=expand(
+            "results/ensemble/{kinematics}/{member}/{half_cycle}/scores.csv",
+            kinematics=KINEMATICS,
+            member=MEMBERS,
+            half_cycle=HALF_CYCLES,
+        ),
+        scores="results/scores.csv",
+        ratings=DATA / "ratings.csv",
+        order=DATA / "stated_order.csv",
+        published=DATA / "published_r2.csv",
+    output:
+        claims="results/ensemble_claims.csv",
+        correlations="results/ensemble_correlations.csv",
+    log:
+        "results/logs/ensemble_tables.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("ensemble_tables.py"),
+        conditions=support.fingerprint(KNOWN),
+    script:
+        "../scripts/ensemble_tables.py"
+
+
+rule figure_ensemble:
+    input:
+        claims="results/ensemble_claims.csv",
+    output:
+        png="results/figures/ensemble.png",
+        pdf="results/figures/ensemble.pdf",
+    log:
+        "results/logs/figure_ensemble.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("figure_ensemble.py"),
+    script:
+        "../scripts/figure_ensemble.py"

@@ -1,0 +1,44 @@
+"""Scene files and scores of one member of the ensemble over assumptions."""
+
+from pathlib import Path
+
+from fingerpad.alternatives import named_alternative, read_ensemble, write_scenes
+from fingerpad.ensemble import member_scores
+from fingerpad.scenefile import read_yaml
+from fingerpad.store import write_rows
+from fingerpad.tissue_law import Kinematics
+from fingerpad.validation import check_device
+
+
+def main(
+    config: Path,
+    devices: list[Path],
+    ensemble: Path,
+    schemas: Path,
+    member: str,
+    half_cycle: str,
+    kinematics: str,
+    scenes: Path,
+    scores: Path,
+) -> None:
+    """Write the member's scene files, check them, solve all their conditions, write the scores."""
+    alternative = named_alternative(read_ensemble(ensemble), member)
+    documents = {path.stem: read_yaml(path) for path in devices}
+    own_config, own_devices = write_scenes(scenes, read_yaml(config), documents, alternative, half_cycle)
+    found = [check_device(path, schemas, own_config) for path in own_devices]
+    write_rows(scores, member_scores(found, Kinematics(kinematics), alternative, half_cycle))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        Path(job.input.config),
+        [Path(path) for path in job.input.devices],
+        Path(job.input.ensemble),
+        Path(job.input.schemas[0]).parent,
+        job.wildcards.member,
+        job.wildcards.half_cycle,
+        job.wildcards.kinematics,
+        Path(job.output.scenes),
+        Path(job.output.scores),
+    )

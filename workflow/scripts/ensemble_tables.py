@@ -1,0 +1,45 @@
+"""Which statements hold in every member of the ensemble over assumptions."""
+
+import json
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.ensemble import ensemble_tables
+from fingerpad.ratings import read_published, read_ratings, read_stated_order
+
+
+def main(
+    members: list[Path],
+    scores: Path,
+    ratings: Path,
+    order: Path,
+    published: Path,
+    conditions: dict[str, list[str]],
+    claims: Path,
+    correlations: Path,
+) -> None:
+    """Read all members' scores and literature data, check the statements, write the tables."""
+    tables = ensemble_tables(
+        pd.concat([pd.read_csv(path) for path in members], ignore_index=True),
+        pd.read_csv(scores),
+        read_ratings(ratings, conditions),
+        read_stated_order(order, conditions),
+        read_published(published),
+    )
+    for table, path in zip(tables, (claims, correlations), strict=True):
+        table.to_csv(path, index=False, lineterminator="\n")
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        [Path(path) for path in job.input.members],
+        Path(job.input.scores),
+        Path(job.input.ratings),
+        Path(job.input.order),
+        Path(job.input.published),
+        json.loads(job.params.conditions)[0],
+        Path(job.output.claims),
+        Path(job.output.correlations),
+    )

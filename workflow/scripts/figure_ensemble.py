@@ -1,0 +1,18 @@
+"""Draw which statements hold in every member of the ensemble over assumptions."""
+
+from pathlib import Path
+
+import pandas as pd
+from fingerpad.figures.ensemble import ensemble_figure
+
+from fingerpad.figures.style import save
+
+
+def main(claims: Path, stem: Path) -> None:
+    """Read the table, draw, write PNG and PDF."""
+    save(ensemble_figure(pd.read_csv(claims)), stem)
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(Path(job.input.claims), Path(job.output.png).with_suffix(""))
