@@ -1,5 +1,5 @@
 # Pages of docs/ that say what was measured. They need every long target; not part of `all`: `snakemake pages`.
-# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble.
+# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble, results/scores.csv.
 # OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/robustness.md, docs/figures/*.png
 
 MEASURED_FIGURES = ["accuracy_closed_forms.png", "benchmark.png"]
@@ -61,6 +61,7 @@ rule frequency_page:
         template=BASE / "workflow" / "pages" / "frequency.md",
         table="results/frequency.csv",
         variants="results/frequency_variants.csv",
+        scores="results/scores.csv",
         figure="results/figures/frequency.png",
     output:
         page="docs/frequency.md",

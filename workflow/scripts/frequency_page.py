@@ -9,9 +9,9 @@ from fingerpad.files import write_text
 from fingerpad.pages import filled, frequency_values
 
 
-def main(template: Path, table: Path, variants: Path, figure: Path, page: Path, shown: Path) -> None:
+def main(template: Path, table: Path, variants: Path, scores: Path, figure: Path, page: Path, shown: Path) -> None:
     """Read template and tables, write the page, and the figure beside it."""
-    values = frequency_values(pd.read_csv(table), pd.read_csv(variants))
+    values = frequency_values(pd.read_csv(table), pd.read_csv(variants), pd.read_csv(scores))
     write_text(page, filled(template.read_text(encoding="utf-8"), values))
     shutil.copyfile(figure, shown)
 
@@ -22,6 +22,7 @@ if __name__ == "__main__":
         Path(job.input.template),
         Path(job.input.table),
         Path(job.input.variants),
+        Path(job.input.scores),
         Path(job.input.figure),
         Path(job.output.page),
         Path(job.output.figure),
