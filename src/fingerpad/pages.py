@@ -19,7 +19,15 @@ COMPARED_AT = 0.01  # error [1] at which run times are compared
 BOUND = 2.0  # times the stated error [1] within which the true one should lie
 PERCENT = 100.0
 GROUP = ["kinematics", "device", "interface", "readout"]
-CALCULIX_COLUMNS = ["strain_indented", "pressing_indented", "strain_actuated", "force_actuated", "change_of_strain"]
+CALCULIX_COLUMNS = [
+    "strain_indented",
+    "pressing_indented",
+    "strain_actuated",
+    "force_actuated",
+    "change_of_strain",
+    "score_strain",
+    "score_change_of_strain",
+]
 
 
 def filled(template: str, values: Mapping[str, object]) -> str:
