@@ -180,9 +180,10 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     ]
     increments = {"device": "d", "readout": "strain", "times_the_increments": 2, "scores": 3, "largest_change": 1e-4}
     increments |= {"largest_change_over_stated_error": 0.1, "beyond_stated_error": 0}
-    form = {"case": "c", "unknowns": 9, "computed": 1.0, "error": 1e-3}
+    form = {"case": "c", "unknowns": 9, "spacing": 0.1, "computed": 1.0, "error": 1e-3}
     forms = [form | {"quantity": "strain", "tolerance": 0.005}]
     forms += [form | {"quantity": "order, strain", "computed": 2.04, "tolerance": None}]
+    forms += [form | {"quantity": "strain", "spacing": 0.2, "error": 4e-3, "tolerance": None}]
     graph = {"cores": 2, "empty_s": 10.0, "real_s": 38.0, "again_s": 3.0, "ratio": 3.8}
     timing = {
         "kinematics": "small",
@@ -206,7 +207,9 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     }
     values = accuracy_values({name: pd.DataFrame(rows) for name, rows in tables.items()})
     page = filled((PAGES / "accuracy.md").read_text(), values)
-    assert re.search(r"1 of 2 scores lie within 2 times their stated error; the worst lies at 3.00", page)
+    assert re.search(r"2 of 2 exceed their stated error; 1 lie within 2 times it, and the worst at 3.00", page)
+    assert "No score moves by more than\n0.01 %; 0 of 3 move by more than their stated error." in page
+    assert "- on the finest mesh of a case none,\n- on coarser meshes 1, largest error 4.0e-03 (c: strain)." in page
     assert "1 of 2 scores miss 0.5 %" in page
     assert "| small | CalculiX | 150 | 300 | 1 |" in page
     assert "| finite | CalculiX | 40 | 1 | 1 |" in page

@@ -1,4 +1,4 @@
-"""Pages of docs/ that say what was measured: prose from a template, every figure from a table of results."""
+"""Pages of docs/ that say what was measured: prose from a template, every number from a table of results."""
 
 from __future__ import annotations
 
@@ -88,6 +88,7 @@ def _of_scores(scores: pd.DataFrame) -> dict[str, object]:
         "scores": len(scores),
         "within": int((scores["error_over_stated"] <= BOUND).sum()),
         "bound": f"{BOUND:g}",
+        "exceeding": int((scores["error_over_stated"] > 1.0).sum()),
         "worst": f"{scores['error_over_stated'].max():.2f}",
         "times": f"{scores['times_unknowns'].min():.1f}",
         "median": f"{PERCENT * size.median():.2f} %",
@@ -108,6 +109,7 @@ def _of_increments(increments: pd.DataFrame) -> dict[str, object]:
     return {
         "moved": increments["beyond_stated_error"].sum(),
         "increments_scores": increments["scores"].sum(),
+        "increments_largest": f"{PERCENT * increments['largest_change'].max():.2f} %",
         "increments": table(increments.assign(largest_change=_digits(increments["largest_change"]))),
     }
 
@@ -115,6 +117,8 @@ def _of_increments(increments: pd.DataFrame) -> dict[str, object]:
 def _of_closed_forms(closed_forms: pd.DataFrame) -> dict[str, object]:
     is_order = closed_forms["quantity"].str.startswith(ORDER_OF)
     held, orders = closed_forms[closed_forms["tolerance"].notna() & ~is_order], closed_forms[is_order]
+    free = closed_forms[closed_forms["tolerance"].isna() & ~is_order]
+    is_finest = free["spacing"] <= closed_forms.groupby("case")["spacing"].min()[free["case"]].to_numpy()
     return {
         "closed_forms": table(
             held[["case", "quantity", "unknowns"]].assign(
@@ -122,7 +126,17 @@ def _of_closed_forms(closed_forms: pd.DataFrame) -> dict[str, object]:
             )
         ),
         "orders": table(orders[["case", "quantity"]].assign(order=orders["computed"].map("{:.2f}".format))),
+        "free_finest": _worst_form(free[is_finest]),
+        "free_coarser": _worst_form(free[~is_finest]),
     }
+
+
+def _worst_form(rows: pd.DataFrame) -> str:
+    """How many rows there are, and the largest error among them."""
+    if rows.empty:
+        return "none"
+    worst = rows.loc[rows["error"].idxmax()]
+    return f"{len(rows)}, largest error {worst['error']:.1e} ({worst['case']}: {worst['quantity']})"
 
 
 def _of_calculix(calculix: pd.DataFrame) -> str:
