@@ -393,6 +393,10 @@ def test_faces_are_projected_on_the_receptor_line() -> None:
     none = np.zeros((0, 0))
     condensed = CondensedSection(none, none, none, np.stack([x, 0.0 * x], axis=1), 1.1 * x, none, 0.0)
     np.testing.assert_allclose(face_arcs(PHASED, condensed), 1.1 * np.array([[-2.5, -1.5], [-0.5, 0.5], [1.5, 2.5]]))
+    around = np.concatenate([[-2.0, -3.0], x, [3.0, 2.0]])  # beyond its widest the line comes back
+    arc = 1.1 * np.arange(-6.0, 7.0)
+    condensed = CondensedSection(none, none, none, np.stack([around, 0.0 * around], axis=1), arc, none, 0.0)
+    np.testing.assert_allclose(face_arcs(PHASED, condensed), 1.1 * np.array([[-2.5, -1.5], [-0.5, 0.5], [1.5, 2.5]]))
 
 
 def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd.DataFrame) -> None:

@@ -57,7 +57,9 @@ def face_arcs(device: Device, section: CondensedSection) -> FloatArray:
     """Where the faces (n_actuators, 2) begin and end along the receptor line [mm], straight above each."""
     half = device.actuators.width / 2.0
     edges = np.asarray(device.actuators.positions)[:, None] + np.array([-half, half])
-    return np.asarray(np.interp(edges, section.receptor[:, 0], section.arc))
+    across = section.receptor[:, 0]
+    pad = slice(int(across.argmin()), int(across.argmax()) + 1)  # beyond its widest the line comes back
+    return np.asarray(np.interp(edges, across[pad], section.arc[pad]))
 
 
 @styled
