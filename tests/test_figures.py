@@ -40,6 +40,7 @@ from fingerpad.scene import Scene
 from fingerpad.scenefile import build_model, read_yaml
 from fingerpad.solution import Solution
 from fingerpad.strain import FilteredReadouts
+from fingerpad.tissue_law import Kinematics
 
 ROOT = Path(__file__).parents[1]
 COARSE = Numerics(0.4, 0.1, 0.4, 0.1, 0.4, 0.6, 0.5, 1.5, 2, 1, 1e-9, 1)
@@ -284,6 +285,27 @@ def test_accuracy_has_a_panel_a_case_and_shows_what_is_held_to_a_tolerance() -> 
     np.testing.assert_allclose(curve.get_xydata(), [[0.4, 0.16], [0.2, 0.04], [0.1, 0.01]])
     np.testing.assert_allclose(held.get_xydata(), [[0.1, 0.01]])
     assert set(tolerance.get_ydata()) == {0.005}
+
+
+def test_accuracy_of_finite_kinematics_stands_apart_and_tolerances_have_their_quantitys_colour() -> None:
+    names = ["case", "quantity", "spacing", "unknowns", "computed", "exact", "error", "tolerance"]
+    table = pd.DataFrame(
+        [
+            ("Spence", "stick zone", 0.1, 100, 1.0, 1.0, 0.003, 0.011),
+            ("Spence", "no lift", 0.1, 100, 1.0, 1.0, 0.002, 0.009),
+            ("Finite shear", "hencky", 0.1, 100, 1.0, 1.0, 1e-15, 1e-10),
+            ("Bent block", "gradient", 0.1, 100, 1.0, 1.0, 1e-5, 1e-3),
+        ],
+        columns=names,
+    )
+    small, finite = (accuracy_figure(table, each) for each in Kinematics)
+    assert [axes.get_title(loc="left") for axes in small.axes if axes.axison] == ["Spence"]
+    assert [axes.get_title(loc="left") for axes in finite.axes if axes.axison] == ["Finite shear", "Bent block"]
+    drawn = {line.get_ydata()[0]: line.get_color() for line in small.axes[0].lines if line.get_linestyle() == "--"}
+    marks = {line.get_ydata()[0]: line.get_color() for line in small.axes[0].lines if line.get_linestyle() != "--"}
+    assert drawn == {0.011: marks[0.003], 0.009: marks[0.002]}
+    assert "in its quantity's colour" in words(small)
+    assert "in its quantity's colour" not in words(finite)
 
 
 def test_receptor_figure_has_a_row_a_device() -> None:

@@ -2,7 +2,8 @@
 # And how far scores are off a reference of 20 times the unknowns, and whether their stated errors are honest.
 # Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (some hours, 10 GB).
 # REQUIRED INPUTS: scene files, results/scores.csv.
-# OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms.{png,pdf}, results/accuracy/scores.csv
+# OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms{_finite}.{png,pdf},
+# results/accuracy/scores.csv
 
 # With finite kinematics a reference takes hours, and Device 1's does not end: without friction each increment wants new tangents.
 REFERENCED = {each: DEVICES_WITH[each] for each in KINEMATICS}
@@ -14,8 +15,7 @@ rule accuracy:
     input:
         "results/accuracy/closed_forms.csv",
         "results/accuracy/increments.csv",
-        "results/figures/accuracy_closed_forms.png",
-        "results/figures/accuracy_closed_forms.pdf",
+        expand("results/figures/accuracy_closed_forms{mode}.{ending}", mode=MODES, ending=["png", "pdf"]),
 
 
 rule honesty:
@@ -105,13 +105,14 @@ rule figure_accuracy:
     input:
         table="results/accuracy/closed_forms.csv",
     output:
-        png="results/figures/accuracy_closed_forms.png",
-        pdf="results/figures/accuracy_closed_forms.pdf",
+        png="results/figures/accuracy_closed_forms{mode}.png",
+        pdf="results/figures/accuracy_closed_forms{mode}.pdf",
     log:
-        "results/logs/figure_accuracy.log",
+        "results/logs/figure_accuracy{mode}.log",
     conda:
         ENVIRONMENT
     params:
         code=code("figure_accuracy.py"),
+        kinematics=mode_of,
     script:
         "../scripts/figure_accuracy.py"

@@ -1,4 +1,4 @@
-"""Draw the errors of all closed forms."""
+"""Draw the errors of all closed forms with small or with finite kinematics."""
 
 from pathlib import Path
 
@@ -6,13 +6,14 @@ import pandas as pd
 
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.style import save
+from fingerpad.tissue_law import Kinematics
 
 
-def main(table: Path, stem: Path) -> None:
+def main(table: Path, kinematics: Kinematics, stem: Path) -> None:
     """Read the table, draw, write PNG and PDF."""
-    save(accuracy_figure(pd.read_csv(table)), stem)
+    save(accuracy_figure(pd.read_csv(table), kinematics), stem)
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.table), Path(job.output.png).with_suffix(""))
+    main(Path(job.input.table), Kinematics(job.params.kinematics), Path(job.output.png).with_suffix(""))

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from ..closedforms.comparison import ORDER_OF
+from ..tissue_law import Kinematics
 from .style import COLOURS, GREY, MARKERS, WIDE, legend_below, letter, new_figure, styled
 
 COLUMNS = 3
@@ -23,17 +24,21 @@ TYPESET = {
     "ogden": "Ogden",
     "green": "Green",
 }
-ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 10.0  # mm
+ROW_HEIGHT, LEGEND_HEIGHT = 45.0, 13.0  # mm
+FINITE_CASES = ("Finite", "Bent")  # how cases with finite kinematics begin
 LETTER_OFFSET = (-26.0, 4.0)  # pt
+CAPTION = "Where quantities of a panel have tolerances of their own, each is drawn in its quantity's colour."
 LABELS = 3  # of a legend in one column [1]; more are short, and stand in two
 LABEL_HEIGHT, MARGIN = 0.145, 0.06  # of a label of a legend, and around all, of a panel's height [1]
 
 
 @styled
-def accuracy_figure(rows: pd.DataFrame) -> Figure:
-    """One panel a case, one curve a quantity. rows: the table of closed forms."""
-    cases = list(dict.fromkeys(rows["case"]))
+def accuracy_figure(rows: pd.DataFrame, kinematics: Kinematics = Kinematics.SMALL) -> Figure:
+    """One panel a case with those kinematics, one curve a quantity. rows: the table of closed forms."""
+    finite = kinematics is Kinematics.FINITE
+    cases = [case for case in dict.fromkeys(rows["case"]) if case.startswith(FINITE_CASES) is finite]
     lines = -(-len(cases) // COLUMNS)
+    shown = rows[rows["case"].isin(cases)]
     figure = new_figure(WIDE, ROW_HEIGHT * lines + LEGEND_HEIGHT)
     grid = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
     for axes, case, name in zip(grid, cases, "ABCDEFGHIJKLMNOPQRSTUVWXYZ", strict=False):
@@ -49,8 +54,14 @@ def accuracy_figure(rows: pd.DataFrame) -> Figure:
             Line2D([], [], color=GREY, marker="o", markerfacecolor="white", label="coarser mesh, or not held to any"),
             Line2D([], [], color=GREY, linestyle="--", label="tolerance"),
         ],
+        CAPTION if (_tolerances(shown).groupby("case")["tolerance"].nunique() > 1).any() else "",
     )
     return figure
+
+
+def _tolerances(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows whose error, not an order, is held to a tolerance."""
+    return rows[rows["tolerance"].notna() & ~rows["quantity"].str.startswith(ORDER_OF)]
 
 
 def _panel(axes: Axes, rows: pd.DataFrame) -> None:
@@ -58,6 +69,7 @@ def _panel(axes: Axes, rows: pd.DataFrame) -> None:
     ordered = rows[rows["quantity"].str.startswith(ORDER_OF)]
     order = {row.quantity.removeprefix(ORDER_OF): row.computed for row in ordered.itertuples()}
     curves = rows.drop(ordered.index)
+    tolerances = _tolerances(rows)["tolerance"].unique()
     for number, (quantity, curve) in enumerate(curves.groupby("quantity", sort=False)):
         label = _typeset(str(quantity))
         label += f": order {order[quantity]:.2f}" if quantity in order else ""
@@ -65,8 +77,10 @@ def _panel(axes: Axes, rows: pd.DataFrame) -> None:
         asked = curve["tolerance"].notna()
         axes.plot(curve["spacing"], curve["error"], markerfacecolor="white", label=label, **look)
         axes.plot(curve.loc[asked, "spacing"], curve.loc[asked, "error"], linestyle="none", **look)
-    for tolerance in curves["tolerance"].dropna().unique():
-        axes.axhline(tolerance, color=GREY, linestyle="--", zorder=0)
+        if len(tolerances) > 1 and asked.any():
+            axes.axhline(curve.loc[asked, "tolerance"].iloc[0], color=look["color"], linestyle="--", zorder=0)
+    if len(tolerances) == 1:
+        axes.axhline(tolerances[0], color=GREY, linestyle="--", zorder=0)
     axes.set(xscale="log", yscale="log", xlabel="Element length (mm)", ylabel="Relative error")
     every = pd.concat([curves["error"], curves["tolerance"].dropna()])
     columns = 1 if curves["quantity"].nunique() <= LABELS else 2
