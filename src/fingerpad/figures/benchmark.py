@@ -25,7 +25,7 @@ from .style import (
     styled,
 )
 
-HEIGHT = 78.0  # mm
+HEIGHT = 86.0  # mm
 LETTER_OFFSET = (-26.0, 4.0)  # pt
 AIM = 0.01  # error [1] at which solvers are compared
 LADDERS = (  # solver, column, label, colour, marker
@@ -41,6 +41,10 @@ LINES: dict[Kinematics, dict[str, Any]] = {
     Kinematics.FINITE: {"linestyle": "--", "markerfacecolor": "white"},
 }
 FINITE = "Dashed, open marks: finite strain."
+CAPTION = (
+    "The error is against each solver's own reference: CalculiX's against its finest mesh, all others' against a finer"
+    " one of fingerpad."
+)
 GROWTHS = (  # what is varied, size, seconds, label, colour, marker
     ("mesh", "unknowns", "setup_s", "set-up, unknowns", BLUE, "o"),
     ("mesh", "contact_nodes", "condition_s", "condition, contact nodes", ORANGE, "s"),
@@ -61,7 +65,8 @@ def benchmark_figure(ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFra
     _draw_growth(right, sizes, fits)
     for axes, name in ((left, "A"), (right, "B")):
         letter(axes, name, LETTER_OFFSET)
-    legend_below(figure, handles, FINITE if (ladder["kinematics"] == Kinematics.FINITE).any() else "")
+    with_finite = (ladder["kinematics"] == Kinematics.FINITE).any()
+    legend_below(figure, handles, f"{FINITE} {CAPTION}" if with_finite else CAPTION)
     return figure
 
 
@@ -89,6 +94,7 @@ def _draw_growth(axes: Axes, sizes: pd.DataFrame, fits: pd.DataFrame) -> None:
         axes.plot(
             own[size] / own[size].iloc[0], own[seconds] / own[seconds].iloc[0], color=colour, marker=marker, label=power
         )
-    axes.set(xscale="log", yscale="log", xlabel="Size, of the smallest", ylabel="Wall time, of the smallest")
+    axes.set(xscale="log", yscale="log", xlabel="Size relative to the smallest")
+    axes.set_ylabel("Wall time relative\nto the smallest size")
     axes.set_title("Growth, and its exponent", loc="left")
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
