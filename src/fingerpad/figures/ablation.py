@@ -95,17 +95,21 @@ def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.
     axes.set_title("\n".join(lines), loc="left", fontsize="medium", fontweight="normal")
 
 
-def name_conditions(axes: Axes, conditions: pd.DataFrame) -> None:
-    """Phases under the bars, and under them the dispersions; or the conditions' names where these say too little."""
+def name_conditions(axes: Axes, conditions: pd.DataFrame, is_short: bool = False) -> None:
+    """Phases under the bars, and under them the dispersions; or the conditions' names where these say too little.
+
+    is_short: whether the axis' label has the degrees, not every phase.
+    """
     places = np.arange(len(conditions))
     if conditions.duplicated(["dispersion", "phase_deg"]).any():
         axes.set_xticks(places, list(conditions["condition"]), rotation=20.0, ha="right")
         return
-    axes.set_xticks(places, [f"{phase:g}°" for phase in conditions["phase_deg"]])
+    axes.set_xticks(places, [f"{phase:g}{'' if is_short else '°'}" for phase in conditions["phase_deg"]])
+    said = "Phase difference (°)" if is_short else "Phase difference"
     if conditions["dispersion"].nunique() == 1:
-        axes.set_xlabel("Phase difference")
+        axes.set_xlabel(said)
         return
-    axes.set_xlabel("Phase difference, dispersion", labelpad=-GROUP_OFFSET / 1.5)
+    axes.set_xlabel(f"{said}, dispersion", labelpad=-GROUP_OFFSET / 1.5)
     for name in conditions["dispersion"].unique():
         centre = float(places[(conditions["dispersion"] == name).to_numpy()].mean())
         axes.annotate(

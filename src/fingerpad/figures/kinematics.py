@@ -22,7 +22,6 @@ from .style import (
     KINEMATICS_NAME,
     ORANGE,
     SCORE_SCALE,
-    TEXT,
     WIDE,
     draw_errors,
     legend_below,
@@ -41,9 +40,7 @@ LOOK: dict[Kinematics, dict[str, Any]] = {
     Kinematics.FINITE: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
 }
 LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
-MANY = 6  # conditions beyond which their phases are written smaller
-SMALL_TEXT = 5.0  # pt
-GROUP_GAP = 2.0  # between the dispersions' names and the axis' [pt]
+MANY = 6  # conditions beyond which their phases stand without degrees
 LIMIT = "x"  # marks a limit point
 NO_LIMITS = "No force falls on the way: there are no limit points."
 SMALL_ALONE = " (small strain alone)"  # of a device whose file leaves the other out
@@ -113,7 +110,4 @@ def _bars(axes: Axes, readout: Readout, scores: pd.DataFrame) -> None:
         draw_errors(axes, places + side * BAR, heights, factor * own["score_error"].to_numpy(float), along="y")
     axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
     axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
-    name_conditions(axes, conditions)
-    if len(places) > MANY:
-        axes.tick_params(axis="x", labelsize=SMALL_TEXT)
-        axes.xaxis.labelpad += TEXT - SMALL_TEXT + GROUP_GAP
+    name_conditions(axes, conditions, len(places) > MANY)
