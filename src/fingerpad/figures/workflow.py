@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -27,17 +29,19 @@ from .style import (
 )
 
 HEIGHT = 100.0  # mm
-WIDTHS = (1.0, 1.0, 0.62)  # of the columns, relative
+WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 LONG = 6  # characters of a label beyond which labels are slanted
-HEADROOM = 1.15  # of the bars' axis over the tallest bar [1]
+HEADROOM = 1.45  # of the bars' axis over the tallest bar [1]
+CAPTION = "Small strain. Above bars: scores and their stated errors of discretisation."
 
 
 @styled
 def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule, scores: pd.DataFrame) -> Figure:
     """Receptor read-outs, the same after the Gabor filter, and their areas; strain (A), change of strain (B).
 
-    scores: condition, interface, readout, score [unit], unit; rows of this device with shear.
+    scores: condition, interface, readout, score and score_error [unit], unit; rows of this device with shear and small
+    strain.
     """
     device = entry.device
     figure = new_figure(WIDE, HEIGHT)
@@ -65,11 +69,12 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
             subtitle(axes, heading, text)
 
         part = scores[scores["readout"] == readout].set_index("condition")
-        heights = factor * part["score"].reindex([condition.name for condition in device.conditions])
+        part = part.reindex([condition.name for condition in device.conditions])
+        heights, errors = factor * part["score"], factor * part["score_error"]
         places = np.arange(len(heights))
         colours = [styles.series[device.name, name].colour for name in heights.index]
         drawn = bars.bar(places, heights, color=colours, width=0.65)
-        bars.bar_label(drawn, labels=[f"{height:#.4g}" for height in heights], padding=1.0)
+        bars.bar_label(drawn, labels=[_labelled(*each) for each in zip(heights, errors, strict=True)], padding=1.0)
         labels = [styles.series[device.name, name].label for name in heights.index]
         long = max(map(len, labels)) > LONG
         bars.set_xticks(places, labels, rotation=30.0 if long else 0.0, ha="right" if long else "center")
@@ -81,5 +86,23 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     for axes, text in zip(grid[:, 0], "AB", strict=True):
         letter(axes, text, (-30.0, 14.0))
     figure.suptitle(f"{device.title}, with shear ({counted(device.conditions)})", fontweight="bold")
-    legend_below(figure, [*styles.legend, face_handle()])
+    legend_below(figure, [*styles.legend, face_handle()], CAPTION)
     return figure
+
+
+def _labelled(score: float, error: float) -> str:
+    """A score with its error under it, to the error's first digit, or its second if the first is a one; without one if
+    it is unknown.
+
+    >>> _labelled(0.49387, 0.01868)
+    '0.494\\n±0.019'
+    >>> _labelled(0.31891, 0.00057)
+    '0.3189\\n±0.0006'
+    >>> _labelled(0.49387, math.nan)
+    '0.4939'
+    """
+    if not error > 0.0:
+        return f"{score:#.4g}"
+    first = math.floor(math.log10(error))
+    decimals = max(-first + (error < 2.0 * 10.0**first), 0)
+    return f"{score:.{decimals}f}\n±{error:.{decimals}f}"
