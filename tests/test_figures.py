@@ -313,6 +313,7 @@ def test_receptor_figure_has_a_row_a_device() -> None:
     require_legible(figure)
     assert len(figure.axes) == 2 * len(DEVICES)
     assert {label for _, label in axis_labels(figure)} == {"Strain (%)", "Change of strain (%)"}
+    assert len({axes.get_xlim() for axes in figure.axes}) == 1
     text = words(figure)
     assert "Phased pins (n = 8 conditions)" in text
     assert "unrated: push" in text
@@ -335,6 +336,8 @@ def test_workflow_figure_goes_from_strain_to_score(device: Device) -> None:
     ]
     text = words(figure)
     assert f"n = {len(device.conditions)} conditions" in text
+    assert "0.300\n±0.003" in text
+    assert "Small strain." in text
     assert "λ = 2.8 mm" in text
     assert "λ = 1.15 mm" in text
     assert [bar.get_height() for bar in figure.axes[2].patches] == list(

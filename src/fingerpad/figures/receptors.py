@@ -35,7 +35,7 @@ from .style import (
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 44.0, 18.0  # mm
-MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces
+MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces of all devices
 MARKER_SPACING = 2.0  # mm between markers on a curve
 
 CAPTION = "With shear, {kinematics}. Conditions with one and the same stimulus are drawn once."
@@ -68,6 +68,8 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
     figure = new_figure(WIDE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
     styles = condition_styles(conditions_of(entry.device for entry in devices))
     grid = figure.subplots(len(devices), len(Readout), squeeze=False)
+    outermost = [(entry.faces.min(), entry.faces.max()) for entry in devices]
+    shown = min(start for start, _ in outermost) - MARGIN, max(stop for _, stop in outermost) + MARGIN
     for row, entry in zip(grid, devices, strict=True):
         for axes, readout in zip(row, Readout, strict=True):
             draw_faces(axes, entry.faces)
@@ -77,7 +79,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
                 values = PERCENT * (found.strain if readout is Readout.STRAIN else found.change_of_strain)
                 series = styles.series[entry.device.name, condition.name]
                 draw_curve(axes, found.arc, values, series, number / len(distinct))
-            axes.set_xlim(entry.faces.min() - MARGIN, entry.faces.max() + MARGIN)
+            axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         row[0].set_title(f"{entry.device.title} ({counted(entry.device.conditions)})", loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
