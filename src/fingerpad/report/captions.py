@@ -115,7 +115,7 @@ def _workflow(results: Results) -> Words:
     return Words(
         f"From strain to score: {device.title}",
         "Strain and change of strain along the receptor line, the same Gabor-filtered, and bars of their areas.",
-        f"With shear, {counted(device.conditions)}. Scores: {scores}.",
+        f"With shear, small strain, {counted(device.conditions)}. Scores: {scores}.",
     )
 
 
