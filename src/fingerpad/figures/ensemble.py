@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from ..alternatives import FIRST, SECOND
 from ..claims import Holds
 from ..tissue_law import Kinematics
-from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, letter, new_figure, styled, subtitle
+from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
 ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.0, 12.0, 52.0  # mm
 CLAIM_WIDTH = 44  # characters in a line of a statement
@@ -25,9 +25,9 @@ MARKS: dict[Holds, dict[str, Any]] = {
     Holds.UNDECIDED: {"marker": "o", "color": GREY, "fillstyle": "none"},
 }
 CAPTION = (
-    "n = {count} members: in each one assumption is varied, named below, or none. Left mark of a pair: first half-cycle"
-    " of the stimulus, right: second. No mark: a path that could not be followed, or no prediction. Ratings: ordinal"
-    " surrogates where data/ratings.csv calls them so."
+    "n = {count} members: in each one assumption is varied, as named under the panels, or none. Left mark of a pair:"
+    " first half-cycle of the stimulus, right: second. No mark: a path that could not be followed, or no prediction."
+    " Ratings: ordinal surrogates where data/ratings.csv calls them so."
 )
 
 
@@ -42,10 +42,9 @@ def ensemble_figure(claims: pd.DataFrame) -> Figure:
     height = len(kinematics) * (ROW_HEIGHT * len(statements) + NAMES_HEIGHT) + LEGEND_HEIGHT
     figure = new_figure(WIDE, height)
     panels = figure.subplots(len(kinematics), 1, squeeze=False, sharex=True)[:, 0]
-    for axes, each, text in zip(panels, kinematics, "AB", strict=False):
+    for axes, each in zip(panels, kinematics, strict=True):
         _marks(axes, claims[claims["kinematics"] == each], statements, members)
         subtitle(axes, KINEMATICS_NAME[Kinematics(each)].capitalize(), "")
-        letter(axes, text)
     panels[-1].set_xticks(range(len(members)), members, rotation=90)
     handles = [Line2D([], [], linestyle="none", markersize=SIZE, label=str(each), **MARKS[each]) for each in Holds]
     legend_below(figure, handles, CAPTION.format(count=len(members)))
