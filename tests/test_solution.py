@@ -14,7 +14,7 @@ from fingerpad.contact import face_shape, rest, touch
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.edges import mesh_device
-from fingerpad.errors import ContactError
+from fingerpad.errors import ContactError, ReachError
 from fingerpad.gabor import filtered_readouts
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
@@ -167,6 +167,15 @@ def test_failures_name_device_condition_and_interface() -> None:
         lifted = np.where(np.abs(problem.position[:, [0]]) > beyond, [0.0, 30.0], [0.0, 0.0])
         with pytest.raises(ContactError, match=rf"pre-indentation did not reach 'full' contact within 5 mm: {what} at"):
             indented_state(base, replace(problem, position=problem.position + lifted))
+
+
+@pytest.mark.parametrize("way", [[1.4], [1.4, 0.0]])
+def test_every_state_on_the_way_is_certified(way: list[float]) -> None:
+    """Scores are read at the peak: that all pins come back from where no skin was considered mends nothing."""
+    row = np.array(way)[:, None] * np.ones(4)
+    far = Condition("far", "test", 0.0, np.arange(1.0, len(way) + 1.0), np.zeros_like(row), row)
+    with pytest.raises(ReachError):
+        solve_anew(scene("device2").coarsened(3.0), far)
 
 
 def test_certificate_refuses_a_wrong_solution() -> None:

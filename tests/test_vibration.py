@@ -15,8 +15,8 @@ from fingerpad.cycling import Vibration, displacement, vibrate
 from fingerpad.device import ActuatorRow, Cycle
 from fingerpad.edges import mesh_device
 from fingerpad.elasticity import mass
-from fingerpad.errors import SceneError
-from fingerpad.frequency import condense_vibrating_at, cyclic_readouts, frequency_rows
+from fingerpad.errors import ReachError, SceneError
+from fingerpad.frequency import condense_vibrating_at, cyclic_readouts, frequency_rows, vibration_scores
 from fingerpad.inertia import condense_vibrating, inertia_effect
 from fingerpad.mesh import SectionMesh
 from fingerpad.path import follow
@@ -203,6 +203,15 @@ def test_read_out_does_not_know_the_number_of_steps() -> None:
         scores.append(cyclic_readouts(found.strain)[Readout.CHANGE_OF_STRAIN])
     # a tenth of what scores state on this mesh, four times as large as the shipped one's 0.5 %
     assert np.linalg.norm(scores[1] - scores[0]) < 0.01 * np.linalg.norm(scores[1])
+
+
+def test_every_state_of_the_last_cycle_is_certified() -> None:
+    """Pins that swing to where no skin was considered have no scores, though they are read at rest in the middle."""
+    still = np.zeros(4, dtype=complex)
+    far = Cycle("far", "test", 0.0, still, np.full(4, 1.4j))
+    condensed = condense_mesh(coarse(), mesh(("device2", False)))
+    with pytest.raises(ReachError, match=r"condition=far, interface=frictionless, 0 Hz"):
+        vibration_scores(coarse(), condensed, creeping(), pressed(Interface.FRICTIONLESS), far, 0.0)
 
 
 def test_mass_is_density_times_area() -> None:

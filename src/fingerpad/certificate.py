@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,11 +23,11 @@ DISSIPATION_LIMIT = 1e-9  # of the work of friction's largest force along the in
 
 @dataclass(frozen=True)
 class Certificate:
-    """What a solution found when it checked itself.
+    """What a solution found when it checked itself: the worst of all its states.
 
     equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
     penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
-    Coulomb's limit, over the largest limit [1]. dissipation: frictional work [N mm per mm].
+    Coulomb's limit, over the largest limit [1]. dissipation: smallest frictional work so far [N mm per mm].
     """
 
     equilibrium: float
@@ -71,6 +72,18 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
             raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
     _require_within_reach(problem, section, state, PENETRATION_LIMIT * indentation)
     return certificate
+
+
+def worst(certificates: Sequence[Certificate]) -> Certificate:
+    """The worst figures of several states."""
+    return Certificate(
+        equilibrium=max(each.equilibrium for each in certificates),
+        contact=max(each.contact for each in certificates),
+        penetration=max(each.penetration for each in certificates),
+        smallest_pressure=min(each.smallest_pressure for each in certificates),
+        cone_excess=max(each.cone_excess for each in certificates),
+        dissipation=min(each.dissipation for each in certificates),
+    )
 
 
 def _require_within_reach(

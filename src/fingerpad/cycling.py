@@ -55,10 +55,11 @@ class Moment:
 class Vibration:
     """The last cycle of a vibration.
 
-    states: of contact at the ends of its steps, the last at phase 0. strain: (n_times, 3m) at the receptors then [1].
-    cycles: that it took.
+    problems, states: of contact at the ends of its steps, the last at phase 0. strain: (n_times, 3m) at the receptors
+    then [1]. cycles: that it took.
     """
 
+    problems: list[ContactProblem]
     states: list[ContactState]
     strain: FloatArray
     cycles: int
@@ -95,7 +96,8 @@ def vibrate(
         strain = _strain(section, creep, before, moments)
         then, watched = watched, [strain[-1], strain[-1] - strain.mean(axis=0)]
         if number > 1 and all(map(_repeated, watched, then)):
-            return Vibration([each.state for each in moments], strain, number + 1)
+            problems = [replace(stepping.problem, free=each.free) for each in moments]
+            return Vibration(problems, [each.state for each in moments], strain, number + 1)
         if number > 0:  # the first cycle is another than all that follow
             left = stepping.fading**steps
             for_ever = (moment.memory - left * memory) / (1.0 - left)

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from .arrays import FloatArray
-from .certificate import Certificate, certify
+from .certificate import Certificate, certify, worst
 from .compliance import CondensedBody
 from .contact import ContactProblem
 from .contact_law import Interface
@@ -70,8 +70,8 @@ def pressed_finger(
 def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:
     """Solve the stimulus of one condition on the pressed finger.
 
-    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if its certificate
-    exceeds a limit, or if contact reaches beyond the candidate nodes.
+    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if a state's
+    certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
     moves, certificate = certified_moves(scene, finger, condition)
     section = finger.pressed.section
@@ -81,12 +81,17 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
 
 
 def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:
-    """`deformed_moves`, and the certificate of the last. Raises ContactError as `stimulate_deformed`."""
+    """`deformed_moves`, and their certificate. Raises ContactError as `stimulate_deformed`."""
     with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}", LEAVE_OUT):
         moves = deformed_moves(scene, finger, condition)
-        last = moves[-1]
-        section = replace(finger.pressed.section, residual=max(finger.pressed.section.residual, last.defect))
-        return moves, certify(replace(finger.problem, free=last.free), section, last.state)
+        return moves, worst([_certified(finger, each) for each in moves])
+
+
+def _certified(finger: PressedFinger, end: Move) -> Certificate:
+    """The certificate of where a move ends. Raises CertificateError, ReachError."""
+    section = finger.pressed.section
+    problem = replace(finger.problem, free=end.free)
+    return certify(problem, replace(section, residual=max(section.residual, end.defect)), end.state)
 
 
 def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Move]:

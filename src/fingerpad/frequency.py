@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
+from .certificate import certify
 from .compliance import CondensedSection
 from .contact_law import Interface
 from .creep import Creep
@@ -105,11 +106,15 @@ def _outcome(
 def vibration_scores(
     scene: Scene, condensed: Condensed, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
 ) -> dict[Readout, float]:
-    """Both scores [mm2] of a condition at a frequency [Hz]. Raises ContactError, naming it."""
+    """Both scores [mm2] of a condition at a frequency [Hz], if all states of its last cycle have their certificate.
+    Raises ContactError, naming it.
+    """
     what = f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {frequency:g} Hz"
     with named(what):
         steps = scene.model.vibration.steps
         vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
+        for problem, state in zip(vibration.problems, vibration.states, strict=True):
+            certify(problem, condensed.section, state)
     readouts = cyclic_readouts(vibration.strain)
     strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
     filtered = filtered_readouts(condensed.resampling, *strains, scene.model.gabor)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import FloatArray
-from .certificate import Certificate, certify
+from .certificate import Certificate, certify, worst
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState, pressing_and_shearing
 from .contact_law import Criterion, Interface
@@ -133,13 +133,13 @@ def indent_device(
 def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:
     """Solve the stimulus of one condition on the pressed finger.
 
-    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if its certificate
-    exceeds a limit, or if contact reaches beyond the candidate nodes.
+    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if a state's
+    certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
     problem, before = indented.problem, indented.state
     with named(f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"):
         states = [before, *follow_condition(scene, problem, before, condition)]
-        certificate = certify(problem, section, states[-1])
+        certificate = worst([certify(problem, section, state) for state in states])
     strains = section.receptor_strain(np.array([state.force for state in states]))
     return solution(problem, section, states, receptor_readouts(strains), certificate)
 
