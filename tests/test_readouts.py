@@ -27,16 +27,27 @@ def test_a_change_of_rounding_is_none() -> None:
     """The solver's tolerance leaves a billionth of strain; what changes by less has not changed."""
     before = np.array([0.1, -0.2, 0.05])
     for share, changed in ((1e-12, False), (1e-6, True)):
-        readouts = receptor_readouts(np.array([before, before * (1.0 + share)]))
+        readouts = receptor_readouts(np.array([before, before * (1.0 + share)]), np.zeros(1))
         assert readouts[Readout.CHANGE_OF_STRAIN].any() == changed
 
 
 def test_readout_of_a_cycle_is_taken_at_its_peak() -> None:
     """Of several times, the one with the largest change."""
-    before, *along = np.array([0.1, 0.1, 0.3, 0.2])[:, None] * np.array([1.0, 0.0, 0.0])
-    found = receptor_readouts(np.array([before, *along]))
-    assert found[Readout.STRAIN] == pytest.approx([0.3])
-    assert found[Readout.CHANGE_OF_STRAIN] == pytest.approx([0.2])
+    before, *along = np.array([0.1, 0.1, 0.3, 0.2])[:, None] * np.array([1.0, 0.0, 0.0] * 2)
+    found = receptor_readouts(np.array([before, *along]), np.array([0.0, 1.0]))
+    assert found[Readout.STRAIN] == pytest.approx([0.3, 0.3])
+    assert found[Readout.CHANGE_OF_STRAIN] == pytest.approx([0.2, 0.2])
+
+
+@pytest.mark.parametrize("finer", ["left", "right"])
+def test_the_peak_does_not_depend_on_where_receptors_lie_close(finer: str) -> None:
+    """Half of the line changes by 0.2, then the other half by 0.3: the latter is more, whichever has more receptors."""
+    left = np.linspace(-1.0, 0.0, 101 if finer == "left" else 6)
+    right = np.linspace(0.0, 1.0, 101 if finer == "right" else 6)
+    arc = np.concatenate([left, right[1:]])
+    exx = np.array([np.zeros(arc.size), np.where(arc < 0.0, 0.2, 0.0), np.where(arc < 0.0, 0.0, 0.3)])
+    components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
+    assert receptor_readouts(components, arc)[Readout.STRAIN].max() == pytest.approx(0.3)
 
 
 @pytest.mark.parametrize("wavelength", [2.8, 1.15])

@@ -77,7 +77,7 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
     section = finger.pressed.section
     strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
     states = [each.state for each in moves]
-    return solution(finger.problem, section, states, receptor_readouts(strains), certificate)
+    return solution(finger.problem, section, states, receptor_readouts(strains, section.arc), certificate)
 
 
 def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:

@@ -141,7 +141,7 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
         states = [before, *follow_condition(scene, problem, before, condition)]
         certificate = worst([certify(problem, section, state) for state in states])
     strains = section.receptor_strain(np.array([state.force for state in states]))
-    return solution(problem, section, states, receptor_readouts(strains), certificate)
+    return solution(problem, section, states, receptor_readouts(strains, section.arc), certificate)
 
 
 def solution(

@@ -26,19 +26,19 @@ def maximum_principal(components: FloatArray) -> FloatArray:
 
 
 def receptor_readouts(
-    components: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
+    components: FloatArray, arc: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
 ) -> dict[Readout, FloatArray]:
     """Both read-outs (m,) at the receptors, in the unit of the measure: of maximum principal strain [1].
 
-    components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. Of several times the one is
-    read at which the measure has changed most (largest root mean square): the reference actuator's peak for a snapshot,
-    the peak of the cycle otherwise. Where all values count as equal the change is zero. measure: of strains
-    (3m,).
+    components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. arc: (m,) [mm]. Of several
+    times the one is read at which the measure has changed most (largest root mean square over arc length, so that no
+    mesh matters): the reference actuator's peak for a snapshot, the peak of the cycle otherwise. Where all values count
+    as equal the change is zero. measure: of strains (3m,).
     """
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
-    peak = int(np.argmax(np.linalg.norm(changes, axis=1)))
+    peak = int(np.argmax(np.trapezoid(changes**2, arc, axis=1)))
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 
 

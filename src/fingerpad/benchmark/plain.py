@@ -54,7 +54,7 @@ def plain_scores(
             state, _ = advance(problem, state, start + step / count * (target - start), 1, None, solve_increment)
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
-    readouts = receptor_readouts(condensed.receptor_strain(forces))
+    readouts = receptor_readouts(condensed.receptor_strain(forces), condensed.arc)
     resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
     strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
     read = filtered_readouts(resampling, *strains, scene.model.gabor)

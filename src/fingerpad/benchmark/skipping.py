@@ -79,7 +79,8 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
         repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.force[-1:]))
     )
     forces = np.stack([solution.indented_force, *solution.force])
-    _, reading_both = fewest(repeats, lambda: receptor_readouts(condensed.section.receptor_strain(forces)))
+    finger = condensed.section
+    _, reading_both = fewest(repeats, lambda: receptor_readouts(finger.receptor_strain(forces), finger.arc))
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
         yield {
             "device": scene.device.name,
