@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from fingerpad.device import Condition
 from fingerpad.errors import SceneError
 from fingerpad.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
 from fingerpad.scenefile import recordings
-from fingerpad.stimuli import KINDS, alternating, measured, phased
+from fingerpad.stimuli import KINDS, alternating, alternating_cycles, measured, phased, phased_cycles
 from fingerpad.validation import check_device
 
 ROOT = Path(__file__).parents[1]
@@ -61,6 +62,23 @@ def test_direction_says_where_actuators_move(direction: str, normal: int, tangen
         for condition, displacement in made:
             assert condition.normal == pytest.approx(sign * normal * np.array(displacement))
             assert condition.tangential == pytest.approx(sign * tangential * np.array(displacement))
+
+
+def test_a_phase_may_have_decimals() -> None:
+    """Names of conditions are what folders and wildcards may be, and tell apart what differs in the last digit."""
+    phases = [0, 22.0, 22.5, 22.50000001, 1e-7, 360]
+    drive = {"direction": "normal", "half_cycle": "first"}
+    stimulus = {**PHASED, **drive, "phases": phases}
+    rows = {"rows": [{**ROWS[0], "phase": phase} for phase in phases], **drive}
+    for made, cycles in (
+        (phased(stimulus, 2, ROOT), phased_cycles(stimulus, 2)),
+        (alternating(rows, 2, ROOT), alternating_cycles(rows, 2)),
+    ):
+        names = [condition.name for condition in made]
+        assert all(re.fullmatch("[a-z][a-z0-9_]*", name) for name in names)
+        assert len(set(names)) == len(phases)
+        assert names == [cycle.name for cycle in cycles]
+        assert [name.split("_", 1)[1] for name in names[:3]] == ["000", "022", "022_5"]
 
 
 def written(folder: Path, lines: list[str], header: str = HEADER) -> Path:

@@ -24,6 +24,7 @@ Builder = Callable[[Mapping[str, Any], int, Path], list[Condition]]
 
 Displacement = TypeVar("Displacement", FloatArray, ComplexArray)
 
+ALTERNATE = "alternate"  # dispersion of a row whose neighbours differ
 CYCLE_STEPS = 16  # rows with which `playback: cycle` samples one sinusoid [1]; source: 16 per period, linear between
 
 
@@ -41,7 +42,7 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
             time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
             displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + lag)
         directed = _directed(stimulus, displacement)
-        conditions.append(Condition(f"{dispersion}_{phase:03g}", dispersion, float(phase), time, **directed))
+        conditions.append(Condition(_named(dispersion, phase), dispersion, float(phase), time, **directed))
     return conditions
 
 
@@ -51,8 +52,18 @@ def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     for dispersion, phase, lag in _lags(stimulus, count):
         amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * lag)
         directed = _directed(stimulus, amplitude)
-        cycles.append(Cycle(f"{dispersion}_{phase:03g}", dispersion, float(phase), **directed))
+        cycles.append(Cycle(_named(dispersion, phase), dispersion, float(phase), **directed))
     return cycles
+
+
+def _named(dispersion: str, phase: float) -> str:
+    """A condition's name: its dispersion and phase difference [deg], with as many digits as tell it from all others.
+
+    >>> _named("low", 90), _named("low", 22.5)
+    ('low_090', 'low_022_5')
+    """
+    whole, _, fraction = np.format_float_positional(phase, trim="-").partition(".")
+    return "_".join([dispersion, whole.zfill(3), *filter(None, [fraction])])
 
 
 def _lags(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float, FloatArray]]:
@@ -68,8 +79,8 @@ def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[C
     """Actuator i at absolute + (-1)^i relative / 2 (paper, Table 1)."""
     return [
         Condition(
-            f"alternate_{row['phase']:03g}",
-            "alternate",
+            _named(ALTERNATE, row["phase"]),
+            ALTERNATE,
             float(row["phase"]),
             np.array([1.0]),
             **_directed(stimulus, _alternating(row, count)[None, :]),
@@ -84,7 +95,7 @@ def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     for row in stimulus["rows"]:
         amplitude: ComplexArray = _alternating(row, count).astype(np.complex128)
         directed = _directed(stimulus, amplitude)
-        cycles.append(Cycle(f"alternate_{row['phase']:03g}", "alternate", float(row["phase"]), **directed))
+        cycles.append(Cycle(_named(ALTERNATE, row["phase"]), ALTERNATE, float(row["phase"]), **directed))
     return cycles
 
 
