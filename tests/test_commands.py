@@ -25,13 +25,14 @@ from fingerpad.caveats import MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
 from fingerpad.contact_law import Interface
+from fingerpad.device import Condition
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import forecast, steps
 from fingerpad.scenefile import load_scene
 from fingerpad.template import DRIVES, device_text
 from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_device, checked_document
-from scenes import scene, solved
+from scenes import scene, solve, solved
 
 ROOT = Path(__file__).parents[1]
 DEVICES = ROOT / "config" / "devices"
@@ -278,12 +279,22 @@ def test_caveats_of_a_solution() -> None:
         solution,
         cuts=2,
         searches=MANY_SEARCHES + 1,
-        certificate=replace(solution.certificate, penetration=5e-5 * solution.indentation),
+        certificate=replace(solution.certificate, penetration_share=0.5),
     )
     halved, searched, near = solution_caveats(worse)
     assert "halved 2 times" in halved
     assert str(MANY_SEARCHES + 1) in searched
     assert near == "certificate: penetration is 50% of its limit"
+
+
+def test_a_device_that_lifts_off_is_near_no_limit() -> None:
+    """Nothing presses any more: of nothing that is allowed, nothing is used."""
+    lifted = np.full((1, 4), -3.0)
+    away = Condition("away", "test", 0.0, np.array([1.0]), lifted, np.zeros_like(lifted))
+    for interface in Interface:
+        solution = solve("device2", away, interface)
+        assert not solution.pressure.any()
+        assert not [caveat for caveat in solution_caveats(solution) if "certificate" in caveat]
 
 
 @pytest.fixture

@@ -369,7 +369,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
     none = np.zeros(0)
     return Solution(
         1.5, none, none, traction, 0.5 * traction, place, np.where(traction > 0.0, Status.STICK, Status.OPEN), none,
-        none, none, 1, 0, 0, Certificate(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+        none, none, 1, 0, 0, Certificate(*[0.0] * 9),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fingerpad.actuator_body import condense_body
-from fingerpad.certificate import certify
+from fingerpad.certificate import PENETRATION_LIMIT, certify
 from fingerpad.condensation import condense_section
 from fingerpad.contact import face_shape, rest, touch
 from fingerpad.contact_law import Interface
@@ -184,7 +184,10 @@ def test_certificate_refuses_a_wrong_solution() -> None:
     found, body = condensed("device2")
     problem = contact_problem(base, found, body, Interface.SHEAR)
     state = indented_state(base, problem)
-    certify(problem, found, state)
+    assert certify(problem, found, state).penetration_share < 1e-3
+    overlap = np.array([0.0, 0.5 * PENETRATION_LIMIT * state.actuator[0, 1]])
+    deeper = replace(problem, position=problem.position - overlap)
+    assert certify(deeper, found, state).penetration_share == pytest.approx(0.5, rel=1e-3)
     with pytest.raises(ContactError, match="penetration"):
         certify(problem, found, replace(state, force=0.99 * state.force))
     sheared = state.force.copy()

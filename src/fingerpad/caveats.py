@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from .certificate import CONE_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT
 from .readout import CONSTANT
 from .roughness import KEY
 from .solution import Solution
@@ -23,9 +22,9 @@ def solution_caveats(solution: Solution) -> list[str]:
     if solution.searches > MANY_SEARCHES:
         found.append(f"{solution.searches} increments did not settle at once")
     shares = {
-        "penetration": certificate.penetration / (PENETRATION_LIMIT * solution.indentation),
-        "tension": -certificate.smallest_pressure / (TENSION_LIMIT * float(solution.pressure.max())),
-        "excess over the friction cone": certificate.cone_excess / CONE_LIMIT,
+        "penetration": certificate.penetration_share,
+        "tension": certificate.tension_share,
+        "excess over the friction cone": certificate.cone_share,
     }
     found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
     return found

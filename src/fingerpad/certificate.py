@@ -28,6 +28,7 @@ class Certificate:
     equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
     penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
     Coulomb's limit, over the largest limit [1]. dissipation: smallest frictional work so far [N mm per mm].
+    penetration_share, tension_share, cone_share: of what was allowed there [1].
     """
 
     equilibrium: float
@@ -36,6 +37,9 @@ class Certificate:
     smallest_pressure: float
     cone_excess: float
     dissipation: float
+    penetration_share: float
+    tension_share: float
+    cone_share: float
 
 
 def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
@@ -48,30 +52,38 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     largest = float(pressure.max(initial=0.0))
     friction_limit = problem.friction * float(pressing.max(initial=0.0))
     excess = np.abs(shearing) - problem.friction * pressing
-    certificate = Certificate(
-        section.residual,
-        state.residual,
-        max(float(-reevaluated_gap(problem, state).min()), 0.0),
-        float(pressure[active].min()) if active.any() else 0.0,
-        max(float(excess.max()), 0.0) / friction_limit if friction_limit > 0.0 else 0.0,
-        state.dissipation,
-    )
+    penetration = max(float(-reevaluated_gap(problem, state).min()), 0.0)
+    smallest = float(pressure[active].min()) if active.any() else 0.0
+    beyond = max(float(excess.max()), 0.0) / friction_limit if friction_limit > 0.0 else 0.0
     indentation = float(np.abs(state.actuator).max())
     work = friction_limit * indentation
     # what lies within the tolerance of gaps may just touch, and rounding may pull
     slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max() * section.weight.max())
     checks = {
-        "contact residual": (certificate.contact, problem.tolerance),
-        "penetration [mm]": (certificate.penetration, PENETRATION_LIMIT * indentation),
-        "tension [MPa]": (-certificate.smallest_pressure, max(TENSION_LIMIT * largest, slight)),
-        "excess over the friction cone": (certificate.cone_excess, CONE_LIMIT),
-        "negative dissipation [N mm/mm]": (-certificate.dissipation, DISSIPATION_LIMIT * work),
+        "contact residual": (state.residual, problem.tolerance),
+        "penetration [mm]": (penetration, PENETRATION_LIMIT * indentation),
+        "tension [MPa]": (-smallest, max(TENSION_LIMIT * largest, slight)),
+        "excess over the friction cone": (beyond, CONE_LIMIT),
+        "negative dissipation [N mm/mm]": (-state.dissipation, DISSIPATION_LIMIT * work),
     }
     for name, (found, allowed) in checks.items():
         if not found <= allowed:
             raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
     _require_within_reach(problem, section, state, PENETRATION_LIMIT * indentation)
-    return certificate
+    _, of_penetration, of_tension, of_cone, _ = (
+        found / allowed if found > 0.0 else 0.0 for found, allowed in checks.values()
+    )
+    return Certificate(
+        equilibrium=section.residual,
+        contact=state.residual,
+        penetration=penetration,
+        smallest_pressure=smallest,
+        cone_excess=beyond,
+        dissipation=state.dissipation,
+        penetration_share=of_penetration,
+        tension_share=of_tension,
+        cone_share=of_cone,
+    )
 
 
 def worst(certificates: Sequence[Certificate]) -> Certificate:
@@ -83,6 +95,9 @@ def worst(certificates: Sequence[Certificate]) -> Certificate:
         smallest_pressure=min(each.smallest_pressure for each in certificates),
         cone_excess=max(each.cone_excess for each in certificates),
         dissipation=min(each.dissipation for each in certificates),
+        penetration_share=max(each.penetration_share for each in certificates),
+        tension_share=max(each.tension_share for each in certificates),
+        cone_share=max(each.cone_share for each in certificates),
     )
 
 
