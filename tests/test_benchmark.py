@@ -19,12 +19,13 @@ from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_lad
 from fingerpad.benchmark.skipping import always_rows, skip_rows
 from fingerpad.benchmark.timing import exponent
 from fingerpad.condensation import condense_section
-from fingerpad.device import Control
+from fingerpad.device import Condition, Control
 from fingerpad.edges import edge_intervals, mesh_device
 from fingerpad.errors import SceneError
 from fingerpad.numerics import Skips
 from fingerpad.pages import accuracy_values, filled, frequency_values, skipping_values, table
 from fingerpad.prediction import rows_at
+from fingerpad.readout import Readout
 from fingerpad.scene import Scene
 from fingerpad.tissue_law import Kinematics
 from scenes import scene
@@ -42,7 +43,14 @@ def coarse() -> Scene:
 def stated(coarse: Scene) -> list[dict[str, Any]]:
     """Score rows of the coarse scene with their errors, as text like those of a file."""
     rows = with_errors(rows_at(coarse, 1.0, edge_intervals(coarse)), rows_at(coarse, 1.5, edge_intervals(coarse)))
-    return [{key: str(value) for key, value in row.items()} for row in rows]
+    nothing = {"condition": at_rest(coarse).name, "readout": "change_of_strain", "score": 0.0, "score_error": 0.0}
+    return [{key: str(value) for key, value in row.items()} for row in [*rows, rows[0] | nothing]]
+
+
+def at_rest(given: Scene) -> Condition:
+    """A condition in which nothing moves."""
+    last = given.device.conditions[-1]
+    return replace(last, name="rest", normal=0.0 * last.normal, tangential=0.0 * last.tangential)
 
 
 def test_ladders_agree_where_their_meshes_do(stated: list[dict[str, Any]]) -> None:
@@ -97,10 +105,10 @@ def test_a_row_of_many_fits_under_the_finger() -> None:
 
 @pytest.fixture(scope="module")
 def switches(coarse: Scene, stated: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The ledger of the coarse scene, one of whose conditions comes twice."""
+    """The ledger of the coarse scene, one of whose conditions comes twice, and one is rest."""
     conditions = coarse.device.conditions
-    again = replace(conditions[0], name="again_000")
-    return list(skip_rows(replace(coarse, device=replace(coarse.device, conditions=(*conditions, again))), stated, 1))
+    more = *conditions, replace(conditions[0], name="again_000"), at_rest(coarse)
+    return list(skip_rows(replace(coarse, device=replace(coarse.device, conditions=more)), stated, 1))
 
 
 @pytest.fixture(scope="module")
@@ -142,7 +150,11 @@ def test_skips_move_no_score_beyond_its_error(switches: list[dict[str, Any]]) ->
 
 
 def test_increments_leave_no_trace(stated: list[dict[str, Any]], coarse: Scene) -> None:
-    for row in increment_rows(coarse, [4], stated):
+    resting = replace(coarse, device=replace(coarse.device, conditions=(*coarse.device.conditions, at_rest(coarse))))
+    rows = list(increment_rows(resting, [4], stated))
+    assert {row["readout"] for row in rows} == set(Readout)
+    assert {row["scores"] for row in rows} == {2 * len(coarse.device.conditions)}  # at both interfaces
+    for row in rows:
         assert row["beyond_stated_error"] == 0
 
 

@@ -156,6 +156,16 @@ def test_page_is_well_formed(html: str) -> None:
     assert [tag for tag, _ in parsed.tags].count("h1") == 1
 
 
+def test_a_condition_at_rest_has_no_relative_error(results: Results, tmp_path: Path) -> None:
+    """Its change of strain is zero, and so is the error: that says nothing about others."""
+    first, *others = results.scores
+    html = built(
+        dataclasses.replace(results, scores=({**first, "score": "0.0", "score_error": "0.0"}, *others)), tmp_path
+    )
+    assert "<td>?</td>" in html
+    assert f"Of n = {sum(1 for row in others if row['score'])} scores" in html
+
+
 def test_every_picture_is_in_the_page_and_has_an_alternative(html: str) -> None:
     pictures = [found for tag, found in Parsed(html).tags if tag == "img"]
     assert len(pictures) == len(FIGURES) + 1

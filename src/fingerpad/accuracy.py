@@ -81,6 +81,17 @@ def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping
     return table
 
 
+def relative_error(row: Mapping[str, Any]) -> float:
+    """A score's stated error over the score [1], of a row of the score table, also as text; not a number if there is
+    none, or the score is zero, as at rest.
+
+    >>> relative_error({"score": "0.5", "score_error": "0.01"}), relative_error({"score": 0.0, "score_error": 0.0})
+    (0.02, nan)
+    """
+    known = has_error(row) and float(row["score"]) > 0.0
+    return float(row["score_error"]) / float(row["score"]) if known else float("nan")
+
+
 def has_error(row: Mapping[str, Any]) -> bool:
     """Whether a row of the score table, also as text, has a score whose error is known."""
     return _is_scored(row) and row["score_error"] not in {None, ""}

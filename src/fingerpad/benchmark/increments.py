@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..accuracy import CASE, has_error
+from ..accuracy import CASE, relative_error
 from ..edges import edge_intervals
 from ..prediction import condense_scene, predicted_rows
 from ..scene import Scene
@@ -18,10 +19,10 @@ def increment_rows(
     """A row for each multiple of the scene's increments and each read-out: the largest relative change of a score, the
     largest ratio of a change to the error that the score states, and how many scores change by more than that.
 
-    stated: rows of the score table.
+    stated: rows of the score table; those without a relative error are left out.
     """
     condensed = condense_scene(scene, edge_intervals(scene))
-    errors = {_case(row): float(row["score_error"]) / float(row["score"]) for row in stated if has_error(row)}
+    errors = {_case(row): error for row in stated if not math.isnan(error := relative_error(row))}
     numerics = scene.model.numerics
     first: dict[tuple[str, ...], float] = {}
     for multiple in (1, *multiples):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
@@ -9,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..accuracy import CASE, has_error
+from ..accuracy import CASE, relative_error
 from ..arrays import FloatArray
 from ..contact_law import Interface
 from ..edges import edge_intervals
@@ -47,15 +48,16 @@ def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -
     stated: rows of the score table. With finite kinematics set-up is the mesh alone.
     """
     relative = (
-        float(row["score_error"]) / float(row["score"])
+        relative_error(row)
         for row in stated
-        if (row["kinematics"], row["device"]) == (scene.kinematics, scene.device.name) and has_error(row)
+        if (row["kinematics"], row["device"]) == (scene.kinematics, scene.device.name)
     )
-    smallest = min(relative, default=float("nan"))
+    smallest = min((error for error in relative if not math.isnan(error)), default=float("nan"))
     switches = [switch.name for switch in fields(Skips) if _finds_something(switch.name, scene)]
     on, *off = _in_turn([scene, *(_without(scene, switch) for switch in switches)], repeats)
     for switch, other in zip(switches, off, strict=True):
-        moved = max(abs(other.scores[case] / on.scores[case] - 1.0) for case in on.scores)
+        # without a stimulus the score is zero, whatever is skipped
+        moved = max((abs(other.scores[case] / score - 1.0) for case, score in on.scores.items() if score), default=0.0)
         yield {
             "kinematics": str(scene.kinematics),
             "device": scene.device.name,

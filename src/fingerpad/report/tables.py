@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from ..accuracy import has_error
+from ..accuracy import relative_error
 from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
 from ..ratings import RatingKind
@@ -81,15 +81,10 @@ def error_of(row: Row) -> float:
     return float(row["score_error"] or "nan")
 
 
-def relative_error(row: Row) -> float:
-    """A score's stated error over the score [1]; not a number if it is unknown."""
-    return error_of(row) / float(row["score"])
-
-
 def accuracy_summary(scores: Sequence[Row]) -> str:
     """Median and largest relative error of all scores, in words."""
     errors = {(row["kinematics"], row["device"], row["condition"], row["interface"], row["readout"]):
-              relative_error(row) for row in scores if has_error(row)}  # fmt: skip
+              error for row in scores if not math.isnan(error := relative_error(row))}  # fmt: skip
     if not errors:
         return "No score has a known error."
     case = max(errors, key=lambda case: errors[case])
