@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from fingerpad.certificate import certify
 from fingerpad.condensation import condense_section
 from fingerpad.contact_law import Interface
 from fingerpad.creep import Creep, answer, condense_creep, creep_times, stiffened
@@ -212,6 +213,21 @@ def test_every_state_of_the_last_cycle_is_certified() -> None:
     condensed = condense_mesh(coarse(), mesh(("device2", False)))
     with pytest.raises(ReachError, match=r"condition=far, interface=frictionless, 0 Hz"):
         vibration_scores(coarse(), condensed, creeping(), pressed(Interface.FRICTIONLESS), far, 0.0)
+
+
+@pytest.mark.parametrize("interface", BOTH)
+@pytest.mark.parametrize(("steps", "lag"), [(15, 0.0), (24, 7.5)])
+def test_tissue_creeps_on_where_actuators_stand(interface: Interface, steps: int, lag: float) -> None:
+    """Steps from one side of a peak to the other move no actuator, but what crept before goes on: nothing overlaps."""
+    moved = np.full(4, 0.02 * np.exp(1j * np.radians(lag)))
+    found = vibration(interface, Cycle("lateral", "test", lag, np.zeros(4, dtype=complex), moved), 80.0, steps=steps)
+    standing = [
+        np.array_equal(one.actuator, other.actuator) for one, other in zip(found.states, found.states[1:], strict=False)
+    ]
+    assert any(standing)
+    section = condense_section(mesh(("device2", False)), coarse())
+    for problem, state in zip(found.problems, found.states, strict=True):
+        assert certify(problem, section, state).penetration < 1e-8  # ten tolerances of the contact solver
 
 
 def test_mass_is_density_times_area() -> None:

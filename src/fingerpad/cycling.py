@@ -138,7 +138,7 @@ def _stepped(stepping: Stepping, creep: Creep, before: ContactState, start: Mome
     last = _left(stepping, creep, before, kept)
     drifting = replace(stepping.problem, free=start.free)
     solve = drifting_to(last, start.state.actuator, target)
-    state, patch = advance(drifting, start.state, target, 1, start.patch, solve)
+    state, patch = advance(drifting, start.state, target, 1, start.patch, solve, drifting=True)
     return Moment(state, kept + following * (state.force - before.force), last, patch)
 
 

@@ -70,7 +70,7 @@ def solve_increment(
     patch: one from earlier on this path, which serves if contact can still lie within it. Raises NotConvergedError.
     """
     length = float(np.abs(actuator - start.actuator).max())
-    heading = (actuator - start.actuator) / length
+    heading = _over(actuator - start.actuator, length)
     straight = bool(np.abs(heading - start.heading).max() < STRAIGHT)
     status, ahead = _foreseen(problem, start, length, straight)
     reference = start.place + _drifted(start, length) if straight else start.place.copy()
@@ -163,12 +163,17 @@ def _accepted(
         status=found.status,
         place=found.place,
         gap=found.gap,
-        heading=(actuator - start.actuator) / length,
-        drift=np.array([found.place - start.place, found.gap - start.gap]).T / length,
-        trend=(found.force - start.force) / length,
+        heading=_over(actuator - start.actuator, length),
+        drift=_over(np.array([found.place - start.place, found.gap - start.gap]).T, length),
+        trend=_over(found.force - start.force, length),
         dissipation=start.dissipation + work,
         residual=max(start.residual, residual),
     )
+
+
+def _over(change: FloatArray, length: float) -> FloatArray:
+    """A change over the length [mm] of an increment; zero where the actuators stand, as that promises nothing."""
+    return change / length if length > 0.0 else np.zeros_like(change)
 
 
 def _foreseen(

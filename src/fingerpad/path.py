@@ -48,13 +48,16 @@ def advance(
     increments: int,
     carried: Any,
     solve: SolveIncrement[State],
+    drifting: bool = False,
 ) -> tuple[State, Any]:
     """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
-    and giving the last of it back.
+    and giving the last of it back. Where the actuators stand there is nothing to solve, unless nodes are `drifting`.
     """
     start = state.actuator
-    if np.abs(target - start).max() <= NEGLIGIBLE * max(np.abs(start).max(), np.abs(target).max()):
-        return state, carried
+    if _stand(start, target):
+        if not drifting:
+            return state, carried
+        target = start
     done, step = 0.0, 1.0 / increments
     smallest = step / 2.0**problem.max_cuts
     cuts = 0
@@ -91,10 +94,15 @@ def drifting_to(
         problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
     ) -> tuple[ContactState, Patch]:
         first = np.zeros_like(last) if problem.free is None else problem.free
-        way = float(np.abs(actuator - begin).max()) / length
+        way = 1.0 if _stand(begin, target) else float(np.abs(actuator - begin).max()) / length
         return solve_increment(replace(problem, free=first + way**power * (last - first)), state, actuator, patch)
 
     return solve
+
+
+def _stand(begin: FloatArray, target: FloatArray) -> bool:
+    """Whether the way from `begin` to `target` (n_actuators, 2) [mm] is none."""
+    return bool(np.abs(target - begin).max() <= NEGLIGIBLE * max(np.abs(begin).max(), np.abs(target).max()))
 
 
 def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
