@@ -80,6 +80,13 @@ def test_score_is_the_rectified_area_over_the_span() -> None:
     assert roughness_score(grid, np.ones_like(grid), (-0.0012, 0.0031)) == pytest.approx(0.0043, rel=1e-12)
 
 
+def test_beyond_the_receptors_a_span_adds_nothing() -> None:
+    """A wide row, or a large margin, on a finger whose receptor line ends before."""
+    grid = np.linspace(-2.0, 2.0, 401)
+    for span, area in (((-5.0, 1.0), 3.0), ((-5.0, 5.0), 4.0), ((3.0, 5.0), 0.0)):
+        assert roughness_score(grid, np.ones(401), span) == pytest.approx(area)
+
+
 def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
     """A smooth read-out at uneven receptors is resampled to 1e-3, and half the grid spacing moves its score by less
     than a tenth of the error that scores aim at (0.5 %), though the rectified integrand has kinks."""

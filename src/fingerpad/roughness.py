@@ -29,13 +29,14 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
     """Area [mm2] of |g * s| over the span: the trapezoidal integral of |filtered| ds.
 
     Rectified, as the signed area of the RA-1 filter's output all but vanishes; that of the SA-1 filter's does not (14
-    to 21 % of the rectified with small kinematics). grid: (k,) [mm], filtered: (k,) [mm].
+    to 21 % of the rectified with small kinematics). grid: (k,) [mm], filtered: (k,) [mm]. Where the span goes beyond
+    the grid there are no receptors, and nothing is added.
 
     >>> grid = np.linspace(-2.0, 2.0, 401)
     >>> round(roughness_score(grid, -np.ones(401), (-1.0, 1.0)), 12)
     2.0
     """
-    start, stop = span
+    start, stop = np.clip(span, grid[0], grid[-1])
     inside = grid[(grid > start) & (grid < stop)]
     points = np.concatenate([[start], inside, [stop]])
     return float(np.trapezoid(np.abs(np.interp(points, grid, filtered)), points))
