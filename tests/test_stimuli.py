@@ -95,6 +95,15 @@ def test_recording_is_read_in_any_order(tmp_path: Path) -> None:
     assert found.tangential.tolist() == [[0.0, 0.0], [0.02, 0.0]]
 
 
+@pytest.mark.parametrize("first", [0.0, 0.5])
+def test_no_two_states_have_one_time(first: float) -> None:
+    """Also where a recording begins at 0, which is another state than the pre-indented one."""
+    row = np.zeros((3, 1))
+    times = Condition("tap", "one", 0.0, first + np.arange(3.0), row, row).times
+    assert times[1] == first
+    assert np.all(np.diff(times) > 0.0)
+
+
 def test_columns_come_in_any_order(tmp_path: Path) -> None:
     lines = [",".join(reversed(line.split(","))) for line in GOOD]
     header = ",".join(reversed(HEADER.strip().split(","))) + "\n"

@@ -232,7 +232,7 @@ def test_receptor_strain_is_the_strain_map(read: meshio.Mesh) -> None:
 
 def test_collection_names_files_and_times(tmp_path: Path) -> None:
     files = [tmp_path / "states" / "0000.vtu", tmp_path / "fields.vtu"]
-    write_collection(tmp_path / "fields.pvd", [0.0, 0.25], files)
+    write_collection(tmp_path / "fields.pvd", np.array([0.0, 0.25]), files)
     sets = ElementTree.parse(tmp_path / "fields.pvd").getroot().findall("Collection/DataSet")
     assert [(each.get("timestep"), each.get("file")) for each in sets] == [
         ("0.0", "states/0000.vtu"),

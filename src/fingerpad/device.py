@@ -112,6 +112,17 @@ class Condition:
             require(bool(np.all(np.isfinite(array))), f"{where}: {name} must be finite numbers")
         require(self.normal.shape == self.tangential.shape, f"{where}: normal and tangential differ in shape")
 
+    @property
+    def times(self) -> FloatArray:
+        """Times (1 + n_times,) [s] of pre-indentation and of the rows: 0, or one step before a first row at 0.
+
+        >>> nothing = np.zeros((2, 1))
+        >>> [Condition("a", "b", 0.0, np.array(time), nothing, nothing).times.tolist() for time in ([1, 3], [0, 2])]
+        [[0.0, 1.0, 3.0], [-2.0, 0.0, 2.0]]
+        """
+        first, second, *_ = *self.time, self.time[-1] + 1.0
+        return np.array([0.0 if first > 0.0 else first - (second - first), *self.time])
+
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""
         return (

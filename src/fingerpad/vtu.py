@@ -82,9 +82,9 @@ def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
         meshio.write(part, mesh, file_format="vtu")
 
 
-def write_path(pvd: Path, folder: Path, last: Path, times: Sequence[float], meshes: Sequence[meshio.Mesh]) -> None:
+def write_path(pvd: Path, folder: Path, last: Path, times: FloatArray, meshes: Sequence[meshio.Mesh]) -> None:
     """Write a path: the last state as a file of its own, those before in a folder, and the PVD file of all, whose times
-    [s] begin with that of pre-indentation.
+    (n_states,) [s] begin with that of pre-indentation.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = [*(folder / f"{number:04d}.vtu" for number in range(len(meshes) - 1)), last]
@@ -93,8 +93,8 @@ def write_path(pvd: Path, folder: Path, last: Path, times: Sequence[float], mesh
     write_collection(pvd, times, files)
 
 
-def write_collection(path: Path, times: Sequence[float], files: Sequence[Path]) -> None:
-    """Write a PVD file that names the VTU file of each time [s]; files lie in or below its folder."""
+def write_collection(path: Path, times: FloatArray, files: Sequence[Path]) -> None:
+    """Write a PVD file that names the VTU file of each time (n_states,) [s]; files lie in or below its folder."""
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
     for time, file in zip(times, files, strict=True):

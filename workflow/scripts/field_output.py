@@ -41,7 +41,7 @@ def main(
         found = deformed_states(scene, finger, moved)
     else:
         found = linear_states(scene, section, load(solution, Solution))
-    write_path(pvd, states, vtu, [0.0, *moved.time], field_meshes(section, scene, found))
+    write_path(pvd, states, vtu, moved.times, field_meshes(section, scene, found))
 
 
 if __name__ == "__main__":

@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> None:
         meshes = field_meshes(section, scene, states)
         bar.update()
         if output.suffix == ".pvd":
-            write_path(output, output.with_suffix(""), output.with_suffix(".vtu"), [0.0, *condition.time], meshes)
+            write_path(output, output.with_suffix(""), output.with_suffix(".vtu"), condition.times, meshes)
         else:
             write_vtu(output, meshes[-1])
         bar.update()
