@@ -111,6 +111,12 @@ def test_fingerprint_depends_on_the_order_of_parts_and_of_lists() -> None:
     assert fingerprint(np.array([1.0, 2.0])) != fingerprint(np.array([2.0, 1.0]))
 
 
+def test_fingerprint_tells_classes_of_the_same_values_apart() -> None:
+    one, other = (dataclasses.make_dataclass(name, [("width", float)]) for name in ("Disc", "Square"))
+    assert fingerprint(one(1.0)) != fingerprint(other(1.0))
+    assert fingerprint(one(1.0)) == fingerprint(one(1.0))
+
+
 @pytest.fixture
 def scene() -> Scene:
     """Device 2 as it is in the scene files."""

@@ -96,7 +96,8 @@ def commit(base: Path) -> str:
 
 def _plain(part: Any) -> Any:
     if dataclasses.is_dataclass(part):
-        return {field.name: _plain(getattr(part, field.name)) for field in dataclasses.fields(part)}
+        values = {field.name: _plain(getattr(part, field.name)) for field in dataclasses.fields(part)}
+        return {type(part).__name__: values}
     if isinstance(part, np.ndarray):
         return _plain(part.tolist())
     if isinstance(part, (list, tuple)):

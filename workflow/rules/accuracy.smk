@@ -91,12 +91,7 @@ rule closed_forms:
         ENVIRONMENT
     params:
         code=code("closed_forms.py"),
-        scene=support.fingerprint(
-            SCENE[DEVICES[0]].model.finger,
-            SCENE[DEVICES[0]].model.readout,
-            SCENE[DEVICES[0]].model.numerics,
-            SCENE[DEVICES[0]].device.actuators,
-        ),
+        scene=support.fingerprint(SCENE[DEVICES[0]].model, SCENE[DEVICES[0]].device.actuators),
     script:
         "../scripts/closed_forms.py"
 

@@ -23,6 +23,7 @@ rule condense:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             scene_of(w).model.readout,
+            scene_of(w).model.skips.halved_condensation,
             scene_of(w).device.actuators,
             scene_of(w).device.stroke,
         ),

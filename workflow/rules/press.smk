@@ -81,7 +81,7 @@ rule indentation:
     params:
         code=code("indentation.py"),
         scenes=support.fingerprint(
-            [(SCENE[name].model.contact, SCENE[name].model.numerics, SCENE[name].device) for name in DEVICES]
+            [(each.model.contact, each.model.numerics, each.model.skips, each.device) for each in SCENE.values()]
         ),
     script:
         "../scripts/indentation.py"
