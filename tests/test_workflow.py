@@ -8,6 +8,7 @@ import functools
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -375,6 +376,18 @@ def assert_refused(project: Project, target: str, *said: str) -> None:
         assert words in run.text
     assert not run.jobs
     assert project.files("results") == before
+
+
+def test_broken_shipped_device_is_named_whichever_scenes_are_computed(
+    project: Project, coarse_scenes: Path, tmp_path: Path
+) -> None:
+    """Ratings may be of shipped devices, so that these are read as well."""
+    broken = Project(shutil.copytree(project.folder, tmp_path / "broken"))
+    broken.edit(DEVICE, lambda text: text.replace("stimulus:", "stimuli:"))
+    run = broken.snakemake("-n", "all", *into(tmp_path / "there", coarse_scenes))
+    assert run.status != 0
+    assert f"{DEVICE}: stimuli: found an unknown key" in run.text
+    assert "KeyError" not in run.text
 
 
 def test_unknown_device_is_refused(finished: Project) -> None:

@@ -7,7 +7,7 @@ from fingerpad.contact_law import Interface
 from fingerpad.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.ratings import read_ratings, read_stated_order
-from fingerpad.scenefile import load_scene, recordings
+from fingerpad.scenefile import recordings
 from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
@@ -18,18 +18,19 @@ if unknown := [name for name in config if name not in SETTINGS]:
 
 SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
+SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
 
 try:
-    check_config(CONFIG, BASE / "workflow" / "schemas")
+    check_config(CONFIG, SCHEMAS)
     DEVICES = known_devices(SCENES / "devices")
     DEVICE_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEVICES]
-    SCENE = {path.stem: check_device(path, BASE / "workflow" / "schemas", CONFIG) for path in DEVICE_FILES}
+    SCENE = {path.stem: check_device(path, SCHEMAS, CONFIG) for path in DEVICE_FILES}
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
     SHIPPED = {
-        path.stem: load_scene(BASE / "config" / "config.yaml", path)
+        path.stem: check_device(path, SCHEMAS, BASE / "config" / "config.yaml")
         for path in sorted((BASE / "config" / "devices").glob("*.yaml"))
     }
     KNOWN = {
