@@ -10,11 +10,12 @@ import pytest
 from fingerpad.actuator_body import condense_body
 from fingerpad.certificate import PENETRATION_LIMIT, certify
 from fingerpad.condensation import condense_section
-from fingerpad.contact import face_shape, rest, touch
+from fingerpad.contact import face_shape, rest, touch, touching_height
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.edges import mesh_device
 from fingerpad.errors import ContactError, ReachError
+from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
@@ -82,6 +83,16 @@ def test_full_criterion_covers_every_face_and_no_less_would(device: str) -> None
     shallow = replace(problem, position=problem.position + np.array([0.0, 0.01 * state.actuator[0, 1]]))
     moved = indented_state(base, shallow)
     assert moved.actuator[0, 1] == pytest.approx(state.actuator[0, 1] * 1.01, rel=1e-6)
+
+
+@pytest.mark.parametrize("interface", list(Interface))
+def test_force_curve_ends_where_pre_indentation_does(interface: Interface) -> None:
+    """Not where increments went that were taken back."""
+    base = scene("device2")
+    problem = contact_problem(base, *condensed("device2"), interface)
+    state, curve = indented_state(base, problem), small_strain_curve(base, problem)
+    assert curve[-1, 0] == pytest.approx(state.actuator[0, 1] - touching_height(problem), abs=1e-6)
+    assert curve[-1, 1] == pytest.approx(state.force[:, 1].sum(), rel=1e-6)
 
 
 @pytest.mark.parametrize("condition", ["alternate_090", "alternate_180"])

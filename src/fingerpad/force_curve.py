@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,10 +30,13 @@ def recording(solve: SolveIncrement[State], note: Callable[[State], object]) -> 
     return solve_and_note
 
 
-def curve_of(states: list[ContactState], touch: float) -> FloatArray:
-    """Heights above first touch [mm] and pressing forces of all actuators [N/mm] (k, 2), by ascending height."""
-    points = sorted((float(state.actuator[0, 1]) - touch, float(state.force[:, 1].sum())) for state in states)
-    return np.array([(0.0, 0.0), *points])
+def curve_of(states: Sequence[ContactState], touch: float, end: ContactState) -> FloatArray:
+    """Heights above first touch [mm] and pressing forces of all actuators [N/mm] (k, 2), by ascending height up to the
+    state at which pre-indentation ends: increments that went beyond were taken back.
+    """
+    points = ((float(state.actuator[0, 1]), float(state.force[:, 1].sum())) for state in states)
+    kept = sorted((height - touch, force) for height, force in points if height <= end.actuator[0, 1])
+    return np.array([(0.0, 0.0), *kept])
 
 
 def limit_points(curve: FloatArray) -> NDArray[np.bool_]:
@@ -60,5 +63,5 @@ def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:
     touch = touching_height(problem)
     solve = recording(solve_increment, states.append)
     limit, (count, _) = scene.model.finger.pad_thickness, increments(scene, problem)
-    raise_until(problem, scene.model.contact.criterion, count, limit, rest(problem, touch), solve)
-    return curve_of(states, touch)
+    end = raise_until(problem, scene.model.contact.criterion, count, limit, rest(problem, touch), solve)
+    return curve_of(states, touch, end)

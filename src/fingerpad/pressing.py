@@ -130,7 +130,7 @@ def press(
         np.empty((0, 2 * free.size)),
         max((*reached.changes[-1:], *(each.residual for each in tangents))),
     )
-    curve = curve_of(states, touch) * np.array([1.0, 2.0 if mirrored else 1.0])
+    curve = curve_of(states, touch, reached) * np.array([1.0, 2.0 if mirrored else 1.0])
     return Pressed(condensed, free, state, displacement, curve, reached.tangents)
 
 
