@@ -25,7 +25,7 @@ def predict(
     error: whether to solve a second time, for `score_error`. kinematics: "small" or "finite". config, schemas: those of
     the checkout around the working folder if not given. Raises SceneError, and what `forecast` raises.
 
-    >>> predict("config/devices/device2.yaml", error=False)["rank"].max()
+    >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
     model = Path(config) if config else find_checkout(Path.cwd()).config

@@ -117,7 +117,8 @@ class Condition:
         """Times (1 + n_times,) [s] of pre-indentation and of the rows: 0, or one step before a first row at 0.
 
         >>> nothing = np.zeros((2, 1))
-        >>> [Condition("a", "b", 0.0, np.array(time), nothing, nothing).times.tolist() for time in ([1, 3], [0, 2])]
+        >>> rows = np.array([1.0, 3.0]), np.array([0.0, 2.0])
+        >>> [Condition("a", "b", 0.0, time, nothing, nothing).times.tolist() for time in rows]
         [[0.0, 1.0, 3.0], [-2.0, 0.0, 2.0]]
         """
         first, second, *_ = *self.time, self.time[-1] + 1.0

@@ -49,7 +49,7 @@ def steps(scene: Scene, error: bool = True) -> int:
 def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
     """Rank of each row's score among those of its device, interface and read-out, 1 the largest; None without one.
 
-    >>> key = {"device": "d", "interface": "shear", "readout": "strain"}
+    >>> key = {"kinematics": "small", "device": "d", "interface": "shear", "readout": "strain"}
     >>> ranks([key | {"score": 0.1}, key | {"score": 0.3}, key | {"score": 0.1}, key | {"score": None}])
     [2, 1, 2, None]
     """

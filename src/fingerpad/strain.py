@@ -17,7 +17,7 @@ def maximum_principal(components: FloatArray) -> FloatArray:
 
     The in-plane pair is (exx + eyy)/2 +- sqrt(((exx - eyy)/2)^2 + (gxy/2)^2); the third, out of the plane, is zero.
 
-    >>> maximum_principal(np.array([0.01, -0.02, 0.0, -0.01, -0.01, 0.0])).tolist()
+    >>> maximum_principal(np.array([0.01, -0.02, 0.0, -0.01, -0.01, 0.0])).round(12).tolist()
     [0.01, 0.0]
     """
     exx, eyy, gxy = components.reshape(-1, VOIGT).T
