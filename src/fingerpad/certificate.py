@@ -12,7 +12,9 @@ from .contact import ContactProblem, ContactState, Status, pressing_and_shearing
 from .errors import CertificateError, ReachError
 from .profile import profile
 
-ADJACENT = 0.75  # distance of two nodes over the skin that belongs to them [1]; at most 0.6 if none lies between
+# distance of two nodes over the skin that belongs to them [1]; source: of equal elements 1/2 if they share one, 2/3 at
+# the end of a face, at least 1 if there is another between
+ADJACENT = 0.75
 
 # What a certificate may not exceed; source: each lies two orders below the score error that is aimed at (0.5 %)
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
@@ -112,7 +114,6 @@ def _require_within_reach(
     """
     own, x = problem.actuator_of, problem.position[:, 0]
     active = state.status != Status.OPEN
-    # nodes of second-order elements are half an element apart, and carry at least 1/6 and 4/6 of it
     adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
     first = np.append(True, ~adjacent)
     last = np.append(~adjacent, True)

@@ -20,7 +20,7 @@ from .arrays import FloatArray
 from .compliance import CondensedSection
 from .contact import ContactProblem, ContactState
 from .creep import Creep
-from .device import Cycle
+from .device import CROSSING, Cycle
 from .errors import CycleError
 from .patch import Patch
 from .path import advance, drifting_to
@@ -115,8 +115,7 @@ def _repeated(now: FloatArray, then: FloatArray) -> bool:
 def displacement(cycle: Cycle, phase: float) -> FloatArray:
     """Displacement (n_actuators, 2) [mm] at a phase [rad] of the cycle."""
     turned = np.exp(1j * phase) * np.stack([cycle.tangential, cycle.normal], axis=1)
-    # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
-    return np.asarray(np.round(turned.real, 15))
+    return np.asarray(np.round(turned.real, CROSSING))
 
 
 def _stepping(problem: ContactProblem, creep: Creep, step: float) -> Stepping:

@@ -16,6 +16,7 @@ from .finger import Material
 from .requirements import require, require_positive
 from .tissue_law import Kinematics
 
+CROSSING = 15  # decimals of displacements [1]; cos(pi/2) is 6e-17 in floating point: a pin at its zero crossing rests
 ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
 
 

@@ -29,6 +29,8 @@ MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
 ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
 SIZE_SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
+LINE_SLACK = 10.0**-ROUNDED  # mm; keeps rounding from deciding on which side of a line a node lies
+ARC_POINTS = 4001  # of the table of arc lengths [1]; source: between them it is off by less than 1e-6 mm
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ class _Outline:
         """Angle [rad] from the dorsal top at which the outline's arc length [mm] from there is `arc`."""
         a, b = self.semi_axes
         # arc length from the end of the semi-axis b: a E(t | 1 - b^2/a^2), inverted on a table
-        table = np.linspace(0.0, np.pi, 4001)
+        table = np.linspace(0.0, np.pi, ARC_POINTS)
         return float(np.interp(arc, a * ellipeinc(table, 1.0 - (b / a) ** 2), table))
 
     def physical(self, logical: FloatArray) -> FloatArray:
@@ -172,9 +174,9 @@ def _base(outline: _Outline, numerics: Numerics) -> MeshTri:
     """Coarsest conforming mesh of half a section, in logical coordinates."""
     finger = outline.finger
     a, _ = outline.semi_axes
-    depths = {0.0, round(finger.parallel_depth, 9)}
+    depths = {0.0, round(finger.parallel_depth, ROUNDED)}
     for stack in (finger.pad, finger.dorsal):
-        depths.update(np.round(np.cumsum([layer.thickness for layer in stack[:-1]]), 9))
+        depths.update(np.round(np.cumsum([layer.thickness for layer in stack[:-1]]), ROUNDED))
     lines = np.array(sorted(depths))
     largest = numerics.largest_size / np.sqrt(2.0)  # legs of a triangle whose longest edge is the largest size
     soft = finger.pad_thickness - finger.parallel_depth
@@ -259,8 +261,8 @@ def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
     nail = (np.pi - outline.angle_of_arc(finger.nail_width / 2.0)) * outline.semi_axes[0]
 
     layer, names = _layers(finger, arc[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
-    depth = round(scene.model.receptor_depth, 9)
-    on_pad = arc <= nail + SIZE_SLACK
+    depth = round(scene.model.receptor_depth, ROUNDED)
+    on_pad = arc <= nail + LINE_SLACK
     facet_nodes = points.shape[1] + np.arange(ends.shape[1])
     level = np.all(zeta[ends] == depth, axis=0) & on_pad[facet_nodes]
     receptor_facets = np.flatnonzero(level)

@@ -74,7 +74,7 @@ class Numerics:
 class Skips:
     """What a scene may skip; each switch turns one saving off for comparison (docs/skipping.md).
 
-    halved_condensation: the section mirrors, so half of it is condensed twice. equal_stimuli: conditions with the same
+    halved_condensation: the section mirrors, so half of it is condensed. equal_stimuli: conditions with the same
     stimulus are solved once. shared_indentation: pre-indentation, the same for all conditions, is solved once where one
     process solves several. mirrored_half: pre-indentation of a row that mirrors solves one half. frictionless_path:
     without friction the path leaves no trace, so it is followed in a few increments. inactive_nodes: an increment

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from .arrays import ComplexArray, FloatArray
-from .device import Condition, Cycle
+from .device import CROSSING, Condition, Cycle
 from .errors import SceneError
 from .recording import read_recording
 
@@ -35,8 +35,7 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
     conditions = []
     for dispersion, phase, lag in _lags(stimulus, count):
         if stimulus["playback"] == "snapshot":
-            # cos(pi/2) is 6e-17 in floating point; a pin at its zero crossing rests
-            displacement = stimulus["amplitude"] * np.round(np.cos(lag), 15)[None, :]
+            displacement = stimulus["amplitude"] * np.round(np.cos(lag), CROSSING)[None, :]
             time = np.array([1.0])
         else:
             time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS

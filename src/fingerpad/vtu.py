@@ -39,9 +39,9 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
     """
     mesh = section.mesh
     nodes = np.vstack([mesh.t, mesh.nvertices + mesh.t2f[[0, 1, 2]]])
-    order = np.where(_clockwise(mesh.doflocs[:, mesh.t])[:, None], TURNED, np.arange(SYMMETRIC))
+    order = np.where(_clockwise(mesh.doflocs[:, mesh.t])[:, None], TURNED, np.arange(NODES.shape[1]))
     own = np.take_along_axis(nodes.T, order, axis=1).ravel()
-    point = (len(NODES[0]) * np.arange(len(order))[:, None] + order).ravel()
+    point = (NODES.shape[1] * np.arange(len(order))[:, None] + order).ravel()
     cells = [("triangle6", np.arange(own.size).reshape(order.shape))]
     tractions = skin_tractions(section, scene, states.contact)
     found = []

@@ -1,8 +1,7 @@
 """Strain maps on the deformed section with the contact tractions beneath, for one device and dispersion.
 
-Nodal tractions of second-order elements alternate between vertices and midpoints, as a nodal force divided by a
-node's share of skin does not follow a kinked traction. What is drawn is the mean over each element, by Simpson's rule
-on its three nodes: it is smooth, and its integral is the contact force.
+What is drawn are nodal forces over the skin that belongs to their node, with straight lines between: the linear
+tractions of the model (`traction`), whose integral is the contact force.
 """
 
 from __future__ import annotations
