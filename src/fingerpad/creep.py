@@ -30,18 +30,18 @@ MISFIT_LIMIT = 1e-3  # of the largest entry [1]; source: a fifth of the score er
 class Creep:
     """What creeps, of `CondensedSection`: relaxed maps are instantaneous ones and all of these together.
 
-    time: (k,) [s]. compliance: (k, 2n, 2n) [mm per N/mm]. strain: (k, 3m, 2n) [1 per N/mm]. misfit: of the maps at a
-    rate that they were not found from, over the largest entry [1].
+    time: (k,) [s]. compliance: (k, 2n, 2n) [mm per N/mm]. strain: (k, 3m, 2n) [1 per N/mm].
     """
 
     time: FloatArray
     compliance: FloatArray
     strain: FloatArray
-    misfit: float
 
 
 def condense_creep(section: SectionMesh, scene: Scene) -> Creep:
-    """Condense tissue that creeps. Raises CondensationError if the maps miss a rate by more than MISFIT_LIMIT."""
+    """Condense tissue that creeps. Raises CondensationError if the maps miss a rate that they were not found from by
+    more than MISFIT_LIMIT.
+    """
     times = creep_times(scene.model.vibration.relaxation)
     between = 1.0 / np.sqrt(times[1:] * times[:-1])
     rates = np.array([0.0, *between, np.inf])
@@ -61,7 +61,7 @@ def condense_creep(section: SectionMesh, scene: Scene) -> Creep:
     )
     if not misfit <= MISFIT_LIMIT:
         raise CondensationError(f"creep: maps are off by {misfit:.1e} > {MISFIT_LIMIT:.0e}")
-    return Creep(times, compliance[1:], strain[1:], misfit)
+    return Creep(times, compliance[1:], strain[1:])
 
 
 def creep_times(relaxation: Relaxation) -> FloatArray:

@@ -78,14 +78,13 @@ class Move:
     """Where a move ends.
 
     state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without
-    contact forces, had the tangent held all the way [mm]. corrections: so far. tangents: made so far. defect: largest
-    change of displacement in the last correction of a move, over the largest displacement in it [1], so far.
+    contact forces, had the tangent held all the way [mm]. tangents: made so far. defect: largest change of displacement
+    in the last correction of a move, over the largest displacement in it [1], so far.
     """
 
     state: ContactState
     displacement: FloatArray
     free: FloatArray
-    corrections: int
     tangents: int
     defect: float
 
@@ -164,7 +163,7 @@ def _corrected(
             if is_far(moved, float(np.abs(target - start.state.actuator).max()), float(np.abs(target).max())):
                 raise _UnsettledError
             defect = max(start.defect, defect)
-            return Move(state, displacement, last, start.corrections + correction, start.tangents, defect)
+            return Move(state, displacement, last, start.tangents, defect)
         if steps:
             displacement[free] = accelerated(steps, ends)
     raise _UnsettledError
@@ -183,7 +182,6 @@ def _followed_newly(
         undeformed(reached),
         reached.displacement,
         rest,
-        start.corrections + MAX_CORRECTIONS,
         start.tangents + reached.tangents,
         start.defect,
     )

@@ -62,7 +62,7 @@ def pressed_finger(
     if tissue.spring is not None:
         borne = (problem.compliance - tissue.spring.compliance) @ pressed.state.force.ravel()
         problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
-    start = Move(pressed.state, displacement, free, 0, 0, 0.0)
+    start = Move(pressed.state, displacement, free, 0, 0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(interface, pressed, replace(problem, free=free), tissue, start, gradient, dofs, skin)
 

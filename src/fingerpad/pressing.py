@@ -58,7 +58,7 @@ class Pressed:
     factorisation's, or what the tissue had left to move, over the load, whichever is larger. free: (n, 2)
     displacement that contact nodes would have without contact forces, had the tangent held all the way [mm]. state: of
     all contact nodes. displacement: (2, n_nodes) of the section [mm]. curve: (k, 2) heights above first touch [mm] and
-    pressing forces [N/mm] on the way. tangents: condensed on the way.
+    pressing forces [N/mm] on the way.
     """
 
     section: CondensedSection
@@ -66,7 +66,6 @@ class Pressed:
     state: ContactState
     displacement: FloatArray
     curve: FloatArray
-    tangents: int
 
 
 def press(
@@ -131,7 +130,7 @@ def press(
         max((*reached.changes[-1:], *(each.residual for each in tangents))),
     )
     curve = curve_of(states, touch, reached) * np.array([1.0, 2.0 if mirrored else 1.0])
-    return Pressed(condensed, free, state, displacement, curve, reached.tangents)
+    return Pressed(condensed, free, state, displacement, curve)
 
 
 def indented_height(scene: Scene, section: SectionMesh, interface: Interface) -> float:
