@@ -207,13 +207,18 @@ def coarse_scenes(project: Project, tmp_path_factory: pytest.TempPathFactory) ->
 
 @pytest.fixture(scope="session")
 def both_scenes(coarse_scenes: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The coarse scenes with both kinematics, and SMALL_ONLY: Device 2 again, whose file leaves the finite ones out."""
+    """The coarse scenes with both kinematics, another span than the shipped one, and SMALL_ONLY: Device 2 again, whose
+    file leaves the finite ones out.
+    """
     scenes = tmp_path_factory.mktemp("both") / "scenes"
     shutil.copytree(coarse_scenes, scenes)
     text = (scenes / "devices" / "device2.yaml").read_text(encoding="utf-8")
     key = 'kinematics: {value: small, unit: "1", source: "assumption: a test"}\n'
     (scenes / "devices" / f"{SMALL_ONLY}.yaml").write_text(f"{text}\n{key}", encoding="utf-8")
     Project(scenes).edit("config.yaml", lambda text: text.replace("{value: small", "{value: both", 1))
+    Project(scenes).edit(
+        "config.yaml", lambda text: text.replace("span_margin: {value: 1.12", "span_margin: {value: 0.5")
+    )
     return scenes
 
 

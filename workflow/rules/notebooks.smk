@@ -25,6 +25,7 @@ rule notebooks:
 
 rule notebook:
     input:
+        config=ancient(CONFIG),
         notebook=BASE / "notebooks" / "{notebook}.ipynb",
         results=lambda w: READ_BY[w.notebook],
     output:
@@ -38,6 +39,7 @@ rule notebook:
         ENVIRONMENT
     params:
         code=lambda w: [code("notebook.py"), code_of(BASE / "notebooks" / f"{w.notebook}.ipynb")],
-        scene=support.fingerprint(SHIPPED["device2"].model, SHIPPED["device2"].device),
+        # results are of SCENE; what notebooks design themselves begins with the shipped device
+        scene=support.fingerprint(SCENE.get("device2"), SHIPPED["device2"]),
     script:
         "../scripts/notebook.py"

@@ -20,8 +20,11 @@ TEMPLATE = """\
 """
 
 
-def main(notebook: Path, page: Path) -> None:
-    """Read the notebook, run all of its cells here, write the page; a failing cell fails the job."""
+def main(notebook: Path, scenes: Path, page: Path) -> None:
+    """Read the notebook, run all of its cells here, write the page; a failing cell fails the job. scenes: the folder of
+    the scene files, as SCENES in the notebook's environment.
+    """
+    os.environ["SCENES"] = str(scenes.resolve())
     document = nbformat.read(notebook, as_version=4)
     folder = {"metadata": {"path": str(Path.cwd())}}
     # a page has no kernel, so widgets on it could not move: their state is left out, and what would be loaded for it
@@ -34,4 +37,4 @@ def main(notebook: Path, page: Path) -> None:
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     os.environ["IPYTHONDIR"] = str(Path(job.output.page).parent / ".ipython")
-    main(Path(job.input.notebook), Path(job.output.page))
+    main(Path(job.input.notebook), Path(job.input.config).parent, Path(job.output.page))
