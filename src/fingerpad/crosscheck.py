@@ -171,8 +171,7 @@ def differences(found: Outcome, reference: Outcome) -> dict[str, float]:
 def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
     """Displacements (n_actuators, 2) [mm] of the actuators: pre-indented, then at the stimulus's times."""
     indented = np.tile([0.0, settings.indentation], (condition.normal.shape[1], 1))
-    moves = zip(condition.tangential, condition.normal, strict=True)
-    return [indented, *(indented + np.stack(move, axis=1) for move in moves)]
+    return [indented, *(indented + condition.moves)]
 
 
 def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:

@@ -98,9 +98,8 @@ def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) ->
     """The pre-indented state, and the ends of all moves of a stimulus. Raises ContactError."""
     before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
     moves = [finger.start]
-    for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
-        target = before.actuator + np.stack([tangential, normal], axis=1)
-        moves.append(move(finger.tissue, finger.problem, moves[-1], target, count))
+    for moved in condition.moves:
+        moves.append(move(finger.tissue, finger.problem, moves[-1], before.actuator + moved, count))
         require_uncrossed(finger.skin, moves[-1].displacement, f"after move {len(moves) - 1} of the stimulus")
     return moves
 

@@ -125,6 +125,11 @@ class Condition:
         first, second, *_ = *self.time, self.time[-1] + 1.0
         return np.array([0.0 if first > 0.0 else first - (second - first), *self.time])
 
+    @property
+    def moves(self) -> FloatArray:
+        """Displacements (n_times, n_actuators, 2) [mm], tangential and normal."""
+        return np.stack([self.tangential, self.normal], axis=2)
+
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""
         return (

@@ -302,9 +302,8 @@ def _contact(scene: Scene, settings: DeckSettings) -> list[str]:
 def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[str]:
     count = len(scene.device.actuators.positions)
     moves = [("pre-indentation", [(0.0, settings.indentation)] * count)]
-    for time, tangential, normal in zip(condition.time, condition.tangential, condition.normal, strict=True):
-        moved = [(x, settings.indentation + y) for x, y in zip(tangential.tolist(), normal.tolist(), strict=True)]
-        moves.append((f"stimulus at time {time:g}", moved))
+    for time, displaced in zip(condition.time, condition.moves.tolist(), strict=True):
+        moves.append((f"stimulus at time {time:g}", [(x, settings.indentation + y) for x, y in displaced]))
     switched = settings.friction_acting != settings.friction_indenting
     switch = ["*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR", *_friction(settings.friction_acting, settings)]
     step = f"*STEP{', NLGEOM' if scene.kinematics is Kinematics.FINITE else ''}, INC={LARGEST_COUNT}"

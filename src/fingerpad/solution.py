@@ -54,6 +54,11 @@ class Solution:
     searches: int
     certificate: Certificate
 
+    @property
+    def forces(self) -> FloatArray:
+        """Forces (1 + n_times, n, 2) [N/mm] after pre-indentation and at the stimulus's times."""
+        return np.concatenate([self.indented_force[None], self.force])
+
 
 @dataclass(frozen=True)
 class Indented:
@@ -111,9 +116,8 @@ def follow_condition(
 ) -> list[ContactState]:
     """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
     states, (_, count) = [before], increments(scene, problem)
-    for tangential, normal in zip(condition.tangential, condition.normal, strict=True):
-        target = before.actuator + np.stack([tangential, normal], axis=1)
-        states.append(follow(problem, states[-1], target, count))
+    for moved in condition.moves:
+        states.append(follow(problem, states[-1], before.actuator + moved, count))
     return states[1:]
 
 

@@ -60,8 +60,7 @@ def solved_states(scene: Scene, section: SectionMesh, condition: Condition, inte
 
 def linear_states(scene: Scene, section: SectionMesh, solution: Solution) -> States:
     """States of linear tissue, from the contact forces of a solution."""
-    force = np.stack([solution.indented_force, *solution.force])
-    return States(recover_displacement(section, scene, force), force)
+    return States(recover_displacement(section, scene, solution.forces), solution.forces)
 
 
 def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -> States:

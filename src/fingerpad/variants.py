@@ -53,8 +53,7 @@ def variant_rows(
         for measure in Measure:
             of_strain = partial(measured, measure, material=material_at(scene, side))
             for (name, interface), solution in solutions.items():
-                forces = np.stack([solution.indented_force, *solution.force])
-                read = receptor_readouts(section.receptor_strain(forces), section.arc, of_strain)
+                read = receptor_readouts(section.receptor_strain(solution.forces), section.arc, of_strain)
                 for factor in WAVELENGTH_FACTORS:
                     variant = _with_wavelengths(scene, factor)
                     filtered = filtered_readouts(

@@ -43,8 +43,7 @@ def plain_scores(
     problem = contact_problem(scene, condensed, None, Interface.SHEAR)
     state = rest(problem, touching_height(problem))
     pressed = np.tile([0.0, indentation], (len(problem.row.positions), 1))
-    moves = zip(condition.tangential, condition.normal, strict=True)
-    targets = [pressed, *(pressed + np.stack(move, axis=1) for move in moves)]
+    targets = [pressed, *(pressed + condition.moves)]
     states: list[ContactState] = []
     for target, count in zip(targets, [increments[0], *[increments[1]] * condition.time.size], strict=True):
         start = state.actuator

@@ -8,8 +8,6 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from ..accuracy import CASE, relative_error
 from ..arrays import FloatArray
 from ..contact_law import Interface
@@ -80,8 +78,7 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     _, recovering = fewest(
         repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.force[-1:]))
     )
-    forces = np.stack([solution.indented_force, *solution.force])
-    finger = condensed.section
+    forces, finger = solution.forces, condensed.section
     _, reading_both = fewest(repeats, lambda: receptor_readouts(finger.receptor_strain(forces), finger.arc))
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
         yield {

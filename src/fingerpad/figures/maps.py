@@ -105,7 +105,7 @@ def strain_map_figure(
         solution = solutions[condition.name]
         drawn = _draw_map(axes, fields, loading, end)
         rise = np.array([0.0, solution.indentation])
-        offsets = np.stack([condition.tangential[-1], condition.normal[-1]], axis=1) + rise
+        offsets = condition.moves[-1] + rise
         draw_actuators(axes, row, offsets, 2.0 * BELOW)
         axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
         axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
