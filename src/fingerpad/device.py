@@ -201,6 +201,11 @@ class Device:
         wanted = self.condition(name)
         return next(c for c in self.conditions if c.same_stimulus(wanted))
 
+    @property
+    def distinct_conditions(self) -> tuple[Condition, ...]:
+        """One condition of every stimulus, the first."""
+        return tuple(each for each in self.conditions if self.first_with_stimulus_of(each.name) is each)
+
     def interfaces(self) -> tuple[Interface, ...]:
         """Interfaces that can be predicted: a force-controlled device moves nothing without friction."""
         return (Interface.SHEAR,) if self.control is Control.FORCE else tuple(Interface)

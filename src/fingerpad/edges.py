@@ -16,7 +16,6 @@ from .actuator_body import body_of
 from .arrays import FloatArray
 from .condensation import condense_section
 from .contact import ContactProblem, ContactState
-from .device import Condition
 from .errors import CondensationError, ContactError, MeshError
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
@@ -67,7 +66,7 @@ def _states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, C
     coarse = scene.coarsened(COARSER)
     for problem, before in _pressed_states(coarse, mesh_section(coarse, edges)):
         yield problem, before
-        for condition in _distinct(scene):
+        for condition in scene.device.distinct_conditions:
             for state in follow_condition(coarse, problem, before, condition):
                 yield problem, state
 
@@ -87,12 +86,6 @@ def _pressed_states(scene: Scene, section: SectionMesh) -> Iterator[tuple[Contac
             pressed = press(scene, section, body, interface)
             problem = contact_problem(scene, pressed.section, body, interface)
             yield replace(problem, free=pressed.free), pressed.state
-
-
-def _distinct(scene: Scene) -> list[Condition]:
-    """One condition of every stimulus."""
-    device = scene.device
-    return [each for each in device.conditions if device.first_with_stimulus_of(each.name) is each]
 
 
 def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:

@@ -57,8 +57,7 @@ rule fields:
         pressed=pressed_of,
         solutions=lambda w: [
             f"results/{w.kinematics}/{w.device}/{condition.name}/shear/solution.npz"
-            for condition in scene_of(w).device.conditions
-            if scene_of(w).device.first_with_stimulus_of(condition.name) is condition
+            for condition in scene_of(w).device.distinct_conditions
         ],
     output:
         fields="results/{kinematics}/{device}/fields.npz",

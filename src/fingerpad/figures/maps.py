@@ -79,7 +79,7 @@ def strain_map_figure(
     device, pad = scene.device, scene.model.finger.pad_thickness
     row = device.actuators
     conditions = [condition for condition in device.conditions if condition.dispersion == dispersion]
-    distinct = [c.name for c in device.conditions if device.first_with_stimulus_of(c.name) is c]
+    distinct = [condition.name for condition in device.distinct_conditions]
     face = max(solution.indentation for solution in solutions.values())
     bottom, top = face - BELOW, pad + ABOVE
     reach = max(abs(x) for x in row.positions) + row.width / 2.0 + ASIDE

@@ -121,8 +121,7 @@ def _workflow(results: Results) -> Words:
 
 def _receptors(results: Results) -> Words:
     counts = "; ".join(
-        f"{scene.device.title}: {counted(scene.device.conditions)},"
-        f" {len({scene.device.first_with_stimulus_of(c.name).name for c in scene.device.conditions})} distinct"
+        f"{scene.device.title}: {counted(scene.device.conditions)}, {len(scene.device.distinct_conditions)} distinct"
         for scene in results.scenes
     )
     return Words(
