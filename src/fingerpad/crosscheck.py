@@ -76,7 +76,7 @@ def on_deck(scene: Scene, coarsening: float) -> Scene:
         face_size=coarsening * DECK_FACE_SIZE,
         receptor_size=coarsening * DECK_RECEPTOR_SIZE,
     )
-    return replace(scene, model=replace(scene.model, numerics=numerics))
+    return scene.with_numerics(numerics)
 
 
 def sharpened(scene: Scene) -> Scene:

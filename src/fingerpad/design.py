@@ -20,7 +20,6 @@ from .contact_law import Interface
 from .device import ActuatorRow, Condition, Control, Device
 from .errors import ContactError
 from .mesh import mesh_section
-from .numerics import Numerics
 from .prediction import Condensed, read_out
 from .resampling import resampling_to_grid
 from .roughness import score_rows
@@ -81,7 +80,7 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
     """
     numerics = scene.model.numerics
     skin = replace(numerics, edge_size=SIZE * numerics.edge_size)
-    scenes = (_with_numerics(scene, each) for each in (skin, skin.coarsened(COARSER)))
+    scenes = (scene.with_numerics(each) for each in (skin, skin.coarsened(COARSER)))
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
@@ -99,7 +98,7 @@ def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Presse
     scene = Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, pins, (_condition(count, 0.0, 0.0, True),)))
     fine = _pressed(scene, pad.fine)
     try:
-        return fine, _pressed(_with_numerics(scene, model.numerics.coarsened(COARSER)), pad.coarse)
+        return fine, _pressed(scene.with_numerics(model.numerics.coarsened(COARSER)), pad.coarse)
     except ContactError as error:
         return fine, str(error)
 
@@ -154,10 +153,6 @@ def _moved(row: Pressed, condition: Condition) -> Answer:
     readouts = read_out(scene, row.skin, solution)
     rows = score_rows(scene, condition, Interface.SHEAR, readouts)
     return Answer(scene, row.skin.section, solution, readouts, rows)
-
-
-def _with_numerics(scene: Scene, numerics: Numerics) -> Scene:
-    return replace(scene, model=replace(scene.model, numerics=numerics))
 
 
 def _condensed(scene: Scene, reach: float) -> Condensed:

@@ -18,8 +18,8 @@ from .solution import Indented
 
 def relaxation_variants(scene: Scene) -> dict[str, Scene]:
     """The scene with other assumptions on how tissue relaxes, by name; the scene itself first."""
-    relaxation, pad = scene.model.vibration.relaxation, [layer.name for layer in scene.model.finger.pad]
-    deep = tuple(pad[pad.index(scene.model.readout.layer_above) + 1 :])
+    relaxation = scene.model.vibration.relaxation
+    deep = tuple(layer.name for layer in scene.model.finger.pad[scene.model.layers_above :])
     left = 1.0 - sum(relaxation.shares)
     more = (1.0 - left / 2.0) / (1.0 - left)
     variants = {

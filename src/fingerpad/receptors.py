@@ -23,8 +23,8 @@ def receptor_gradient(section: SectionMesh, scene: Scene) -> tuple[FloatArray, c
     """Receptor points (m, 2) [mm] and their displacement gradient (4m, n_unknowns), read from the side that the scene
     asks for.
     """
-    above = [layer.name for layer in scene.model.finger.pad].index(scene.model.readout.layer_above)
-    wanted = above + 1 if scene.model.readout.side is Side.DERMIS else above
+    below = scene.model.layers_above
+    wanted = below if scene.model.readout.side is Side.DERMIS else below - 1
     adjacent = section.mesh.f2t[:, section.receptor_facets]
     element = np.where(section.layer[adjacent[0]] == wanted, adjacent[0], adjacent[1])
     points, gradient = facet_gradient(section.mesh, section.receptor_facets, element)

@@ -43,13 +43,16 @@ class Model:
             require(name in every, f"vibration: layers {name!r} must be among {every}")
 
     @property
+    def layers_above(self) -> int:
+        """How many of the pad's layers lie above the receptor line: the index of the one below."""
+        return [layer.name for layer in self.finger.pad].index(self.readout.layer_above) + 1
+
+    @property
     def receptor_depth(self) -> float:
         """Depth of the receptor line below the skin [mm]."""
         depth = 0.0
-        for layer in self.finger.pad:
+        for layer in self.finger.pad[: self.layers_above]:
             depth += layer.thickness
-            if layer.name == self.readout.layer_above:
-                break
         return depth
 
 
@@ -81,10 +84,13 @@ class Scene:
         tissue = replace(self.model.tissue, kinematics=kinematics)
         return replace(self, model=replace(self.model, tissue=tissue))
 
+    def with_numerics(self, numerics: Numerics) -> Scene:
+        """The scene with other numerics."""
+        return replace(self, model=replace(self.model, numerics=numerics))
+
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""
-        numerics = self.model.numerics.coarsened(factor)
-        return replace(self, model=replace(self.model, numerics=numerics))
+        return self.with_numerics(self.model.numerics.coarsened(factor))
 
     def __post_init__(self) -> None:
         row = self.device.actuators

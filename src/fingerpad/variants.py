@@ -34,9 +34,8 @@ AS_CONFIGURED = 1.0  # times the wavelengths [1]
 
 def material_at(scene: Scene, side: Side) -> Material:
     """Material of the layer on one side of the receptor line."""
-    pad = scene.model.finger.pad
-    above = [layer.name for layer in pad].index(scene.model.readout.layer_above)
-    return pad[above + (side is Side.DERMIS)].material
+    below = scene.model.layers_above
+    return scene.model.finger.pad[below if side is Side.DERMIS else below - 1].material
 
 
 def variant_rows(

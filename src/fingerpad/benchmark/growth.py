@@ -13,7 +13,6 @@ from ..contact_law import Criterion, Interface
 from ..device import ActuatorRow, Condition
 from ..edges import edge_intervals
 from ..mesh import mesh_section
-from ..numerics import Numerics
 from ..prediction import condense_scene
 from ..scene import Scene
 from ..solution import indent_device, stimulate
@@ -37,7 +36,7 @@ def growth(scene: Scene, factors: Sequence[float], counts: Sequence[int], repeat
             indentation_increments=kept.indentation_increments,
             stimulus_increments=kept.stimulus_increments,
         )
-        yield _measured("mesh", _with_numerics(scene, numerics), repeats)
+        yield _measured("mesh", scene.with_numerics(numerics), repeats)
     for factor in factors:
         kept = scene.model.numerics
         numerics = replace(
@@ -45,7 +44,7 @@ def growth(scene: Scene, factors: Sequence[float], counts: Sequence[int], repeat
             indentation_increments=round(kept.indentation_increments / factor),
             stimulus_increments=round(kept.stimulus_increments / factor),
         )
-        yield _measured("increments", _with_numerics(scene, numerics), repeats)
+        yield _measured("increments", scene.with_numerics(numerics), repeats)
     for count in counts:
         yield _measured("actuators", row_of(scene, count), repeats)
 
@@ -91,10 +90,6 @@ def row_of(scene: Scene, count: int) -> Scene:
         stimulus_increments=kept.stimulus_increments,
     )
     return Scene(replace(model, numerics=numerics), device)
-
-
-def _with_numerics(scene: Scene, numerics: Numerics) -> Scene:
-    return replace(scene, model=replace(scene.model, numerics=numerics))
 
 
 def _measured(varied: str, scene: Scene, repeats: int) -> Row:

@@ -25,7 +25,7 @@ def rows(model: Model) -> list[Comparison]:
     return [
         *refined(partial(punch.flat_punch, poisson=POISSON), punch.SPACINGS),
         *refined(partial(hertz.hertz, poisson=POISSON), hertz.SPACINGS),
-        *(row for load in layers.Load for row in _layered(soft, layers.layers_above(model), load)),
+        *(row for load in layers.Load for row in _layered(soft, model.layers_above, load)),
     ]
 
 

@@ -124,17 +124,12 @@ def layer_stiffness(layer: Layer, k: float) -> FloatArray:
     return np.asarray(np.linalg.solve(displacement.T, traction.T).T)
 
 
-def layers_above(model: Model) -> int:
-    """How many of the pad's layers lie above the receptors."""
-    return [layer.name for layer in model.finger.pad].index(model.readout.layer_above) + 1
-
-
 def rows(model: Model) -> list[Comparison]:
     """Strain and displacement in the pad's layers under both loads."""
     return [
         row
         for load in Load
-        for row in refined(partial(layered, "layers", model.finger.pad, layers_above(model), load), SPACINGS)
+        for row in refined(partial(layered, "layers", model.finger.pad, model.layers_above, load), SPACINGS)
     ]
 
 

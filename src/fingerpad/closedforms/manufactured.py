@@ -99,4 +99,4 @@ def uniform(scene: Scene, size: float) -> Scene:
         receptor_size=size,
         largest_size=size,
     )
-    return replace(scene, model=replace(scene.model, numerics=numerics))
+    return scene.with_numerics(numerics)

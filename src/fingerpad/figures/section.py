@@ -107,9 +107,8 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
     ]
     inside_bone = np.array([[0.3 * finger.bone_width], [finger.pad_thickness + 0.7 * finger.bone_height]])
     parts.insert(len(finger.pad), ("bone", "rigid", inside_bone))
-    below = [la.name for la in finger.pad].index(model.readout.layer_above) + 1
     receptors = mesh.doflocs[:, mesh.nvertices + section.receptor_facets]
-    parts.insert(below, ("receptors", f"{model.receptor_depth:g} mm deep", receptors))
+    parts.insert(model.layers_above, ("receptors", f"{model.receptor_depth:g} mm deep", receptors))
     for number, (name, size, points) in enumerate(parts):
         place = np.array([labels, (number + 0.5) / len(parts) * height])
         target = points[:, np.argmin(np.hypot(*(points - place[:, None])))]
