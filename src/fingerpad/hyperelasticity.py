@@ -91,7 +91,7 @@ def cauchy_stress(tissue: Tissue, gradient: FloatArray) -> FloatArray:
     """
     (a, b), (c, d) = gradient
     f11, f22 = 1.0 + a, 1.0 + d
-    s11, s22, s12 = respond(tissue, gradient).stress
+    s11, s22, s12 = stress_of(tissue, gradient)
     kirchhoff = [
         f11 * f11 * s11 + b * b * s22 + 2.0 * f11 * b * s12,
         c * c * s11 + f22 * f22 * s22 + 2.0 * c * f22 * s12,
