@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 from skfem import MeshTri2
 
 from .arrays import FloatArray
 from .condensation import section_stiffness
 from .elasticity import displacement_basis, node_dofs
+from .factors import factorise, fill_reducing_order
 from .mesh import SectionMesh
 from .reach import contact_tractions
 from .scene import Scene
@@ -18,21 +18,17 @@ from .scene import Scene
 def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
     """Displacement (n_loadings, 2, n_nodes) [mm] of all nodes under contact forces (n_loadings, n_contact, 2) [N/mm].
 
-    K u = f, one factorisation for all loadings.
+    K u = f, one factorisation for all loadings. Raises CondensationError.
     """
     matrix, dofs = section_stiffness(section, scene)
-    free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, section.fixed].ravel())
+    free = np.ones(matrix.shape[0], dtype=bool)
+    free[dofs[:, section.fixed]] = False
+    order = fill_reducing_order(matrix, dofs, free)
     tractions = contact_tractions(section, scene)
     right = np.zeros((matrix.shape[0], forces.shape[0]))
     right[dofs[:, tractions.nodes].T.ravel()] = tractions.by_component() @ forces.reshape(forces.shape[0], -1).T
-    factors = splu(
-        csc_matrix(matrix[free][:, free]),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
     displacement = np.zeros_like(right)
-    displacement[free] = factors.solve(right[free])
+    displacement[order] = factorise(csc_matrix(matrix[order][:, order])).solve(right[order])
     return np.asarray(displacement.T[:, dofs])
 
 
