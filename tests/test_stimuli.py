@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import yaml
 
-from fingerpad.device import Condition
+from fingerpad.device import ActuatorRow, Condition, Control, Cycle, Device
 from fingerpad.errors import SceneError
 from fingerpad.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
 from fingerpad.scenefile import recordings
@@ -79,6 +79,31 @@ def test_a_phase_may_have_decimals() -> None:
         assert len(set(names)) == len(phases)
         assert names == [cycle.name for cycle in cycles]
         assert [name.split("_", 1)[1] for name in names[:3]] == ["000", "022", "022_5"]
+
+
+def narrow(cycles: bool, tangential: list[list[float]]) -> Device:
+    """Three actuators with gaps of 0.05 mm, as pins that move in time [1, 2] s or vibrate."""
+    row, path = ActuatorRow((-2.05, 0.0, 2.05), 2.0, 0.3), np.array(tangential)
+    still = np.zeros_like(path)
+    moving = Condition("rub", "one", 0.0, np.array([1.0, 2.0]), still, still if cycles else path)
+    turning = Cycle("rub", "one", 0.0, still[0] + 0j, path[0] * np.exp(1j * np.array([0.0, 2.0, 2.0])))
+    return Device("d", "D", Control.DISPLACEMENT, row, (moving,), (turning,) if cycles else ())
+
+
+def test_actuators_do_not_run_through_each_other() -> None:
+    """At any time of a stimulus; apart, together or by no more than their gap they may move."""
+    narrow(False, [[-9.0, 0.0, 9.0], [0.0, -0.05, -0.1]])
+    said = r"d: condition rub, time 2 s: actuators 2 and 3 run into each other: they come 0\.2 mm closer and overlap by"
+    with pytest.raises(SceneError, match=said + r" 0\.15 mm; allowed: strokes within their gap of 0\.05 mm"):
+        narrow(False, [[0.0, 0.0, 0.0], [0.0, 0.1, -0.1]])
+
+
+def test_actuators_do_not_run_through_each_other_in_a_cycle() -> None:
+    """They come as close as phases let them: not as close as amplitudes would."""
+    farthest = 0.05 / abs(1.0 - np.exp(2j))
+    narrow(True, [[farthest] * 3, [0.0] * 3])
+    with pytest.raises(SceneError, match="condition rub, as a vibration: actuators 1 and 2 run into each other"):
+        narrow(True, [[1.01 * farthest] * 3, [0.0] * 3])
 
 
 def written(folder: Path, lines: list[str], header: str = HEADER) -> Path:

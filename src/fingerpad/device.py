@@ -181,11 +181,35 @@ class Device:
                 f"{self.name}: condition {condition.name} moves {condition.normal.shape[1]} actuators,"
                 f" the device has {count}",
             )
+            for time, tangential in zip(condition.time, condition.tangential, strict=True):
+                self._require_apart(f"condition {condition.name}, time {time:g} s", -np.diff(tangential))
+        for cycle in self.cycles:
+            self._require_apart(f"condition {cycle.name}, as a vibration", np.abs(np.diff(cycle.tangential)))
+
+    def _require_apart(self, what: str, approach: FloatArray) -> None:
+        """Raise SceneError if neighbours that come closer by `approach` (n_actuators - 1,) [mm] run into each other."""
+        # linear between rows, so that rows suffice; bodies reach down from their faces, so that heights do not matter
+        row = self.actuators
+        overlap = approach - (np.diff(row.positions) - row.width)
+        for i in np.flatnonzero(overlap > ROUNDING * row.width)[:1]:
+            raise SceneError(
+                f"{self.name}: {what}: actuators {i + 1} and {i + 2} run into each other: they come {approach[i]:g} mm"
+                f" closer and overlap by {overlap[i]:.3g} mm; allowed: strokes within their gap of"
+                f" {approach[i] - overlap[i]:.3g} mm"
+            )
+
+    @property
+    def strokes(self) -> tuple[float, float]:
+        """Farthest [mm] that any condition moves an actuator along y (normal) and along x (lateral)."""
+        return (
+            max(float(np.abs(each.normal).max()) for each in self.conditions),
+            max(float(np.abs(each.tangential).max()) for each in self.conditions),
+        )
 
     @property
     def stroke(self) -> float:
         """Farthest [mm] that any condition moves an actuator along x or y: it decides which skin is within reach."""
-        return max(float(np.abs([each.normal, each.tangential]).max()) for each in self.conditions)
+        return max(self.strokes)
 
     def condition(self, name: str) -> Condition:
         """The condition of that name. Raises SceneError if there is none."""

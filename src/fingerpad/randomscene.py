@@ -89,7 +89,7 @@ def random_scene(number: int) -> Scene:
     model = replace(
         group.model, contact=replace(group.model.contact, friction=friction, criterion=criterion), numerics=numerics
     )
-    condition = _condition(rng, len(row.positions), group.device.stroke)
+    condition = _apart(row, _condition(rng, len(row.positions), group.device.stroke))
     return Scene(model, Device(f"stress_{number:05d}", "random", Control.DISPLACEMENT, row, (condition,)))
 
 
@@ -216,6 +216,16 @@ def _condition(rng: np.random.Generator, count: int, stroke: float) -> Condition
     history: FloatArray = moves * amplitude
     time = np.arange(1.0, len(history) + 1.0)
     return Condition(str(kind), "random", 0.0, time, history[:, :, 1], history[:, :, 0])
+
+
+def _apart(row: ActuatorRow, condition: Condition) -> Condition:
+    """The condition with so much of the movement against each other that neighbours keep apart."""
+    gap = max(float((np.diff(row.positions) - row.width).min(initial=math.inf)), 0.0)
+    closer = float(-np.diff(condition.tangential, axis=1).min(initial=0.0))
+    if closer <= gap:
+        return condition
+    together = condition.tangential.mean(axis=1, keepdims=True)
+    return replace(condition, tangential=together + gap / closer * (condition.tangential - together))
 
 
 def _decades(rng: np.random.Generator, bounds: tuple[float, float]) -> float:

@@ -60,10 +60,12 @@ def described(scene: Scene) -> str:
     device, row = scene.device, scene.device.actuators
     kind = "deformable" if row.body else "rigid"
     conditions = ", ".join(condition.name for condition in device.conditions)
+    normal, lateral = device.strokes
     places = ", ".join(f"{x:g}" for x in row.positions)
     return (
         f"{device.title} ({device.name})\n"
         f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
-        f"{len(device.conditions)} conditions: {conditions}"
+        f"{len(device.conditions)} conditions: {conditions}\n"
+        f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral"
     )
