@@ -162,7 +162,14 @@ def test_new_knows_the_devices(checkout: Path, capsys: pytest.CaptureFixture[str
 def test_check_says_what_there_is_and_draws(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "config/devices/device3.yaml", "-o", "third.png"]) == 0
     said = capsys.readouterr().out
-    for part in ("valid", "Device 3: lateral pucks", "4 deformable actuators", "alternate_090", "third.png"):
+    for part in (
+        "valid",
+        "Device 3: lateral pucks",
+        "4 deformable actuators",
+        "alternate_090",
+        "third.png",
+        "0.228 mm lateral",
+    ):
         assert part in said
     assert (checkout / "third.png").read_bytes().startswith(b"\x89PNG")
 
@@ -274,17 +281,25 @@ def test_scores_closer_than_their_errors_are_told() -> None:
 
 def test_caveats_of_a_solution() -> None:
     solution = solved("device2", "alternate_090", Interface.SHEAR)
-    assert solution_caveats(solution) == []
+    assert solution_caveats(scene("device2"), solution) == []
     worse = replace(
         solution,
         cuts=2,
         searches=MANY_SEARCHES + 1,
         certificate=replace(solution.certificate, penetration_share=0.5),
     )
-    halved, searched, near = solution_caveats(worse)
+    halved, searched, near = solution_caveats(scene("device2"), worse)
     assert "halved 2 times" in halved
     assert str(MANY_SEARCHES + 1) in searched
     assert near == "certificate: penetration is 50% of its limit"
+
+
+def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
+    """Finite strain is not."""
+    given = scene("device2")
+    deep = replace(solved("device2", "alternate_090", Interface.SHEAR), indentation=4.34)
+    assert solution_caveats(given, deep) == ["indentation is 87% of the pad: small strain does not hold"]
+    assert solution_caveats(given.with_kinematics(Kinematics.FINITE), deep) == []
 
 
 def test_a_device_that_lifts_off_is_near_no_limit() -> None:
@@ -294,7 +309,7 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
     for interface in Interface:
         solution = solve("device2", away, interface)
         assert not solution.pressure.any()
-        assert not [caveat for caveat in solution_caveats(solution) if "certificate" in caveat]
+        assert not [caveat for caveat in solution_caveats(scene("device2"), solution) if "certificate" in caveat]
 
 
 @pytest.fixture

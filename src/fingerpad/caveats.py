@@ -7,16 +7,27 @@ from typing import Any
 
 from .readout import CONSTANT
 from .roughness import KEY
+from .scene import Scene
 from .solution import Solution
+from .tissue_law import Kinematics
 
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
 NEAR = 0.1  # of a certificate's limit [1]; source: shipped devices stay below 0.05
 
+# Indentation over the pad's thickness [1]; source: the mean strain is then 0.5, the logarithmic one 0.69: small strain
+# is off by more than a quarter. Shipped devices have up to 0.35
+DEEP = 0.5
 
-def solution_caveats(solution: Solution) -> list[str]:
-    """Increments that were cut or did not settle at once, and figures of the certificate near their limits."""
+
+def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
+    """Indentation too deep for small strain, increments that were cut or did not settle at once, and figures of the
+    certificate near their limits.
+    """
     certificate = solution.certificate
     found = []
+    depth = solution.indentation / scene.model.finger.pad_thickness
+    if scene.kinematics is Kinematics.SMALL and depth > DEEP:
+        found.append(f"indentation is {depth:.0%} of the pad: small strain does not hold")
     if solution.cuts:
         found.append(f"increments were halved {'once' if solution.cuts == 1 else f'{solution.cuts} times'}")
     if solution.searches > MANY_SEARCHES:

@@ -76,6 +76,6 @@ def _solved_rows(
     for solved in solve_scene(scene, condensed):
         own = rows_of(scene, condensed, solved)
         rows += own
-        caveats += [solution_caveats(solved.solution) for _ in own]
+        caveats += [solution_caveats(scene, solved.solution) for _ in own]
         step()
     return rows, caveats
