@@ -17,11 +17,12 @@ from fingerpad.edges import mesh_device
 from fingerpad.errors import ContactError, ReachError
 from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
+from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
 from fingerpad.scene import Scene
-from fingerpad.solution import Solution, contact_problem, indented_state, solve_condition
+from fingerpad.solution import Solution, contact_problem, indent_device, indented_state, solve_condition
 from scenes import condensed, scene, solve, solved
 
 FINE = {"indentation_increments": 80, "stimulus_increments": 16}
@@ -162,9 +163,20 @@ def test_a_row_too_wide_says_what_helps() -> None:
     still = lateral("still", [0.0, 0.0])
     row = replace(base.device.actuators, positions=(-7.0, 7.0))
     wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,)))
-    advice = r"a narrower row needs less indentation, and so does contact\.criterion: touch"
+    advice = r"a narrower row needs less indentation, and so does contact\.criterion: touch \(in config/config\.yaml"
     with pytest.raises(ContactError, match=advice):
         solve_anew(wide.coarsened(4.0), still)
+
+
+def test_a_stimulus_is_not_blamed_for_where_pressing_ended() -> None:
+    """Five pins on so curved a pad: contact leaves the skin that was considered before anything has moved."""
+    base = scene("device2")
+    still = lateral("still", [0.0] * 5)
+    row = replace(base.device.actuators, positions=(-5.0, -2.5, 0.0, 2.5, 5.0))
+    wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,), cycles=()))
+    said = r"device=device2, interface=shear, pre-indentation: .* was considered; a narrower row needs less"
+    with pytest.raises(ReachError, match=said):
+        indent_device(wide, condense_section(mesh_section(wide, nominal_edges(row)), wide), None, Interface.SHEAR)
 
 
 def test_failures_name_device_condition_and_interface() -> None:

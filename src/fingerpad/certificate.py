@@ -125,7 +125,8 @@ def _require_within_reach(
     overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
     beyond = np.flatnonzero(active & (first | last) | overlapping)
     if beyond.size:
+        moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
         raise ReachError(
             f"certificate: contact at the actuator at x = {problem.row.positions[own[beyond[0]]]:g} mm reaches the last"
-            " skin node that was considered; the stimulus moves it too far sideways"
+            f" skin node that was considered{'; the stimulus moves it too far sideways' if moved else ''}"
         )

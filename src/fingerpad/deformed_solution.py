@@ -25,7 +25,7 @@ from .pressing import Pressed, whole_span
 from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
-from .solution import LEAVE_OUT, Solution, contact_problem, increments, named, solution
+from .solution import LEAVE_OUT, Solution, contact_problem, increments, named, named_pressing, solution
 from .strain import receptor_readouts
 
 
@@ -82,9 +82,11 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
 
 def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:
     """`deformed_moves`, and their certificate. Raises ContactError as `stimulate_deformed`."""
+    with named_pressing(scene, finger.interface):
+        pressed = _certified(finger, finger.start)
     with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}", LEAVE_OUT):
         moves = deformed_moves(scene, finger, condition)
-        return moves, worst([_certified(finger, each) for each in moves])
+        return moves, worst([pressed, *(_certified(finger, each) for each in moves[1:])])
 
 
 def _certified(finger: PressedFinger, end: Move) -> Certificate:

@@ -25,6 +25,7 @@ from .tissue_law import Kinematics
 
 FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
+TOUCH = ", and so does contact.criterion: touch (in config/config.yaml, where it changes every device)"
 LEAVE_OUT = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
 
 
@@ -62,11 +63,12 @@ class Solution:
 
 @dataclass(frozen=True)
 class Indented:
-    """A device pressed onto the finger: the same for all conditions."""
+    """A device pressed onto the finger, with the state's certificate: the same for all conditions."""
 
     interface: Interface
     problem: ContactProblem
     state: ContactState
+    certificate: Certificate
 
 
 def contact_problem(
@@ -127,11 +129,12 @@ def indent_device(
     """Press the device onto the finger: where the stimuli of all conditions begin.
 
     Raises MeshError if an actuator is nearest to no skin node, ContactError, naming device and interface, if the path
-    cannot be followed.
+    cannot be followed, or its end has no certificate.
     """
     problem = contact_problem(scene, section, body, interface)
     with named_pressing(scene, interface):
-        return Indented(interface, problem, indented_state(scene, problem))
+        state = indented_state(scene, problem)
+        return Indented(interface, problem, state, certify(problem, section, state))
 
 
 def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:
@@ -143,7 +146,7 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
     problem, before = indented.problem, indented.state
     with named(f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"):
         states = [before, *follow_condition(scene, problem, before, condition)]
-        certificate = worst([certify(problem, section, state) for state in states])
+        certificate = worst([indented.certificate, *(certify(problem, section, state) for state in states[1:])])
     strains = section.receptor_strain(np.array([state.force for state in states]))
     return solution(problem, section, states, receptor_readouts(strains, section.arc), certificate)
 
@@ -199,6 +202,6 @@ def named(what: str, advice: str = "") -> Iterator[None]:
 def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
     """`named`, for pre-indentation, which goes the deeper the wider the row is."""
     full = scene.model.contact.criterion is Criterion.FULL
-    advice = "; a narrower row needs less indentation" + (", and so does contact.criterion: touch" if full else "")
+    advice = "; a narrower row needs less indentation" + (TOUCH if full else "")
     advice += LEAVE_OUT if scene.kinematics is Kinematics.FINITE else ""
     return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)
