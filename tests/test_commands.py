@@ -20,15 +20,19 @@ import yaml
 
 import fingerpad.commands.predict as predicting
 from conftest import Project, coarsened
+from fingerpad import prediction
 from fingerpad.api import predict
 from fingerpad.caveats import MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
+from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import forecast, steps
+from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
+from fingerpad.solution import Indented, Solution
 from fingerpad.template import DRIVES, device_text
 from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_device, checked_document
@@ -234,6 +238,36 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     assert said in predicting.as_table(given, shear)
 
 
+def test_what_cannot_be_solved_leaves_the_rest(
+    coarse: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One interface that cannot be pressed, one condition that cannot be followed: the table says so, below it why."""
+    begin, follow = prediction.indent_device, prediction.stimulate
+
+    def pressed(scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface) -> Indented:
+        if interface is Interface.FRICTIONLESS:
+            raise ContactError("too wide")
+        return begin(scene, section, body, interface)
+
+    def moved(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:
+        if condition.name == "alternate_090":
+            raise ContactError("too far")
+        return follow(scene, section, indented, condition)
+
+    monkeypatch.setattr(prediction, "indent_device", pressed)
+    monkeypatch.setattr(prediction, "stimulate", moved)
+    assert main(["predict", "config/devices/device2.yaml"]) == 0
+    said = capsys.readouterr().out
+    lines = [line.split() for line in said.splitlines()]
+    assert {(*line[:2], "prediction" in line) for line in lines if line[0].startswith("alternate")} == {
+        (f"alternate_{phase}", interface, interface == "frictionless" or phase == "090")
+        for phase in ("000", "090", "180")
+        for interface in Interface
+    }
+    assert "alternate_090 (shear, strain), alternate_090 (shear, change_of_strain): no prediction: too far\n" in said
+    assert "no prediction: too wide" in said
+
+
 @pytest.mark.workflow
 @pytest.mark.parametrize("device", SHIPPED)
 def test_prediction_is_what_the_workflow_computes(device: str, finished: Any) -> None:
@@ -338,6 +372,16 @@ def test_predict_prints_an_aligned_table(
     assert rows[0].split() == ["a", "shear", "strain", "0.12346", "1.0e-04", "mm2", "1"]
     assert rows[1].split() == ["bb", "shear", "strain", "mm2", "no", "prediction"]
     assert rows[2:] == ["caveat: a (shear, strain): doubtful", "caveat: a (shear, strain): odd"]
+
+
+def test_predict_ends_with_3_if_nothing_has_a_score(
+    checkout: Path, quick: list[dict[str, Any]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    quick[0] |= {"score": None, "score_error": None, "note": "no prediction: too far", "caveats": []}
+    assert main(["predict", "--json", "config/devices/device2.yaml"]) == UNSOLVED == 3
+    said = capsys.readouterr()
+    assert said.err == "fingerpad: nothing could be scored: no prediction: too far\n"
+    assert json.loads(said.out) == quick
 
 
 def test_predict_shows_its_progress_on_a_terminal(

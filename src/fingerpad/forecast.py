@@ -11,6 +11,7 @@ from .accuracy import with_error, with_errors
 from .arrays import FloatArray
 from .caveats import score_caveats, solution_caveats
 from .edges import edge_intervals
+from .errors import ContactError
 from .prediction import coarser_rows, prepared, rows_of, solve_scene
 from .readout import CONSTANT
 from .roughness import KEY, unpredicted_rows
@@ -20,11 +21,11 @@ from .scene import Scene
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
 
-    error: whether to solve a second time, more coarsely, for `score_error`; without, or if that cannot be done, as the
-    note then says, that is None. step: called after each of `steps`. rank: 1 for the largest score of a device,
-    interface and read-out; equal scores share one.
+    What cannot be solved has no score, and a note that says why. error: whether to solve a second time, more coarsely,
+    for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called after each
+    of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
 
-    Raises MeshError, CondensationError, ContactError.
+    Raises MeshError, CondensationError.
     """
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
@@ -76,6 +77,7 @@ def _solved_rows(
     for solved in solve_scene(scene, condensed):
         own = rows_of(scene, condensed, solved)
         rows += own
-        caveats += [solution_caveats(scene, solved.solution) for _ in own]
+        said = [] if isinstance(solved.solution, ContactError) else solution_caveats(scene, solved.solution)
+        caveats += [said for _ in own]
         step()
     return rows, caveats

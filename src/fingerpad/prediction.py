@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 from .accuracy import COARSENING
 from .actuator_body import body_of
@@ -21,11 +21,15 @@ from .mesh import SectionMesh, mesh_section
 from .pressing import press
 from .receptors import arc_length, receptor_strain
 from .resampling import resampling_to_grid
-from .roughness import ERROR_UNKNOWN, score_rows, unsolved_rows
+from .roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows, unsolved_rows
 from .scene import Scene
 from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
 from .tissue_law import Kinematics
+
+COARSER = "on a mesh of twice the sizes, "  # where a score's error is sought
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -48,11 +52,11 @@ class Meshed:
 
 @dataclass(frozen=True)
 class Solved:
-    """The solution that holds for a condition at an interface."""
+    """The solution that holds for a condition at an interface, or why there is none."""
 
     condition: Condition
     interface: Interface
-    solution: Solution
+    solution: Solution | ContactError
 
 
 def prepared(scene: Scene, edges: FloatArray) -> Condensed | Meshed:
@@ -92,35 +96,48 @@ def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = l
     (k, 2) [mm]. If a coarser solution cannot be had, rows without scores, whose note says why. step: called after
     condensation and after every condition of every solution.
     """
-    other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
+    other, rows, unknown = scene.coarsened(COARSENING), list[dict[str, Any]](), f"{ERROR_UNKNOWN}: {COARSER}"
     try:
         condensed = prepared(other, edges)
         step()
         for solved in solve_scene(other, condensed):
-            rows += rows_of(other, condensed, solved)
+            rows += rows_of(other, condensed, solved, unknown)
             step()
-    except (MeshError, CondensationError, ContactError) as error:
-        return unsolved_rows(scene, f"{ERROR_UNKNOWN}: on a mesh of twice the sizes, {error}")
+    except (MeshError, CondensationError) as error:
+        return unsolved_rows(scene, f"{unknown}{error}")
     return rows
 
 
 def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:
     """Rows of the score table for all conditions and interfaces. Raises ContactError."""
-    return [row for solved in solve_scene(scene, condensed) for row in rows_of(scene, condensed, solved)]
+    rows: list[dict[str, Any]] = []
+    for solved in solve_scene(scene, condensed):
+        if isinstance(solved.solution, ContactError):
+            raise solved.solution
+        rows += rows_of(scene, condensed, solved)
+    return rows
 
 
 def solve_scene(scene: Scene, condensed: Condensed | Meshed) -> Iterator[Solved]:
-    """Solutions of all conditions and interfaces, one after the other; equal stimuli share one. Raises ContactError."""
+    """All conditions and interfaces, solved in turn as far as they can be; equal stimuli share a solution."""
     for interface in scene.device.interfaces():
-        found: dict[str, Solution] = {}
-        solve: Callable[[Condition], Solution] | None = None
+        found: dict[str, Solution | ContactError] = {}
+        pressed: Callable[[Condition], Solution] | ContactError | None = None
         for condition in scene.device.conditions:
             solved_as = scene.solved_as(condition.name).name
             if solved_as not in found:
-                if solve is None or not scene.model.skips.shared_indentation:
-                    solve = pressed_device(scene, condensed, interface)
-                found[solved_as] = solve(condition)
+                if pressed is None or not scene.model.skips.shared_indentation:
+                    pressed = _attempt(pressed_device, scene, condensed, interface)
+                found[solved_as] = pressed if isinstance(pressed, ContactError) else _attempt(pressed, condition)
             yield Solved(condition, interface, found[solved_as])
+
+
+def _attempt(solve: Callable[..., Result], *given: object) -> Result | ContactError:
+    """What is found, or why it cannot be."""
+    try:
+        return solve(*given)
+    except ContactError as error:
+        return error
 
 
 def pressed_device(
@@ -136,8 +153,12 @@ def pressed_device(
     )
 
 
-def rows_of(scene: Scene, condensed: Condensed | Meshed, solved: Solved) -> list[dict[str, Any]]:
-    """Rows of the score table for one solution."""
+def rows_of(
+    scene: Scene, condensed: Condensed | Meshed, solved: Solved, unsolved: str = f"{NO_PREDICTION}: "
+) -> list[dict[str, Any]]:
+    """Rows of the score table for one solution; without one, rows without scores, whose note is `unsolved` and why."""
+    if isinstance(solved.solution, ContactError):
+        return unscored_rows(scene, solved.condition, solved.interface, f"{unsolved}{solved.solution}")
     return score_rows(scene, solved.condition, solved.interface, read_out(scene, condensed, solved.solution))
 
 

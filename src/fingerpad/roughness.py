@@ -57,21 +57,26 @@ def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
     """Rows, with no score, for the interfaces at which the device prescribes no motion."""
     silent = [interface for interface in Interface if interface not in scene.device.interfaces()]
     return [
-        _row(scene, condition, interface, readout, None, NO_PREDICTION)
+        row
         for condition in scene.device.conditions
         for interface in silent
-        for readout in Readout
+        for row in unscored_rows(scene, condition, interface, NO_PREDICTION)
     ]
 
 
 def unsolved_rows(scene: Scene, note: str) -> list[dict[str, Any]]:
     """Rows, with no score but a note, for all conditions and interfaces at which the device prescribes motion."""
     return [
-        _row(scene, condition, interface, readout, None, note)
+        row
         for interface in scene.device.interfaces()
         for condition in scene.device.conditions
-        for readout in Readout
+        for row in unscored_rows(scene, condition, interface, note)
     ]
+
+
+def unscored_rows(scene: Scene, condition: Condition, interface: Interface, note: str) -> list[dict[str, Any]]:
+    """Rows, with no score but a note, for one condition and interface: one a read-out."""
+    return [_row(scene, condition, interface, readout, None, note) for readout in Readout]
 
 
 def _row(

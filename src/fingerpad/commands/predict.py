@@ -10,6 +10,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from ..errors import ContactError
 from ..forecast import forecast, steps
 from ..roughness import KEY
 from ..scene import Scene
@@ -51,7 +52,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Solve every device, and print all scores once they are there."""
+    """Solve every device, and print all scores once they are there. Raises ContactError if there is none."""
     kinematics = Kinematics(options.kinematics)
     scenes = [checked_scene(device, options).with_kinematics(kinematics) for device in options.devices]
     error = not options.no_error
@@ -67,12 +68,15 @@ def run(options: argparse.Namespace) -> None:
         print_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows])
     else:
         print("\n\n".join(map(as_table, scenes, tables)))
+    if all(row["score"] is None for row in rows):
+        raise ContactError(f"nothing could be scored: {rows[0]['note']}")
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     """Title, aligned table and caveats of one device."""
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
-    notes = ["" if row["score"] is not None else row["note"] for row in ordered]  # those of scores are caveats
+    # why there is none is a caveat, as are the notes of scores
+    notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
     cells = [
         [note if column == "note" else _shown(column, row[column]) for column in COLUMNS]
         for row, note in zip(ordered, notes, strict=True)
