@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.edges import load_edges
+from fingerpad.jobs import plain_errors
 from fingerpad.prediction import coarser_rows
 from fingerpad.scenefile import load_scene
 from fingerpad.store import write_rows
@@ -17,10 +18,11 @@ def main(config: Path, device: Path, kinematics: str, edges: Path, scores: Path)
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        job.wildcards.kinematics,
-        Path(job.input.edges),
-        Path(job.output.scores),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            job.wildcards.kinematics,
+            Path(job.input.edges),
+            Path(job.output.scores),
+        )

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.condensation import condense_section
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import load_section
 from fingerpad.scenefile import load_scene
 from fingerpad.store import save
@@ -15,4 +16,5 @@ def main(config: Path, device: Path, mesh: Path, condensed: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.config), Path(job.input.device), Path(job.input.mesh), Path(job.output.condensed))
+    with plain_errors(job.log):
+        main(Path(job.input.config), Path(job.input.device), Path(job.input.mesh), Path(job.output.condensed))

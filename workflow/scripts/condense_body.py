@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.actuator_body import condense_body
+from fingerpad.jobs import plain_errors
 from fingerpad.scenefile import load_scene
 from fingerpad.store import save
 
@@ -14,4 +15,5 @@ def main(config: Path, device: Path, body: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.config), Path(job.input.device), Path(job.output.body))
+    with plain_errors(job.log):
+        main(Path(job.input.config), Path(job.input.device), Path(job.output.body))

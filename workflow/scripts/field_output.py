@@ -5,6 +5,7 @@ from pathlib import Path
 from fingerpad.compliance import CondensedBody
 from fingerpad.contact_law import Interface
 from fingerpad.deformed_solution import pressed_finger
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import load_section
 from fingerpad.pressing import Pressed
 from fingerpad.scenefile import load_scene
@@ -46,17 +47,18 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        job.wildcards.kinematics,
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.mesh),
-        Path(job.input.body) if job.input.body else None,
-        Path(job.input.pressed) if job.input.pressed else None,
-        Path(job.input.solution),
-        job.wildcards.condition,
-        job.wildcards.interface,
-        Path(job.output.vtu),
-        Path(job.output.pvd),
-        Path(job.output.states),
-    )
+    with plain_errors(job.log):
+        main(
+            job.wildcards.kinematics,
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.mesh),
+            Path(job.input.body) if job.input.body else None,
+            Path(job.input.pressed) if job.input.pressed else None,
+            Path(job.input.solution),
+            job.wildcards.condition,
+            job.wildcards.interface,
+            Path(job.output.vtu),
+            Path(job.output.pvd),
+            Path(job.output.states),
+        )

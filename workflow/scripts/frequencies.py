@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.errors import SceneError
+from fingerpad.jobs import plain_errors
 from fingerpad.store import read_rows, write_rows
 
 
@@ -17,9 +18,10 @@ def main(tables: dict[Path, list[Path]]) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        {
-            Path(job.output.table): [Path(path) for path in job.input.scores],
-            Path(job.output.variants): [Path(path) for path in job.input.variants],
-        }
-    )
+    with plain_errors(job.log):
+        main(
+            {
+                Path(job.output.table): [Path(path) for path in job.input.scores],
+                Path(job.output.variants): [Path(path) for path in job.input.variants],
+            }
+        )

@@ -5,6 +5,7 @@ from pathlib import Path
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
 from fingerpad.frequency_variants import variant_rows
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import load_section
 from fingerpad.prediction import Condensed
 from fingerpad.scenefile import load_scene
@@ -34,13 +35,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.mesh),
-        Path(job.input.condensed),
-        Path(job.input.body) if job.input.body else None,
-        Path(job.input.resampling),
-        job.params.frequency,
-        Path(job.output.table),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.mesh),
+            Path(job.input.condensed),
+            Path(job.input.body) if job.input.body else None,
+            Path(job.input.resampling),
+            job.params.frequency,
+            Path(job.output.table),
+        )

@@ -6,6 +6,7 @@ from fingerpad.arrays import FloatArray
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
 from fingerpad.force_curve import limit_points, small_strain_curve
+from fingerpad.jobs import plain_errors
 from fingerpad.pressing import Pressed
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import contact_problem
@@ -42,11 +43,12 @@ def _rows(device: str, interface: Interface, kinematics: Kinematics, curve: Floa
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        [Path(path) for path in job.input.condensed],
-        [Path(path) for path in job.input.bodies],
-        [Path(path) for path in job.input.pressed],
-        Path(job.output.table),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            [Path(path) for path in job.input.condensed],
+            [Path(path) for path in job.input.bodies],
+            [Path(path) for path in job.input.pressed],
+            Path(job.output.table),
+        )

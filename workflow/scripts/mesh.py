@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.edges import edge_intervals, save_edges
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import mesh_section, save_section
 from fingerpad.receptors import arc_length, receptor_strain
 from fingerpad.resampling import resampling_to_grid
@@ -24,11 +25,12 @@ def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, r
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        job.wildcards.kinematics,
-        Path(job.output.edges),
-        Path(job.output.mesh),
-        Path(job.output.resampling),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            job.wildcards.kinematics,
+            Path(job.output.edges),
+            Path(job.output.mesh),
+            Path(job.output.resampling),
+        )

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.compliance import CondensedBody
 from fingerpad.contact_law import Interface
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import load_section
 from fingerpad.pressing import press
 from fingerpad.scenefile import load_scene
@@ -20,11 +21,12 @@ def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: s
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.mesh),
-        Path(job.input.body) if job.input.body else None,
-        job.wildcards.interface,
-        Path(job.output.pressed),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.mesh),
+            Path(job.input.body) if job.input.body else None,
+            job.wildcards.interface,
+            Path(job.output.pressed),
+        )

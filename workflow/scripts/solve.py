@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
+from fingerpad.jobs import plain_errors
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import solve_condition
 from fingerpad.store import load, save
@@ -34,12 +35,13 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.condensed),
-        Path(job.input.body) if job.input.body else None,
-        job.wildcards.condition,
-        job.wildcards.interface,
-        Path(job.output.solution),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.condensed),
+            Path(job.input.body) if job.input.body else None,
+            job.wildcards.condition,
+            job.wildcards.interface,
+            Path(job.output.solution),
+        )

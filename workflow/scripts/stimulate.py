@@ -5,6 +5,7 @@ from pathlib import Path
 from fingerpad.compliance import CondensedBody
 from fingerpad.contact_law import Interface
 from fingerpad.deformed_solution import pressed_finger, stimulate_deformed
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import load_section
 from fingerpad.pressing import Pressed
 from fingerpad.scenefile import load_scene
@@ -31,13 +32,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.mesh),
-        Path(job.input.body) if job.input.body else None,
-        Path(job.input.pressed),
-        job.wildcards.condition,
-        job.wildcards.interface,
-        Path(job.output.solution),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.mesh),
+            Path(job.input.body) if job.input.body else None,
+            Path(job.input.pressed),
+            job.wildcards.condition,
+            job.wildcards.interface,
+            Path(job.output.solution),
+        )

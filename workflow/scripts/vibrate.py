@@ -5,6 +5,7 @@ from pathlib import Path
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.creep import condense_creep
 from fingerpad.frequency import condense_vibrating_at, frequency_rows
+from fingerpad.jobs import plain_errors
 from fingerpad.mesh import load_section
 from fingerpad.prediction import Condensed
 from fingerpad.scenefile import load_scene
@@ -34,12 +35,13 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.mesh),
-        Path(job.input.condensed),
-        Path(job.input.body) if job.input.body else None,
-        Path(job.input.resampling),
-        Path(job.output.scores),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.mesh),
+            Path(job.input.condensed),
+            Path(job.input.body) if job.input.body else None,
+            Path(job.input.resampling),
+            Path(job.output.scores),
+        )
