@@ -365,13 +365,20 @@ def test_predict_prints_an_aligned_table(
     printed = capsys.readouterr()
     assert printed.err == ""  # no progress where there is no terminal
     title, header, *rows = printed.out.splitlines()
-    assert title == "Device 2: lateral pins (device2)"
+    assert title == "Device 2: lateral pins (device2), small strain"
     for name in ("interface", "unit", "note"):
         column = header.index(name)
         assert all(row[column - 1 : column] in ("", " ") for row in rows[:2])
     assert rows[0].split() == ["a", "shear", "strain", "0.12346", "1.0e-04", "mm2", "1"]
     assert rows[1].split() == ["bb", "shear", "strain", "mm2", "no", "prediction"]
     assert rows[2:] == ["caveat: a (shear, strain): doubtful", "caveat: a (shear, strain): odd"]
+
+
+def test_predict_names_the_kinematics(
+    checkout: Path, quick: list[dict[str, Any]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["predict", "--kinematics", "finite", "config/devices/device2.yaml"]) == 0
+    assert capsys.readouterr().out.startswith("Device 2: lateral pins (device2), finite strain\n")
 
 
 def test_predict_ends_with_3_if_nothing_has_a_score(

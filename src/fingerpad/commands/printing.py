@@ -13,8 +13,8 @@ GAP = "  "
 
 
 def titled(scene: Scene) -> str:
-    """The line above a device's table."""
-    return f"{scene.device.title} ({scene.device.name})"
+    """The line above a device's table: which device, and with which kinematics."""
+    return f"{scene.device.title} ({scene.device.name}), {scene.kinematics} strain"
 
 
 def aligned(lines: Sequence[Sequence[str]], right: Sequence[bool]) -> list[str]:
