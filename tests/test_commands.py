@@ -464,6 +464,12 @@ def test_wrong_use_is_2(arguments: list[str]) -> None:
     assert end.value.code == FAILED == 2
 
 
+def test_a_file_behind_frequencies_is_no_number(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["vibrate", "--frequency", "10", "20", "mine.yaml"])
+    assert "found 'mine.yaml'; allowed: numbers [Hz], as in fingerpad vibrate FILE --freq" in capsys.readouterr().err
+
+
 def test_what_cannot_be_solved_is_3(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*given: object) -> None:
         raise ContactError("no")

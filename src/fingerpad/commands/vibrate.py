@@ -42,12 +42,22 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.description = DESCRIPTION
     parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
     parser.add_argument(
-        "--frequency", type=float, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
+        "--frequency", type=hertz, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
     )
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
     how.add_argument("--csv", action="store_true", help="print the columns of results/frequency.csv")
     add_scene_options(parser)
+
+
+def hertz(text: str) -> float:
+    """A frequency [Hz]; all that follows `--frequency` is taken for one."""
+    try:
+        return float(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(
+            f"found '{text}'; allowed: numbers [Hz], as in fingerpad vibrate FILE --frequency 10 20"
+        ) from error
 
 
 def run(options: argparse.Namespace) -> None:
