@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+import fingerpad.cycling
 from fingerpad.certificate import certify
 from fingerpad.condensation import condense_section
 from fingerpad.contact_law import Interface
@@ -16,7 +17,7 @@ from fingerpad.cycling import Vibration, displacement, vibrate
 from fingerpad.device import ActuatorRow, Cycle
 from fingerpad.edges import mesh_device
 from fingerpad.elasticity import mass
-from fingerpad.errors import ReachError, SceneError
+from fingerpad.errors import CycleError, ReachError, SceneError
 from fingerpad.frequency import condense_vibrating_at, cyclic_readouts, frequency_rows, vibration_scores
 from fingerpad.inertia import condense_vibrating, inertia_effect
 from fingerpad.mesh import SectionMesh
@@ -213,6 +214,13 @@ def test_every_state_of_the_last_cycle_is_certified() -> None:
     condensed = condense_mesh(coarse(), mesh(("device2", False)))
     with pytest.raises(ReachError, match=r"condition=far, interface=frictionless, 0 Hz"):
         vibration_scores(coarse(), condensed, creeping(), pressed(Interface.FRICTIONLESS), far, 0.0)
+
+
+def test_cycles_that_do_not_repeat_say_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two cycles are too few for any: nothing can have been repeated."""
+    monkeypatch.setattr(fingerpad.cycling, "MAX_CYCLES", 2)
+    with pytest.raises(CycleError, match=r"2 cycles at 80 Hz have not come to repeat.*; try a smaller amplitude"):
+        vibration(Interface.SHEAR, coarse().device.cycles[2], 80.0)
 
 
 @pytest.mark.parametrize("interface", BOTH)

@@ -104,7 +104,10 @@ def vibrate(
             # forces answer what has crept, so that less is left for ever: as much as if all tissue crept alike
             answered = np.tensordot(share, for_ever - moment.memory, 1)
             moment = replace(moment, memory=for_ever - answered)
-    raise CycleError(f"{MAX_CYCLES} cycles at {frequency:g} Hz have not come to repeat themselves")
+    raise CycleError(
+        f"{MAX_CYCLES} cycles at {frequency:g} Hz have not come to repeat themselves: the skin walks on under friction;"
+        " try a smaller amplitude"
+    )
 
 
 def _repeated(now: FloatArray, then: FloatArray) -> bool:
