@@ -257,7 +257,7 @@ def test_kinematics_shows_what_there_is_and_says_what_was_left_out() -> None:
     )
     figure = kinematics_figure(pd.concat([SCORES, twice]), curves, titles)
     require_legible(figure)
-    assert [axes.get_title(loc="left") for axes in figure.axes[::3]] == [
+    assert [" ".join(axes.get_title(loc="left").split()) for axes in figure.axes[::3]] == [
         FORCED.title,
         f"{UNRATED.title} (small strain alone)",
     ]
@@ -354,6 +354,38 @@ def test_section_names_every_layer(section: SectionMesh) -> None:
     for said in ("bone, rigid", "receptors, 0.6 mm deep", "16 mm", "13 mm", *TITLES.values()):
         assert said in text
     assert [axes.get_xlabel() for axes in figure.axes[1:]] == ["x (mm)"] * len(DEVICES)
+
+
+def test_a_long_title_takes_no_room_from_panels(section: SectionMesh, correlations: pd.DataFrame) -> None:
+    """The longest that the schema allows, in every figure that shows panels of several devices or two of one."""
+    shear = SCORES[(SCORES["device"] == PHASED.name) & (SCORES["interface"] == "shear")]
+    curves = pd.DataFrame(
+        [("small", device.name, "shear", height, height, False) for device in DEVICES for height in (0.0, 1.0)],
+        columns=["kinematics", "device", "interface", "indentation_mm", "force_N_per_mm", "limit_point"],
+    )
+    schema = read_yaml(ROOT / "workflow/schemas/device.schema.yaml")
+    longest = ("Pin " * 100)[: schema["properties"]["title"]["properties"]["value"]["maxLength"] - 1] + "s"
+
+    def drawn(title: str) -> list[Figure]:
+        devices = [replace(device, title=title) for device in DEVICES]
+        titles = {device.name: device.title for device in devices}
+        entries = [make_readouts(device) for device in devices]
+        return [
+            correlation_figure(SCORES, RATINGS, correlations, titles),
+            shear_figure(PHASED.name, title, SCORES, RATINGS, correlations),
+            ablation_figure(SCORES, correlations, titles),
+            kinematics_figure(SCORES, curves, titles),
+            receptor_figure(entries),
+            workflow_figure(entries[0], MODEL.gabor, MODEL.readout, shear),
+            section_figure(MODEL, section, devices),
+        ]
+
+    for short, long in zip(drawn("Pins"), drawn(longest), strict=True):
+        require_legible(short)
+        require_legible(long)
+        for few, many in zip(short.axes, long.axes, strict=True):
+            assert many.get_position().width > 0.9 * few.get_position().width
+            assert many.get_position().height > 0.6 * few.get_position().height
 
 
 def make_contact(row: ActuatorRow) -> CondensedSection:

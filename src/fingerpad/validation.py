@@ -48,7 +48,7 @@ WORDS: Mapping[str, str] = {
     **{"number": "a finite number", "integer": "a whole number", "boolean": "true or false"},
     **{"minimum": ">= {}", "exclusiveMinimum": "> {}", "maximum": "<= {}", "exclusiveMaximum": "< {}"},
     **{"minItems": "at least {} long", "maxItems": "at most {} long", "uniqueItems": "without repeats"},
-    **{"minLength": "at least {} long", "maxLength": "at most {} long", "minProperties": "at least {} long"},
+    **{"minLength": "at least {} long", "maxLength": "at most {} characters", "minProperties": "at least {} long"},
 }
 RANKS: Mapping[str, int] = {"required": 0, "additionalProperties": 0, "type": 1}  # else 2
 

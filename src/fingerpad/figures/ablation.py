@@ -22,6 +22,7 @@ from .style import (
     ORANGE,
     SCORE_SCALE,
     WIDE,
+    as_title,
     draw_errors,
     legend_below,
     letter,
@@ -58,8 +59,8 @@ def ablation_figure(
             chosen = [t[(t["device"] == device) & (t["readout"] == readout)] for t in (scores, correlations)]
             _panel(axes, readout, *chosen)
         row[0].annotate(
-            title, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 26.0), textcoords="offset points",
-            fontweight="bold", fontsize="large",
+            as_title(figure, title, len(Readout)), (0.0, 1.0), xycoords="axes fraction",
+            xytext=(0.0, 26.0), textcoords="offset points", fontweight="bold", fontsize="large",
         )  # fmt: skip
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text, (-30.0, 26.0))

@@ -25,6 +25,7 @@ from .style import (
     Shown,
     Styles,
     as_points,
+    as_title,
     condition_styles,
     draw_errors,
     draw_point,
@@ -72,7 +73,7 @@ def correlation_figure(
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         for axes, readout in zip(row, Readout, strict=True):
             correlation_panel(axes, scores, ratings, correlations, (device, Interface.SHEAR, readout), styles)
-        row[0].set_title(title, loc="left")
+        row[0].set_title(as_title(figure, title, len(Readout)), loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     legend_below(

@@ -19,6 +19,7 @@ from .style import (
     SCORE_SCALE,
     WIDE,
     Styles,
+    as_title,
     condition_styles,
     conditions_of,
     legend_below,
@@ -53,7 +54,7 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
         own = table[(table["device"] == device.name) & (table["readout"] == Readout.CHANGE_OF_STRAIN)]
         for axes, interface in zip(row, Interface, strict=True):
             _curves(axes, own[own["interface"] == interface], styles, frequencies, device.frequencies)
-        subtitle(row[0], device.title, INTERFACE_NAME[Interface.SHEAR])
+        subtitle(row[0], as_title(figure, device.title, len(Interface)), INTERFACE_NAME[Interface.SHEAR])
         subtitle(row[1], " ", INTERFACE_NAME[Interface.FRICTIONLESS])
         row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0])).replace(" score", "\nscore"))
         row[0].margins(y=HEADROOM)

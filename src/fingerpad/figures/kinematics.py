@@ -23,6 +23,7 @@ from .style import (
     ORANGE,
     SCORE_SCALE,
     WIDE,
+    as_title,
     draw_errors,
     legend_below,
     letter,
@@ -63,7 +64,8 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
         pressed = curves[curves["device"] == device]
         _curves(row[0], pressed)
         alone = rows_with(pressed, Kinematics.FINITE).empty
-        row[0].set_title(f"{title}{SMALL_ALONE if alone else ''}", loc="left")
+        named = f"{title}{SMALL_ALONE if alone else ''}"
+        row[0].set_title(as_title(figure, named, sum(WIDTHS) / WIDTHS[0]), loc="left")
         own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
         for axes, readout in zip(row[1:], Readout, strict=True):
             _bars(axes, readout, own[own["readout"] == readout])

@@ -33,13 +33,12 @@ from .style import (
     NARROW,
     PERCENT,
     THIN,
-    TITLE,
     VERMILLION,
     WIDE,
+    as_title,
     condition_styles,
     conditions_of,
     counted,
-    fitted,
     legend_below,
     new_figure,
     plain,
@@ -53,7 +52,6 @@ SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour ba
 CAPTION = (
     "{counted}, {kinematics}, at the end of the stimulus; displacements to scale. Tractions: linear between nodes."
 )
-BOLD = 1.2  # width of bold letters, of plain ones [1]
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
 COVERED = 99.5  # per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar
@@ -127,7 +125,7 @@ def strain_map_figure(
     )  # fmt: skip
     several = len({condition.dispersion for condition in device.conditions}) > 1
     named = f", {plain(dispersion)} dispersion" if several else ""
-    figure.suptitle(fitted(figure, f"{device.title}{named}, with shear", BOLD * TITLE), fontweight="bold")
+    figure.suptitle(as_title(figure, f"{device.title}{named}, with shear"), fontweight="bold")
     legend_below(
         figure,
         [

@@ -24,6 +24,7 @@ from .style import (
     THIN,
     WIDE,
     Series,
+    as_title,
     condition_styles,
     conditions_of,
     counted,
@@ -81,7 +82,8 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
                 draw_curve(axes, found.arc, values, series, number / len(distinct))
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        row[0].set_title(f"{entry.device.title} ({counted(entry.device.conditions)})", loc="left")
+        named = f"{entry.device.title} ({counted(entry.device.conditions)})"
+        row[0].set_title(as_title(figure, named, len(Readout)), loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     for axes in grid[-1]:

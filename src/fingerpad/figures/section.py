@@ -18,7 +18,7 @@ from ..mesh import SectionMesh
 from ..profile import profile
 from ..scene import Model
 from .actuators import BASE, draw_actuators
-from .style import THIN, VERMILLION, WIDE, letter, new_figure, styled, subtitle
+from .style import THIN, VERMILLION, WIDE, as_title, letter, new_figure, styled, subtitle
 
 HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices
 CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators are driven."
@@ -50,6 +50,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
         block, column = divmod(number, columns)
         axes = figure.add_subplot(grid[1 + block, column])
         _draw_device(axes, section, device, reach)
+        subtitle(axes, as_title(figure, device.title, columns), _described(device.actuators))
         axes.set_xlabel("x (mm)")
         axes.xaxis.set_major_locator(MultipleLocator(2.0))
         if column == 0:
@@ -154,7 +155,6 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, reach: float)
                     arrowprops={"linewidth": 0.8, "mutation_scale": HEAD, **DOUBLE},
                 )  # fmt: skip
     axes.set(xlim=(-reach, reach), ylim=(-BELOW, ABOVE))
-    subtitle(axes, device.title, _described(row))
 
 
 def _touching_face(section: SectionMesh, row: ActuatorRow) -> float:

@@ -14,6 +14,7 @@ from .style import (
     KINEMATICS_NAME,
     WIDE,
     as_points,
+    as_title,
     condition_styles,
     legend_below,
     letter,
@@ -46,7 +47,7 @@ def shear_figure(
         for axes, interface in zip(row, COLUMNS, strict=True):
             correlation_panel(axes, scores, ratings, correlations, (device, interface, readout), styles)
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
-        axes.set_title(f"{title}, {INTERFACE_NAME[interface]}", loc="left")
+        axes.set_title(as_title(figure, f"{title}, {INTERFACE_NAME[interface]}", len(COLUMNS)), loc="left")
         letter(axes, text)
     legend_below(
         figure, as_points(styles.legend), caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ")

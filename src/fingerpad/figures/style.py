@@ -36,6 +36,7 @@ MARKER = 4.5  # marker size [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
 POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
+BOLD = 1.2  # width of bold letters, of plain ones [1]
 RESOLUTION = 300  # of PNG files [dots per inch]
 PNG = {"compress_level": 3}  # of 9; source: half the seconds of the default, files up to a sixth larger (measured)
 
@@ -267,10 +268,15 @@ def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "") -> N
     )
 
 
-def fitted(figure: Figure, text: str, size: float = TEXT) -> str:
-    """Text broken into lines that fit a figure's width at a font size [pt]."""
-    characters = int(float(figure.get_size_inches()[0]) * POINTS / (CHARACTER * size))
+def fitted(figure: Figure, text: str, size: float = TEXT, columns: float = 1.0) -> str:
+    """Text broken into lines that fit one of so many columns [1] of a figure at a font size [pt]."""
+    characters = int(float(figure.get_size_inches()[0]) * POINTS / columns / (CHARACTER * size))
     return "\n".join(part for line in text.splitlines() for part in wrap(line, characters))
+
+
+def as_title(figure: Figure, text: str, columns: float = 1.0) -> str:
+    """A title, broken into lines that fit one of so many columns [1] of a figure."""
+    return fitted(figure, text, BOLD * TITLE, columns)
 
 
 def _legend_width(labels: Sequence[int], columns: int) -> float:

@@ -16,6 +16,7 @@ from .style import (
     READOUT_NAME,
     SCORE_SCALE,
     WIDE,
+    as_title,
     condition_styles,
     conditions_of,
     counted,
@@ -85,7 +86,8 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     grid[-1][2].set_xlabel("Condition" if long else "Phase difference")
     for axes, text in zip(grid[:, 0], "AB", strict=True):
         letter(axes, text, (-30.0, 14.0))
-    figure.suptitle(f"{device.title}, with shear ({counted(device.conditions)})", fontweight="bold")
+    named = f"{device.title}, with shear ({counted(device.conditions)})"
+    figure.suptitle(as_title(figure, named), fontweight="bold")
     legend_below(figure, [*styles.legend, face_handle()], CAPTION)
     return figure
 
