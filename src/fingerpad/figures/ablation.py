@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -19,6 +20,7 @@ from .style import (
     GREY,
     INTERFACE_NAME,
     KINEMATICS_NAME,
+    LONGEST_LABEL,
     ORANGE,
     SCORE_SCALE,
     WIDE,
@@ -29,12 +31,15 @@ from .style import (
     new_figure,
     plain,
     score_label,
+    shortened,
     styled,
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
 BAR = 0.38  # width of a bar, of the distance between conditions [1]
-GROUP_OFFSET = -15.0  # of a dispersion's name below the axis [pt]
+GROUP_OFFSET, TURNED_OFFSET = -15.0, -23.0  # of a dispersion's name below the axis, and below upright phases [pt]
+MOST_LEVEL, MOST_UPRIGHT = 10, 24  # conditions that are named beside each other on level ground, and at all, under bars
+NAMES = 40  # characters of all dispersions' names under the bars
 LOOK: dict[Interface, dict[str, Any]] = {
     Interface.SHEAR: {"facecolor": BLUE, "edgecolor": BLUE},
     Interface.FRICTIONLESS: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
@@ -102,20 +107,27 @@ def name_conditions(axes: Axes, conditions: pd.DataFrame, is_short: bool = False
     is_short: whether the axis' label has the degrees, not every phase.
     """
     places = np.arange(len(conditions))
+    named = slice(None, None, math.ceil(len(places) / MOST_UPRIGHT))
+    upright = len(places) > MOST_LEVEL
     if conditions.duplicated(["dispersion", "phase_deg"]).any():
-        axes.set_xticks(places, list(conditions["condition"]), rotation=20.0, ha="right")
+        names = [shortened(name) for name in conditions["condition"]]
+        turned: dict[str, Any] = {"rotation": 90.0} if upright else {"rotation": 20.0, "ha": "right"}
+        axes.set_xticks(places[named], names[named], **turned)
         return
-    axes.set_xticks(places, [f"{phase:g}{'' if is_short else '°'}" for phase in conditions["phase_deg"]])
+    phases = [f"{phase:g}{'' if is_short else '°'}" for phase in conditions["phase_deg"]]
+    axes.set_xticks(places[named], phases[named], rotation=90.0 if upright else 0.0)
+    offset = TURNED_OFFSET if upright else GROUP_OFFSET
     said = "Phase difference (°)" if is_short else "Phase difference"
     if conditions["dispersion"].nunique() == 1:
         axes.set_xlabel(said)
         return
     axes.set_xlabel(f"{said}, dispersion", labelpad=-GROUP_OFFSET / 1.5)
-    for name in conditions["dispersion"].unique():
+    groups = conditions["dispersion"].unique()
+    for name in groups:
         centre = float(places[(conditions["dispersion"] == name).to_numpy()].mean())
         axes.annotate(
-            plain(name), (centre, 0.0),
-            xycoords=axes.get_xaxis_transform(), xytext=(0.0, GROUP_OFFSET), textcoords="offset points",
+            shortened(plain(name), min(LONGEST_LABEL, NAMES // len(groups))), (centre, 0.0),
+            xycoords=axes.get_xaxis_transform(), xytext=(0.0, offset), textcoords="offset points",
             ha="center", va="top",
         )  # fmt: skip
 

@@ -34,6 +34,7 @@ from .style import (
     new_figure,
     note_in,
     score_label,
+    shortened,
     styled,
 )
 
@@ -116,7 +117,7 @@ def correlation_panel(
     axes.locator_params(axis="x", nbins=TICKS)
     axes.set_xlabel(score_label(readout, str(points["unit"].iloc[0])))
     if rated.empty:
-        _name_ranks(axes, [styles.series[device, name].label for name in points["condition"]])
+        _name_ranks(axes, [shortened(styles.series[device, name].label) for name in points["condition"]])
     else:
         axes.locator_params(axis="y", nbins=TICKS)
         axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")

@@ -41,6 +41,7 @@ LOOK: dict[Kinematics, dict[str, Any]] = {
     Kinematics.FINITE: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
 }
 LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
+TITLES = 4.0  # columns as narrow as a title has to be [1]
 MANY = 6  # conditions beyond which their phases stand without degrees
 LIMIT = "x"  # marks a limit point
 NO_LIMITS = "No force falls on the way: there are no limit points."
@@ -65,7 +66,7 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
         _curves(row[0], pressed)
         alone = rows_with(pressed, Kinematics.FINITE).empty
         named = f"{title}{SMALL_ALONE if alone else ''}"
-        row[0].set_title(as_title(figure, named, sum(WIDTHS) / WIDTHS[0]), loc="left")
+        row[0].set_title(as_title(figure, named, TITLES), loc="left")
         own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
         for axes, readout in zip(row[1:], Readout, strict=True):
             _bars(axes, readout, own[own["readout"] == readout])

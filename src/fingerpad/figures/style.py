@@ -37,6 +37,7 @@ LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [
 POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
 BOLD = 1.2  # width of bold letters, of plain ones [1]
+LONGEST_LABEL, LONGEST_KEY = 16, 40  # characters of a name at an axis, and of one in a legend
 RESOLUTION = 300  # of PNG files [dots per inch]
 PNG = {"compress_level": 3}  # of 9; source: half the seconds of the default, files up to a sixth larger (measured)
 
@@ -212,7 +213,7 @@ def condition_styles(conditions: Iterable[Shown]) -> Styles:
             FILLS[kind % len(FILLS)],
         )
         series[one.device, one.condition] = look
-        legend.setdefault(key, Line2D([], [], color=look.colour, marker=look.marker, label=key))
+        legend.setdefault(key, Line2D([], [], color=look.colour, marker=look.marker, label=shortened(key, LONGEST_KEY)))
     handles = [legend[key] for key in keys]
     for number, name in enumerate(dispersions):
         line, fill = LINES[number % len(LINES)], FILLS[number % len(FILLS)]
@@ -331,6 +332,15 @@ def subtitle(axes: Axes, title: str, text: str) -> None:
 def plain(name: str) -> str:
     """A name from a scene file as text."""
     return name.replace("_", " ")
+
+
+def shortened(name: str, most: int = LONGEST_LABEL) -> str:
+    """A name of that many characters or fewer: of a longer one the middle is left out, as phases stand at the end.
+
+    >>> shortened("every_second_actuator_090")
+    'every_s…ator_090'
+    """
+    return name if len(name) <= most else f"{name[: most - 1 - most // 2]}…{name[-(most // 2) :]}"
 
 
 def counted(conditions: Sequence[Any]) -> str:

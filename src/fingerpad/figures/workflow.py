@@ -20,11 +20,13 @@ from .style import (
     condition_styles,
     conditions_of,
     counted,
+    draw_errors,
     face_handle,
     legend_below,
     letter,
     new_figure,
     score_label,
+    shortened,
     styled,
     subtitle,
 )
@@ -34,7 +36,9 @@ WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 LONG = 6  # characters of a label beyond which labels are slanted
 HEADROOM = 1.45  # of the bars' axis over the tallest bar [1]
-CAPTION = "Small strain. Above bars: scores and their stated errors of discretisation."
+MOST_NUMBERS, MOST_NAMES = 5, 12  # conditions whose scores fit above their bars, and whose names below
+NUMBERS = "Small strain. Above bars: scores and their stated errors of discretisation."
+LINES = "Small strain. Lines on bars: the scores' stated errors of discretisation."
 
 
 @styled
@@ -75,20 +79,25 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         places = np.arange(len(heights))
         colours = [styles.series[device.name, name].colour for name in heights.index]
         drawn = bars.bar(places, heights, color=colours, width=0.65)
-        bars.bar_label(drawn, labels=[_labelled(*each) for each in zip(heights, errors, strict=True)], padding=1.0)
-        labels = [styles.series[device.name, name].label for name in heights.index]
+        if len(heights) <= MOST_NUMBERS:
+            bars.bar_label(drawn, labels=[_labelled(*each) for each in zip(heights, errors, strict=True)], padding=1.0)
+        else:
+            draw_errors(bars, places, heights.to_numpy(), errors.to_numpy(), along="y")
+        labels = [shortened(styles.series[device.name, name].label) for name in heights.index]
         long = max(map(len, labels)) > LONG
-        bars.set_xticks(places, labels, rotation=30.0 if long else 0.0, ha="right" if long else "center")
+        named = slice(len(places) if len(places) <= MOST_NAMES else 0)
+        bars.set_xticks(places[named], labels[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
         bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])).replace(" score", "\nscore"))
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
-    grid[-1][2].set_xlabel("Condition" if long else "Phase difference")
+    many = len(device.conditions) > MOST_NAMES
+    grid[-1][2].set_xlabel("Conditions, in order" if many else "Condition" if long else "Phase difference")
     for axes, text in zip(grid[:, 0], "AB", strict=True):
         letter(axes, text, (-30.0, 14.0))
-    named = f"{device.title}, with shear ({counted(device.conditions)})"
-    figure.suptitle(as_title(figure, named), fontweight="bold")
-    legend_below(figure, [*styles.legend, face_handle()], CAPTION)
+    title = f"{device.title}, with shear ({counted(device.conditions)})"
+    figure.suptitle(as_title(figure, title), fontweight="bold")
+    legend_below(figure, [*styles.legend, face_handle()], NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES)
     return figure
 
 
