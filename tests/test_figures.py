@@ -13,8 +13,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 
 from fingerpad.arrays import FloatArray
 from fingerpad.certificate import Certificate
@@ -29,9 +30,9 @@ from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
-from fingerpad.figures.section import section_figure
+from fingerpad.figures.section import DRIVEN, HEAD, section_figure
 from fingerpad.figures.shear import shear_figure
-from fingerpad.figures.style import MIDDLE, NARROW, TEXT, WIDE, condition_styles, conditions_of, save
+from fingerpad.figures.style import MIDDLE, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.finger import Material
 from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
@@ -419,6 +420,43 @@ def test_a_long_title_takes_no_room_from_panels(section: SectionMesh, correlatio
         for few, many in zip(short.axes, long.axes, strict=True):
             assert many.get_position().width > 0.9 * few.get_position().width
             assert many.get_position().height > 0.6 * few.get_position().height
+
+
+THICK = replace(FORCED, actuators=replace(PUCKS, body=Body(Material(1.0, 0.48), 4.0)))
+BROAD = replace(SINGLE, actuators=replace(PIN, width=15.0))
+
+
+def arrows(axes: Axes) -> list[FloatArray]:
+    """Ends (2, 2) of the arrows [mm] that show how actuators are driven."""
+    found = [text for text in axes.texts if isinstance(text, Annotation) and text.arrowprops and text.xy[1] < 0.0]
+    small = [arrow for arrow in found if (arrow.arrowprops or {}).get("linewidth") == DRIVEN]
+    return [np.array([arrow.xyann, arrow.xy]) for arrow in small]
+
+
+@pytest.mark.parametrize(
+    "devices", [[THICK], [PHASED, THICK], [PHASED, FORCED, BROAD]], ids=["alone", "beside", "broad"]
+)
+def test_arrows_are_in_sight_and_longer_than_their_heads(section: SectionMesh, devices: list[Device]) -> None:
+    figure = section_figure(MODEL, section, devices)
+    require_legible(figure)
+    for axes, device in zip(figure.axes[1:], devices, strict=True):
+        drawn = arrows(axes)
+        assert len(drawn) == len(device.actuators.positions)
+        assert all(arrow[:, 1].min() > axes.get_ylim()[0] for arrow in drawn)
+        lengths = [np.hypot(*np.diff(axes.transData.transform(arrow), axis=0)[0]) for arrow in drawn]
+        assert min(lengths) * POINTS / figure.dpi > 2.0 * HEAD  # shorter ones are all head
+        body = device.actuators.body
+        assert body is None or all(arrow[:, 1].max() < -body.thickness for arrow in drawn)
+
+
+@pytest.mark.parametrize(("along", "count"), [(1.0, 1), (-1.0, 2), (0.5, 2), (0.0, 1)])
+def test_a_motion_on_one_diagonal_has_one_arrow(section: SectionMesh, along: float, count: int) -> None:
+    moved = [replace(c, normal=c.tangential, tangential=along * c.tangential) for c in PHASED.conditions]
+    axes = section_figure(MODEL, section, [replace(PHASED, conditions=tuple(moved))]).axes[1]
+    drawn = arrows(axes)
+    assert len(drawn) == count * len(PINS.positions)
+    tilt = np.diff(drawn[0], axis=0)[0]
+    assert bool(np.isclose(tilt[0], tilt[1])) is (along == 1.0)
 
 
 def make_contact(row: ActuatorRow) -> CondensedSection:

@@ -20,17 +20,19 @@ from ..scene import Model
 from .actuators import BASE, draw_actuators
 from .style import THIN, VERMILLION, WIDE, as_title, letter, new_figure, styled, subtitle
 
-HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices
+HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices whose bases are thin
+PANEL = 49.0  # mm of the figure's width across a device
 CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators are driven."
 COLUMNS = 3  # devices beside each other
 LABELS = 8.6  # mm from the mid-line at which the layers' names begin, of a finger of half width 8 mm
 TINTS = ("#E9C9A3", "#B98553", "#F3C1AC", "#FBEBC4", "#AEBBC8", "#E3B0BE")  # of the layers, which are named as well
-DEPTH = 0.9  # mm of a rigid actuator that is drawn
-ASIDE, ABOVE, BELOW = 0.8, 1.7, 1.2  # mm shown beside the row, above the lowest skin and below it
+ASIDE, ABOVE = 0.8, 1.7  # mm shown beside the row and above the lowest skin
+REACH = 5.3  # mm from the mid-line to which panels show a row, above which what follows grows with it
+DEPTH, BELOW = 0.9, 1.2  # mm of a rigid actuator that is drawn, and that are shown below the lowest skin, at least
 LEADER = {"arrowstyle": "-", "linewidth": THIN, "shrinkA": 1.0, "shrinkB": 0.0, "relpos": (0.0, 0.5)}
 DOUBLE = {"arrowstyle": "<->", "shrinkA": 0.0, "shrinkB": 0.0}
-HEAD = 5.0  # pt, of arrow heads
-ARROW = 0.8  # mm, length of the arrows that show how actuators are driven
+HEAD, DRIVEN = 5.0, 0.8  # pt: arrow heads, and lines of the arrows that show how actuators are driven
+ARROW = 0.8  # mm, length of these arrows
 
 
 @styled
@@ -38,18 +40,22 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
     """The whole section (A) and the pad with each device's actuators at first touch (B), undeformed, in mm."""
     columns = min(len(devices), COLUMNS)
     blocks = math.ceil(len(devices) / columns)
-    figure = new_figure(WIDE, HEIGHT + ROW_HEIGHT * blocks)
-    grid = figure.add_gridspec(1 + blocks, columns, height_ratios=[HEIGHT, *[ROW_HEIGHT] * blocks])
+    rows = [device.actuators for device in devices]
+    reach = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions) + ASIDE
+    size = max(1.0, reach / REACH)
+    below = max([BELOW * size, *(_arrow_depth(row, size) + ARROW * size / 2.0 for row in rows)])
+    row_height = ROW_HEIGHT + (below - BELOW * size) * PANEL / (2.0 * size * REACH)
+    figure = new_figure(WIDE, HEIGHT + row_height * blocks)
+    grid = figure.add_gridspec(1 + blocks, columns, height_ratios=[HEIGHT, *[row_height] * blocks])
     whole = figure.add_subplot(grid[0, :])
     _draw_section(whole, section)
     _label(whole, model, section)
     letter(whole, "A", (0.0, -8.0))
-    rows = [device.actuators for device in devices]
-    reach = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions) + ASIDE
     for number, device in enumerate(devices):
         block, column = divmod(number, columns)
         axes = figure.add_subplot(grid[1 + block, column])
-        _draw_device(axes, section, device, reach)
+        _draw_device(axes, section, device, size)
+        axes.set(xlim=(-reach, reach), ylim=(-below, ABOVE))
         subtitle(axes, as_title(figure, device.title, columns), _described(device.actuators))
         axes.set_xlabel("x (mm)")
         axes.xaxis.set_major_locator(MultipleLocator(2.0))
@@ -138,23 +144,36 @@ def _dimension(axes: Axes, start: tuple[float, float], stop: tuple[float, float]
     )  # fmt: skip
 
 
-def _draw_device(axes: Axes, section: SectionMesh, device: Device, reach: float) -> None:
-    """The pad above a device's actuators at first touch, and how they are driven."""
+def _draw_device(axes: Axes, section: SectionMesh, device: Device, size: float) -> None:
+    """The pad above a device's actuators at first touch, and how they are driven.
+
+    size: of arrows and of what is drawn of rigid actuators, where 1 is that of rows within REACH [1].
+    """
     row = device.actuators
     _draw_section(axes, section)
     face = np.array([0.0, _touching_face(section, row)])
-    draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH)
-    below = row.body.thickness + BASE + ARROW / 2.0 if row.body else DEPTH / 2.0
+    draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH * size)
     for x in row.positions:
-        middle = face + np.array([x, -below])
-        for driven, direction in (("normal", (0.0, 1.0)), ("tangential", (1.0, 0.0))):
-            if any(getattr(condition, driven).any() for condition in device.conditions):
-                half = ARROW / 2.0 * np.array(direction)
-                axes.annotate(
-                    "", tuple(middle - half), tuple(middle + half),
-                    arrowprops={"linewidth": 0.8, "mutation_scale": HEAD, **DOUBLE},
-                )  # fmt: skip
-    axes.set(xlim=(-reach, reach), ylim=(-BELOW, ABOVE))
+        middle = face + np.array([x, -_arrow_depth(row, size)])
+        for direction in _directions(device):
+            half = ARROW * size / 2.0 * np.array(direction)
+            axes.annotate(
+                "", tuple(middle - half), tuple(middle + half),
+                arrowprops={"linewidth": DRIVEN, "mutation_scale": HEAD, **DOUBLE},
+            )  # fmt: skip
+
+
+def _arrow_depth(row: ActuatorRow, size: float) -> float:
+    """Depth [mm] below the faces at which a row's arrows have their middle: under the base of deformable actuators."""
+    return row.body.thickness + BASE + ARROW * size / 2.0 if row.body else DEPTH * size / 2.0
+
+
+def _directions(device: Device) -> list[tuple[float, float]]:
+    """Directions in which actuators are driven, as unit vectors: one if they move as far along the skin as into it."""
+    if all(np.array_equal(each.normal, each.tangential) for each in device.conditions):
+        return [(math.sqrt(0.5), math.sqrt(0.5))]
+    axes = (("normal", (0.0, 1.0)), ("tangential", (1.0, 0.0)))
+    return [unit for driven, unit in axes if any(getattr(each, driven).any() for each in device.conditions)]
 
 
 def _touching_face(section: SectionMesh, row: ActuatorRow) -> float:
