@@ -275,10 +275,13 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     ),
     "hidden boolean": ({"stimulus.phases.value": [0, True]}, "stimulus.phases.value[1]", ["found true"]),
     "repeated phase": ({"stimulus.phases.value": [0, 90, 90.0]}, "stimulus.phases.value", ["without repeats"]),
-    "phases that are written alike": (
-        {"stimulus.phases.value": [90, 90.0000001]},
+    "conditions that are named alike": (
+        {
+            "stimulus.phases.value": [5, 22.005],
+            "stimulus.dispersions.low_022": {"value": [0, 0, 1, 1], "unit": "1", "source": "paper: Table 1"},
+        },
         "stimulus",
-        ["condition names must differ", "low_090"],
+        ["condition names must differ", "low_022_005"],
     ),
     "no phase": ({"stimulus.phases.value": []}, "stimulus.phases.value", ["found 0 entries", "at least 1 long"]),
     "no dispersion": ({"stimulus.dispersions": {}}, "stimulus.dispersions", ["found {}", "at least 1 long"]),
