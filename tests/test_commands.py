@@ -131,7 +131,9 @@ def test_the_line_that_leaves_finite_strain_out_does_so(checkout: Path) -> None:
     assert load_scene(checkout / "config/config.yaml", path).computed == (Kinematics.SMALL,)
 
 
-def test_new_takes_recordings_along(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_new_takes_recordings_along(
+    checkout: Path, tmp_path_factory: pytest.TempPathFactory, capsys: pytest.CaptureFixture[str]
+) -> None:
     theirs = tmp_path_factory.mktemp("theirs")
     main(["new", "mine", "--from", "device2"])
     document = yaml.safe_load((checkout / "config/devices/mine.yaml").read_text(encoding="utf-8"))
@@ -142,6 +144,8 @@ def test_new_takes_recordings_along(checkout: Path, tmp_path_factory: pytest.Tem
     assert (checkout / "config/devices/tap.csv").read_bytes() == (theirs / "tap.csv").read_bytes()
     assert main(["check", "config/devices/copied.yaml"]) == 0
     assert main(["new", "again", "--from", str(theirs / "theirs.yaml")]) == FAILED  # would overwrite tap.csv
+    way = f"rename the recording and its `file:` key in {theirs / 'theirs.yaml'}, or remove it"
+    assert f"tap.csv: exists already, and is not overwritten; {way}" in capsys.readouterr().err
     assert not (checkout / "config/devices/again.yaml").exists()
 
 
@@ -433,7 +437,7 @@ def test_commands_work_from_any_folder_of_the_checkout(
     assert "fingerpad check mine.yaml" in capsys.readouterr().out
     monkeypatch.chdir("/")
     assert main(["check", str(checkout / "config/devices/device1.yaml")]) == FAILED
-    assert "not in a checkout" in capsys.readouterr().err
+    assert "schemas/; go there, or give --config and --schemas" in capsys.readouterr().err
     given = ["--config", str(CONFIG), "--schemas", str(SCHEMAS)]
     assert main(["check", str(checkout / "config/devices/device1.yaml"), *given]) == 0
     with pytest.raises(UsageError):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
-from fingerpad.files import replacing, write_text
+from fingerpad.files import replacing, require_folder, write_text
 from fingerpad.store import write_rows
 
 
@@ -31,3 +32,20 @@ def test_a_written_file_replaces_the_old_one(tmp_path: Path) -> None:
     write_text(path, "one")
     write_text(path, "two µm")
     assert path.read_text(encoding="utf-8") == "two µm"
+
+
+def test_a_folder_is_no_place_for_a_file(tmp_path: Path) -> None:
+    """The message names it, and not the file that would have been renamed to it."""
+    path = tmp_path / "table.csv"
+    path.mkdir()
+    with pytest.raises(IsADirectoryError, match="is a folder, so no file can be written there") as found:
+        write_text(path, "text")
+    assert found.value.filename == str(path)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_folder_in_which_nobody_may_write_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "access", lambda *given: False)  # whoever runs the tests may write anywhere
+    with pytest.raises(PermissionError, match="in which you may not write") as found:
+        require_folder(tmp_path / "table.csv")
+    assert found.value.filename == str(tmp_path)

@@ -226,7 +226,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "actuator beyond the finger": (
         {"actuators.pitch.value": 6.0},
         "actuators",
-        ["reaches x = 9.5 mm", "the finger's half width 8 mm"],
+        ["reaches x = 9.5 mm", "the finger's half width, 8 mm"],
     ),
     "edges rounder than the actuator": (
         {"actuators.edge_radius.value": 0.6},

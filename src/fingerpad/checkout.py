@@ -41,4 +41,7 @@ def find_checkout(start: Path) -> Checkout:
         found = Checkout(root)
         if (found.schemas / "device.schema.yaml").is_file():
             return found
-    raise UsageError(f"{folder}: is not in a checkout of fingerpad, which holds config/ and workflow/schemas/")
+    raise UsageError(
+        f"{folder}: is not in a checkout of fingerpad, which holds config/ and workflow/schemas/; go there, or give"
+        " --config and --schemas to a command that has them"
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +14,7 @@ PART = ".part"  # ends the name of a file that is being written
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """A path to write to, which becomes `path` when the block ends without an error; otherwise nothing is left of it,
-    and what was at `path` before stays. Raises FileNotFoundError that names the folder if there is none.
+    and what was at `path` before stays. Raises an OSError, as `require_folder`.
     """
     require_folder(path)
     part = path.with_name(path.name + PART)
@@ -25,9 +26,15 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def require_folder(path: Path) -> None:
-    """Raise FileNotFoundError that names the folder of a file to be written if there is none."""
+    """Raise an OSError that names the folder of a file to be written if there is none, or nothing may be written there,
+    and the file if a folder has its name.
+    """
     if not path.parent.is_dir():
         raise FileNotFoundError(errno.ENOENT, "is no folder, so nothing can be written there", str(path.parent))
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "is a folder, so no file can be written there", str(path))
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, "is a folder in which you may not write", str(path.parent))
 
 
 def write_text(path: Path, text: str) -> None:

@@ -97,6 +97,6 @@ class Scene:
         reach = max(abs(x) for x in row.positions) + row.width / 2.0
         require(
             reach < self.model.finger.width / 2.0,
-            f"{self.device.name}: an actuator reaches x = {reach:g} mm, beyond the finger's half width"
+            f"{self.device.name}: an actuator reaches x = {reach:g} mm; it must stay below the finger's half width,"
             f" {self.model.finger.width / 2.0:g} mm",
         )

@@ -75,3 +75,4 @@ def run(options: argparse.Namespace) -> None:
         )
         bar.update()
     write_text(options.output, input_deck(scene, section, condition, settings))
+    print(f"written: {options.output}")

@@ -48,7 +48,8 @@ def run(options: argparse.Namespace) -> None:
     copies = {path: copy for path, copy in copies.items() if path.resolve() != copy.resolve()}
     for path in (target, *copies.values()):
         if path.exists():
-            raise UsageError(f"{path}: exists already, and is not overwritten; choose another name, or remove it")
+            way = "choose another name" if path == target else f"rename the recording and its `file:` key in {source}"
+            raise UsageError(f"{path}: exists already, and is not overwritten; {way}, or remove it")
     for path, copy in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, copy)
