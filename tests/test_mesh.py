@@ -88,6 +88,15 @@ def test_same_scene_same_mesh_and_round_trip(tmp_path) -> None:  # type: ignore[
     assert stored.layer_names == first.layer_names
 
 
+def test_a_strip_of_many_nodes_is_no_warning(caplog: pytest.LogCaptureFixture) -> None:
+    base = scene("device3")
+    row = base.device.actuators
+    assert row.body is not None
+    thick = replace(row, body=replace(row.body, thickness=1.0))
+    assert mesh_strip(thick, base.model.numerics).p.shape[1] > 1000
+    assert not caplog.records
+
+
 def test_strip_mirrors_and_is_fine_at_its_ends() -> None:
     """A deformable actuator's mesh mirrors, and its face elements are at most edge_size at the ends."""
     base = scene("device3")

@@ -28,6 +28,7 @@ from .store import reading, save_arrays
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
 ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
+JOINED = 8  # decimals of a length [mm]; nodes that agree in them are one
 SIZE_SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
 LINE_SLACK = 10.0**-ROUNDED  # mm; keeps rounding from deciding on which side of a line a node lies
 ARC_POINTS = 4001  # of the table of arc lengths [1]; source: between them it is off by less than 1e-6 mm
@@ -138,8 +139,11 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
     rows = max(2, int(np.ceil(row.body.thickness / numerics.edge_size)))
     down = -row.body.thickness * np.linspace(1.0, 0.0, rows + 1)
     right = MeshTri.init_tensor(across, down)
-    left = MeshTri(right.p * np.array([[-1.0], [1.0]]), right.t)  # mirrored with its diagonals
-    strip = MeshTri2.from_mesh(right + left)
+    # mirrored with its diagonals; joined here, as scikit-fem's + warns of its own arrays' order
+    points = np.hstack([right.p, right.p * np.array([[-1.0], [1.0]])]).round(JOINED)
+    _, kept, joined = np.unique(points, axis=1, return_index=True, return_inverse=True)
+    triangles = joined.ravel()[np.hstack([right.t, right.t + right.p.shape[1]])]
+    strip = MeshTri2.from_mesh(MeshTri(np.ascontiguousarray(points[:, kept]), triangles))
     mesh = replace(strip, doflocs=row.body.placed(*strip.doflocs))
     face, base = strip.doflocs[1] == 0.0, strip.doflocs[1] == -row.body.thickness
     if not (
