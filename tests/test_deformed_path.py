@@ -19,7 +19,7 @@ from fingerpad.scene import Scene
 from fingerpad.tissue_law import Kinematics
 from scenes import scene
 
-COARSER = 6.0  # times the shipped sizes and strides
+COARSER = 3.0  # times the shipped sizes and strides
 ROUNDING = 1e-8  # relative, of what a soft mode magnifies
 
 
