@@ -129,6 +129,15 @@ def test_sizes_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         read_yaml(device)
 
 
+def test_the_line_is_named_whose_letters_are_not_utf8(tmp_path: Path) -> None:
+    """As spreadsheets save them; far behind what a file is read in at once."""
+    path = tmp_path / "tap.csv"
+    rows = [",".join(COLUMNS), *(f"{time},1,0,0" for time in range(5000)), "5000,1,0,0 \N{MICRO SIGN}m"]
+    path.write_bytes("\n".join(rows).encode("latin-1"))
+    with pytest.raises(SceneError, match=r"tap\.csv, line 5002: found a byte 0xb5 .*; save it as CSV UTF-8"):
+        read_recording(path, 1)
+
+
 class Command:
     """What runs a command when it is unpickled."""
 

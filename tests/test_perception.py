@@ -110,7 +110,8 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
 def test_a_file_that_is_no_text_is_named(tmp_path: Path) -> None:
     path = tmp_path / "ratings.csv"
     path.write_bytes(b"\xff\xfe\x00d")
-    with pytest.raises(RatingError, match="not a CSV file in UTF-8"):
+    said = r"ratings\.csv, line 1: found a byte 0xff that is not UTF-8.*; save it as CSV UTF-8"
+    with pytest.raises(RatingError, match=said):
         read_ratings(path, CONDITIONS)
 
 

@@ -7,11 +7,14 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+from io import StringIO
 from pathlib import Path
 
 from .errors import FingerpadError
 
 LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, ten thousand times of 64 actuators
+
+COMMA = "a decimal comma? a number has a point; or text with a comma, which needs quotes"
 
 
 def checked_rows(path: Path, columns: Sequence[str], error: type[FingerpadError]) -> list[tuple[int, dict[str, str]]]:
@@ -36,7 +39,7 @@ def checked_rows(path: Path, columns: Sequence[str], error: type[FingerpadError]
         raise error(f"{path}, line {line}: column {listed(missing)} is missing; allowed: {listed(columns)}")
     for line, cells in lines[1:]:
         if len(cells) != len(header):
-            hint = "; a decimal comma? a number has a point" if len(cells) > len(header) else ""
+            hint = f"; {COMMA}" if len(cells) > len(header) else ""
             allowed = f"{len(header)}, for {listed(header)}{hint}"
             raise error(f"{path}, line {line}: found {len(cells)} values; allowed: {allowed}")
     return [(line, dict(zip(header, cells, strict=True))) for line, cells in lines[1:]]
@@ -48,22 +51,27 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
     try:
         if (size := path.stat().st_size) > LARGEST_FILE:
             raise error(f"{path}: found {size} bytes; allowed: at most {LARGEST_FILE}")
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file, strict=True)
-            for row in reader:
-                line = reader.line_num
-                if any(map(str.strip, row)):
-                    lines.append((line, [cell.strip() for cell in row]))
+        text = path.read_bytes().decode("utf-8-sig")
+        reader = csv.reader(StringIO(text, newline=""), strict=True)
+        for row in reader:
+            line = reader.line_num
+            if any(map(str.strip, row)):
+                lines.append((line, [cell.strip() for cell in row]))
     except OSError as failure:
         raise error(f"{path}: cannot be read: {failure.strerror}") from failure
-    except (csv.Error, UnicodeDecodeError) as failure:
-        raise error(f"{path}: is not a CSV file in UTF-8: after line {line}: {failure}") from failure
+    except UnicodeDecodeError as failure:
+        line = 1 + failure.object.count(b"\n", 0, failure.start)
+        found = f"a byte {failure.object[failure.start]:#x} that is not UTF-8"
+        raise error(f"{path}, line {line}: found {found}; allowed: UTF-8; save it as CSV UTF-8") from failure
+    except csv.Error as failure:
+        raise error(f"{path}: is not a CSV file: after line {line}: {failure}") from failure
     return lines
 
 
 def told(path: Path, line: int, column: str, found: str, allowed: Sequence[str], meant: str = "") -> str:
     """What is wrong with a cell. allowed: a phrase, or the names among which the one that was meant is guessed."""
-    guess = [] if isinstance(allowed, str) else get_close_matches(found, allowed, n=1)
+    close = [] if isinstance(allowed, str) else get_close_matches(found, allowed, n=len(allowed) or 1)
+    guess = sorted(close, key=lambda name: not name.startswith(found))  # of equally close ones that which goes on
     names = allowed if isinstance(allowed, str) else listed(allowed)
     meant = next(iter(guess), meant)
     hint = f"; did you mean '{meant}'?" if meant else ""

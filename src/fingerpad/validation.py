@@ -264,7 +264,8 @@ def _meant(schema: Schema, found: Any, quantity: Any) -> str:
     if "enum" in schema:
         return _closest(found, schema["enum"])
     if unit and isinstance(found, str | int | float | list):
-        return f"{{value: {_shown(found)}, unit: {_shown(unit)}, source: ...}}"
+        value = _meant_value(schema["properties"]["value"], found, unit)
+        return f"{{value: {value}, unit: {_shown(unit)}, source: ...}}"
     if kind == "number":
         return _meant_number(schema, found, quantity.get("unit") if isinstance(quantity, dict) else None)
     if kind in ("integer", "boolean", "array"):
@@ -273,7 +274,9 @@ def _meant(schema: Schema, found: Any, quantity: Any) -> str:
 
 
 def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
-    """The unit in its own letters, or the quantity in that unit, or nothing."""
+    """The unit in its own letters, or as the text that it is, or the quantity in that unit; or nothing."""
+    if type(found) is int and str(found) == unit:
+        return f'"{unit}" in quotes'
     if isinstance(found, str) and found.lower() == unit.lower():
         return unit
     value = _scaled(quantity.get("value"), FACTORS.get((unit, str(found)), math.nan))
@@ -291,6 +294,14 @@ def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
     highest = schema.get("maximum", math.inf)
     micrometres = unit == "mm" and _is_number(found) and highest < found <= highest / FACTORS["mm", "um"]
     return f"{{value: {_shown(_scaled(found, FACTORS['mm', 'um']))}, unit: mm}}" if micrometres else ""
+
+
+def _meant_value(schema: Schema, found: Any, unit: str) -> str:
+    """The value of a quantity for which a value alone was found: where it must be a number, the one in a text."""
+    kind = schema.get("type")
+    if kind not in ("number", "integer") or not isinstance(found, str):
+        return _shown(found)
+    return _meant_number(schema, found, unit).removesuffix(".0" if kind == "integer" else "") or "..."
 
 
 def _meant_type(kind: str, found: Any) -> str:
