@@ -204,6 +204,10 @@ def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame)
         assert len(axes.lines) == len(markers)  # no line is fitted
         assert [line.get_xdata()[0] for line in markers] == sorted(line.get_xdata()[0] for line in markers)
     assert "R² =" not in words(figure)
+    none = correlations[correlations["device"] == "unrated"]
+    alone = words(correlation_figure(SCORES, RATINGS, none, {"unrated": "Histories"}))
+    assert not [said for said in ("least squares", "Ratings:", "range", "τ") if said in alone]
+    assert "spread: of the scores" in " ".join(alone.split())
     assert "no comparison" in " ".join(words(figure).split())
     rated = correlations[correlations["device"] == "phased"]
     assert "no comparison" not in words(correlation_figure(SCORES, RATINGS, rated, {"phased": "Phased pins"}))

@@ -46,10 +46,10 @@ SLOPE = {-1: ", falling", 0: "", 1: ", rising"}
 SMALLEST_P = 0.001  # below it p is given as a bound
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
-    "{interface}n: conditions; those with one and the same stimulus coincide. Line: least squares. Ratings: {kinds}."
-    " range: of R² over all ratings with the stated order. τ: Kendall's.{p}"
+    "{interface}n: conditions; those with one and the same stimulus coincide.{rated}"
     " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
 )
+RATED = " Line: least squares. Ratings: {kinds}. range: of R² over all ratings with the stated order. τ: Kendall's.{p}"
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: an order of scores is a prediction, and no comparison with perception."
 
@@ -161,10 +161,10 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
 
 def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     """What a figure's statistics mean and what its ratings are."""
-    kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind) or "none"
+    kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
     p = P if any(_tests(row) for row in correlations.to_dict("records")) else ""
-    return CAPTION.format(interface=interface, kinds=kinds, p=p) + unrated
+    return CAPTION.format(interface=interface, rated=RATED.format(kinds=kinds, p=p) if kinds else "") + unrated
 
 
 def _tests(row: Mapping[str, Any]) -> bool:
