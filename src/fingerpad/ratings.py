@@ -54,8 +54,9 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
     Returns those columns, `rating` as float. Raises RatingError, which names file, line, column, what was found
     and what is allowed.
 
-    >>> devices = {d.name: [c.name for c in d.conditions] for d in (device1, device2, device3)}
-    >>> read_ratings(Path("data/ratings.csv"), devices)[["condition", "rating", "kind"]].iloc[0].tolist()
+    >>> table = Path("data/ratings.csv")
+    >>> known = pd.read_csv(table).groupby("device")["condition"].agg(list).to_dict()
+    >>> read_ratings(table, known)[["condition", "rating", "kind"]].iloc[0].tolist()
     ['low_000', 1.0, 'surrogate']
     """
     rows: list[dict[str, Any]] = []
