@@ -103,7 +103,7 @@ rule figure_accuracy:
         png="results/figures/accuracy_closed_forms{mode}.png",
         pdf="results/figures/accuracy_closed_forms{mode}.pdf",
     log:
-        "results/logs/figure_accuracy{mode}.log",
+        "results/logs/figure_accuracy_closed_forms{mode}.log",
     conda:
         ENVIRONMENT
     params:

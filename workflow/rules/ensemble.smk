@@ -29,7 +29,7 @@ rule ensemble_member:
         scenes=directory("results/ensemble/{kinematics}/{member}/{half_cycle}/scenes"),
         scores="results/ensemble/{kinematics}/{member}/{half_cycle}/scores.csv",
     log:
-        "results/logs/ensemble/{kinematics}/{member}/{half_cycle}.log",
+        "results/logs/ensemble/{kinematics}/{member}/{half_cycle}/ensemble_member.log",
     wildcard_constraints:
         member="|".join(MEMBERS),
         half_cycle="|".join(HALF_CYCLES),
