@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pandas as pd
-from fingerpad.figures.ensemble import ensemble_figure
 
+from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.figures.style import save
 
 
