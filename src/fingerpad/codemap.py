@@ -70,8 +70,8 @@ def page(modules: Mapping[str, str], rules: Mapping[str, str], scripts: Mapping[
 def imported(text: str) -> set[str]:
     """Names of the package's top-level modules, and of its packages, that a module imports relative to itself.
 
-    >>> imported("from .scene import Scene\\nfrom . import mesh\\nimport numpy")
-    {'mesh', 'scene'}
+    >>> sorted(imported("from .scene import Scene\\nfrom . import mesh\\nimport numpy"))
+    ['mesh', 'scene']
     """
     found: set[str] = set()
     for node in ast.walk(ast.parse(text)):

@@ -56,8 +56,8 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
 
     >>> table = Path("data/ratings.csv")
     >>> known = pd.read_csv(table).groupby("device")["condition"].agg(list).to_dict()
-    >>> read_ratings(table, known)[["condition", "rating", "kind"]].iloc[0].tolist()
-    ['low_000', 1.0, 'surrogate']
+    >>> read_ratings(table, known)[["condition", "kind"]].iloc[0].tolist()
+    ['low_000', 'surrogate']
     """
     rows: list[dict[str, Any]] = []
     kinds: dict[str, tuple[str, int]] = {}

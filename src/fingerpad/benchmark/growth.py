@@ -81,7 +81,9 @@ def row_of(scene: Scene, count: int) -> Scene:
     stroke = np.where(np.arange(count)[None, :] % 2 == 0, 0.0, STROKE)
     condition = Condition("up", "alternate", 0.0, np.array([1.0]), stroke, np.zeros_like(stroke))
     model = replace(scene.model, contact=replace(scene.model.contact, criterion=Criterion.TOUCH))
-    device = replace(scene.device, name=f"row_of_{count}", actuators=row, conditions=(condition,))
+    device = replace(
+        scene.device, name=f"row_of_{count}", actuators=row, conditions=(condition,), cycles=(), frequencies=()
+    )
     numerics = scene.coarsened(FINE).model.numerics
     kept = scene.model.numerics
     numerics = replace(
