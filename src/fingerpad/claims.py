@@ -318,20 +318,13 @@ _CLAIMS: tuple[_Claim, ...] = (
     ),
     _Claim("Device 1: the change of strain rises with phase at every dispersion.", _ORDER, _device1_phase),
     _Claim("Device 1: the change of strain rises with dispersion at 180°.", _ORDER, _device1_dispersion),
-    _Claim(
-        "Device 1: the change of strain correlates very well.",
-        _RESULTS,
-        _correlates("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
-    ),
-    _Claim(
-        "Device 2: the change of strain correlates very well.",
-        _RESULTS,
-        _correlates("device2", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
-    ),
-    _Claim(
-        "Device 3: the change of strain correlates very well.",
-        _RESULTS,
-        _correlates("device3", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
+    *(
+        _Claim(
+            f"Device {number}: the change of strain correlates very well.",
+            _RESULTS,
+            _correlates(f"device{number}", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
+        )
+        for number in (1, 2, 3)
     ),
     _Claim(
         "Device 2: the strain correlates well.",

@@ -22,6 +22,7 @@ ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
 NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
 SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
+SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
 
 
 class RatingKind(StrEnum):
@@ -35,6 +36,11 @@ class RatingKind(StrEnum):
     def label(self) -> str:
         """How figures and tables call it; a surrogate is always called an ordinal surrogate."""
         return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
+
+
+def has_p(p: object, kind: object) -> bool:
+    """Whether a p is there and tests anything: the steps of ordinal surrogates, a `label`, are no measurement."""
+    return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
 
 
 class Relation(StrEnum):

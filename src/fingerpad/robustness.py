@@ -5,11 +5,12 @@ from __future__ import annotations
 import pandas as pd
 
 from .alternatives import AS_CONFIGURED, HALF_CYCLES
+from .claims import Holds
 from .contact_law import Interface
 from .pages import table
+from .ratings import SLOPE_NAME
 from .roughness import KEY
 
-SLOPES = {-1: "falling", 0: "level", 1: "rising"}
 NOTHING = ""
 
 
@@ -30,7 +31,7 @@ def robustness_values(claims: pd.DataFrame, correlations: pd.DataFrame) -> dict[
 
 def _always(claims: pd.DataFrame) -> str:
     """Statements that hold in every member and half-cycle, whatever the kinematics, as a list."""
-    held = claims.groupby("claim", sort=False)["holds"].agg(lambda column: (column == "yes").all())
+    held = claims.groupby("claim", sort=False)["holds"].agg(lambda column: (column == Holds.YES).all())
     return "\n".join(f"- {claim}" for claim in held[held].index)
 
 
@@ -42,7 +43,7 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
         for half_cycle in HALF_CYCLES:
             found = own[own["half_cycle"] == half_cycle].set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)
-            row[half_cycle] = f"{usual}, {(found == 'yes').sum()} of {found.size}"
+            row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
             row[f"turned in {half_cycle}"] = ", ".join(found[found != usual].index)
         rows.append(row)
     return pd.DataFrame(rows)
@@ -72,4 +73,4 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
 
 def _signed(r2: float, slope: float) -> str:
     """R² and which way the slope is, if that is known."""
-    return f"{r2:.3g}" if pd.isna(slope) else f"{r2:.3g}, {SLOPES[int(slope)]}"
+    return f"{r2:.3g}" if pd.isna(slope) else f"{r2:.3g}, {SLOPE_NAME[int(slope)]}"

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ..contact_law import Interface
+from ..ratings import SLOPE_NAME
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -137,5 +138,5 @@ def _statistics(correlations: pd.DataFrame, interface: Interface) -> str:
     row = correlations[correlations["interface"] == interface].iloc[0]
     if pd.isna(row["r2"]):
         return f"{INTERFACE_NAME[interface]}: {row['note']}"
-    sign = {-1: "falling", 1: "rising"}.get(int(row["slope_sign"]), "level")
+    sign = SLOPE_NAME[int(row["slope_sign"])]
     return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f} ({row['rating_kind']}), {sign}, n = {row['n']}"

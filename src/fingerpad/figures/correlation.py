@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..contact_law import Interface
-from ..ratings import NO_RATINGS, RatingKind
+from ..ratings import NO_RATINGS, SLOPE_NAME, has_p
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -42,7 +42,6 @@ ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
 STATISTICS_WIDTH = 22  # characters in a line beside a panel
 MOST_NAMES = 10  # conditions whose names fit a panel's height
 TICKS = 4  # along a score's axis, at most
-SLOPE = {-1: ", falling", 0: "", 1: ", rising"}
 SMALLEST_P = 0.001  # below it p is given as a bound
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
@@ -140,15 +139,15 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     """What the correlation table says of one panel, and how far the scores (n,) spread, line by line."""
     lines = [f"n = {score.size}"]
     if pd.notna(row["r2"]):
-        lines.append(f"R² = {row['r2']:.3f}{SLOPE[int(row['slope_sign'])]}")
+        lines.append(f"R² = {row['r2']:.3f}, {SLOPE_NAME[int(row['slope_sign'])]}")
     if pd.notna(row["r2_lowest"]):
         lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
     if pd.notna(row["r2"]):
         lines.append(f"τ = {row['kendall_tau']:.2f}".replace("-", MINUS))
-        if _tests(row):
+        if has_p(row["p"], row["rating_kind"]):
             lines[-1] += f", p = {row['p']:#.2g}" if row["p"] >= SMALLEST_P else f", p < {SMALLEST_P:g}"
     if pd.notna(row["published_r2"]):
-        slope = SLOPE[int(row["published_slope"])] if pd.notna(row["published_slope"]) else ""
+        slope = f", {SLOPE_NAME[int(row['published_slope'])]}" if pd.notna(row["published_slope"]) else ""
         lines.append(f"published R² {row['published_r2']:g}{slope}")
     elif isinstance(row["published_words"], str) and row["published_words"]:
         lines.append(f"published: {row['published_words']}")
@@ -163,13 +162,8 @@ def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
-    p = P if any(_tests(row) for row in correlations.to_dict("records")) else ""
+    p = P if any(has_p(row["p"], row["rating_kind"]) for row in correlations.to_dict("records")) else ""
     return CAPTION.format(interface=interface, rated=RATED.format(kinds=kinds, p=p) if kinds else "") + unrated
-
-
-def _tests(row: Mapping[str, Any]) -> bool:
-    """Whether p tests anything: the steps of ordinal surrogates are ours, and no measurement."""
-    return bool(pd.notna(row["p"])) and row["rating_kind"] != RatingKind.SURROGATE.label
 
 
 def shown_in(scores: pd.DataFrame) -> list[Shown]:

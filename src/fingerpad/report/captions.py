@@ -9,11 +9,12 @@ from functools import partial
 from ..contact_law import Interface
 from ..device import Device
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, counted, plain
+from ..ratings import has_p
 from ..readout import Readout
 from ..roughness import TYPESET_UNITS
 from ..scene import Scene
 from ..tissue_law import Kinematics
-from .tables import SLOPES, Row, error_of, has_p, measured, p_value
+from .tables import SLOPES, Row, error_of, measured, p_value
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
@@ -85,7 +86,7 @@ def correlation_words(row: Row) -> str:
         return f"{row['note']}, n = {row['n']}"
     spread = f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
     tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
-    p = f", p {p_value(row['p'])}" if has_p(row) else ""
+    p = f", p {p_value(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
     return f"R² = {float(row['r2']):.3f}{spread}, {SLOPES[row['slope_sign']]}, τ = {tau}{p}, n = {row['n']}"
 
 

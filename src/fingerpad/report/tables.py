@@ -10,7 +10,7 @@ from statistics import median
 from ..accuracy import relative_error
 from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
-from ..ratings import RatingKind
+from ..ratings import SLOPE_NAME, has_p
 from ..readout import Readout
 from ..tissue_law import Kinematics
 
@@ -19,7 +19,7 @@ COLUMNS = [(interface, readout) for interface in Interface for readout in Readou
 ERROR_DIGITS = 2  # significant digits of an error [1]; the value ends where its error does
 DIGITS = 4  # significant digits of a value without an error [1]
 NOTHING = "\N{EN DASH}"
-SLOPES = {"-1": "falling", "0": "level", "1": "rising"}
+SLOPES = {str(sign): name for sign, name in SLOPE_NAME.items()}
 SMALLEST_P = 0.001  # below it p is given as a bound
 
 
@@ -114,7 +114,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             spread,
             SLOPES.get(row["slope_sign"], NOTHING),
             f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
-            p_value(row["p"]) if has_p(row) else NOTHING,
+            p_value(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
             published,
             row["note"] or NOTHING,
@@ -126,11 +126,6 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
 CORRELATION_COLUMNS = (
     "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published R²", "Note",
 )  # fmt: skip
-
-
-def has_p(row: Row) -> bool:
-    """Whether a correlation's p tests anything: the steps of ordinal surrogates are ours, and no measurement."""
-    return bool(row["p"]) and row["rating_kind"] != RatingKind.SURROGATE.label
 
 
 def p_value(text: str) -> str:
