@@ -40,6 +40,9 @@ class Status(IntEnum):
 
 
 OPEN = int(Status.OPEN)  # which arrays are compared with faster
+# Power [1] of the skin's height over a face that grows evenly from the front of contact on, since skin leaves the face
+# as distance to the power 3/2; source: Hertz (Johnson 1985, Contact Mechanics, section 4.2)
+FRONT_POWER = 2.0 / 3.0
 # Gauss-Jacobi on half a hat, exact for cubics: distances from its top over its width [1], weights [1] with a sum of one
 HAT_POINTS = np.array([0.4 - np.sqrt(0.06), 0.4 + np.sqrt(0.06)])
 HAT_WEIGHTS = np.array([0.5 + 1.0 / np.sqrt(54.0), 0.5 - 1.0 / np.sqrt(54.0)])
@@ -100,8 +103,9 @@ class ContactState:
 
     actuator: (n_actuators, 2) displacement from the row's position [mm]. force: (n, 2) on the skin [N/mm].
     status: (n,) Status. place: (n,) x of each node from its actuator's centre [mm]. gap: (n,) [mm].
-    heading: (n_actuators, 2) movement of the actuators in the last increment over its length [1], zero at rest.
-    drift: (n, 2) change of place and gap over that length [1]. trend: (n, 2) change of force over it [N/mm²].
+    length: of the last increment, the largest movement of an actuator [mm]; zero at rest. heading: (n_actuators, 2)
+    movement of the actuators over that length [1]. drift: (n, 2) change of place and gap over it [1]. trend: (n, 2)
+    change of force over it [N/mm²].
     dissipation: frictional work so far [N mm per mm]. residual: of the contact equations, relative, the largest so
     far [1]. iterations, cuts, searches: Newton iterations, halved increments and increments whose states did not settle
     all at once, so far.
@@ -112,6 +116,7 @@ class ContactState:
     status: np.ndarray
     place: FloatArray
     gap: FloatArray
+    length: float
     heading: FloatArray
     drift: FloatArray
     trend: FloatArray
@@ -138,7 +143,7 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
     status = np.full(count, int(Status.OPEN))
     gap = y + profile(problem.row, x)[0]
     return ContactState(
-        actuator, nothing, status, x, gap, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0, 0, 0
+        actuator, nothing, status, x, gap, 0.0, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0, 0, 0
     )
 
 

@@ -29,6 +29,7 @@ from .active_set import (
 )
 from .arrays import FloatArray
 from .contact import (
+    FRONT_POWER,
     OPEN,
     ContactProblem,
     ContactState,
@@ -163,6 +164,7 @@ def _accepted(
         status=found.status,
         place=found.place,
         gap=found.gap,
+        length=length,
         heading=_over(actuator - start.actuator, length),
         drift=_over(np.array([found.place - start.place, found.gap - start.gap]).T, length),
         trend=_over(found.force - start.force, length),
@@ -188,8 +190,8 @@ def _foreseen(
         if problem.friction > 0.0:
             status[status > STICK] = STICK
         return status, (status != OPEN) | (start.gap < FORESIGHT * length)
-    gap = start.gap + start.drift[:, 1] * length
-    closing = newly_touching((status == OPEN) & (gap < 0.0), gap, status, problem.actuator_of)
+    arrival = _arrival(start)
+    closing = newly_touching(arrival < length, arrival, status, problem.actuator_of)
     slope = profile(problem.row, start.place + start.drift[:, 0] * length)[1]
     pressing, shearing = resolved(problem, start.force + start.trend * length, slope)
     opening = (status != OPEN) & (pressing < 0.0)
@@ -197,8 +199,21 @@ def _foreseen(
     np.putmask(status, sliding, dragged(shearing))
     status[closing] = touched_status(problem)
     status[opening] = OPEN
-    ahead = (status != OPEN) | (start.gap + FORESIGHT * start.drift[:, 1] * length < 0.0)
-    return status, ahead
+    return status, (status != OPEN) | (arrival < FORESIGHT * length)
+
+
+def _arrival(start: ContactState) -> FloatArray:
+    """Way (n,) [mm] of the actuators after which open nodes touch if they go on as in the last increment; infinite for
+    nodes that touch or do not come nearer.
+
+    Beside a front of contact that advances evenly, gap to the power FRONT_POWER falls evenly.
+    """
+    gaps = np.array([start.gap - start.drift[:, 1] * start.length, start.gap])
+    before, now = np.maximum(gaps, 0.0) ** FRONT_POWER
+    nearer = (start.status == OPEN) & (now < before)
+    arrival = np.full(start.gap.size, np.inf)
+    arrival[nearer] = start.length * now[nearer] / (before - now)[nearer]
+    return arrival
 
 
 def _first_touching(
@@ -224,7 +239,7 @@ def _drifted(start: ContactState, length: float) -> FloatArray:
     """Way (n,) [mm] along x that a node goes before it touches, which is no slip: zero for nodes in contact.
 
     An open node touches at the fraction of the increment at which its gap, extrapolated from the last increment,
-    vanishes.
+    vanishes. Beside a front x falls behind as the gap does, so that one is as good a clock as the other.
     """
     closing = -start.drift[:, 1] * length
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import FloatArray
-from .contact import OPEN, ContactProblem, ContactState, rest, touching_height
+from .contact import FRONT_POWER, OPEN, ContactProblem, ContactState, rest, touching_height
 from .contact_law import Criterion
 from .errors import CriterionError
 from .increment import solve_increment
@@ -99,14 +99,14 @@ def _lacking(missing: float) -> str:
 def _front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
     """Place [mm] up to which one actuator's skin is in contact in the direction of ascending place (n,).
 
-    Where skin leaves a flat face its height grows with distance to the power 3/2 (Hertz), so the front is where
-    height^(2/3) of the first two open nodes extrapolates to zero: smooth in the load, though nodes close one by one.
+    The front is where height to the power FRONT_POWER of the first two open nodes extrapolates to zero: smooth in the
+    load, though nodes close one by one.
     """
     closed = active.nonzero()[0]
     if closed.size == 0:
         return float("-inf")  # not even touched
     last = int(closed[-1])
-    near, far = np.maximum(height[last + 1 : last + 3], 0.0) ** (2.0 / 3.0) if last + 2 < place.size else (0.0, 0.0)
+    near, far = np.maximum(height[last + 1 : last + 3], 0.0) ** FRONT_POWER if last + 2 < place.size else (0.0, 0.0)
     if far <= near:
         return float(place[min(last + 1, place.size - 1)])
     beyond = (place[last + 2] - place[last + 1]) * near / (far - near)
