@@ -125,7 +125,7 @@ def finite_deck(law: Law) -> list[Block]:
 @pytest.mark.parametrize("law", list(Law))
 def test_finite_kinematics_are_nlgeom_in_every_step(law: Law) -> None:
     steps = of_kind(finite_deck(law), "STEP")
-    assert len(steps) == 4
+    assert len(steps) == 5
     assert all("NLGEOM" in given for _, given, _ in steps)
     assert not any("NLGEOM" in given for _, given, _ in of_kind(deck("device3"), "STEP"))
 
@@ -198,7 +198,8 @@ def test_a_deformable_actuator_is_driven_at_its_base() -> None:
 
 def test_steps_move_the_actuators_along_the_condition() -> None:
     condition = scene("device2").device.condition(CONDITION)
-    moves = [b[2] for b in of_kind(deck("device2"), "BOUNDARY")[1:]]  # the first holds the bone
+    _, still, *moves = [b[2] for b in of_kind(deck("device2"), "BOUNDARY")]  # the first holds the bone
+    assert all(float(row[3]) == 0.0 for row in still)
     assert len(moves) == 2 * (1 + condition.time.size)  # each is followed by a rest
     values = np.array([[float(row[3]) for row in rows] for rows in moves]).reshape(len(moves), -1, 2)
     indented = np.array([0.0, SETTINGS.indentation])
@@ -219,11 +220,20 @@ def test_friction_acts_from_where_it_is_asked(
     keywords = [keyword for keyword, _, _ in blocks]
     assert keywords.count("CHANGE FRICTION") == (0 if switched is None else 1)
     if switched is not None:
-        assert keywords[: keywords.index("CHANGE FRICTION")].count("STEP") == 3  # indented, at rest, stimulus
+        assert keywords[: keywords.index("CHANGE FRICTION")].count("STEP") == 4  # still, indented, at rest, stimulus
 
 
 def test_without_rest_every_move_is_one_step() -> None:
-    assert len(of_kind(parsed(scene("device2"), replace(SETTINGS, rest_increments=0)), "STEP")) == 2
+    blocks = parsed(scene("device2"), replace(SETTINGS, rest_increments=0))
+    assert len(of_kind(blocks, "STEP")) == 3  # the first moves nothing
+
+
+def test_the_first_step_prints_nothing() -> None:
+    """What is read is the end of every move; the first step is there for CalculiX alone."""
+    blocks = deck("device2")
+    ends = [number for number, (keyword, _, _) in enumerate(blocks) if keyword == "END STEP"]
+    assert "NODE PRINT" not in [keyword for keyword, _, _ in blocks[: ends[0]]]
+    assert "NODE PRINT" in [keyword for keyword, _, _ in blocks[ends[0] : ends[1]]]
 
 
 def export(tmp_path: Path, condition: str) -> list[str]:
@@ -237,7 +247,7 @@ def test_command_writes_a_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert capsys.readouterr().out == f"written: {tmp_path / 'scene.inp'}\n"
     text = (tmp_path / "scene.inp").read_text(encoding="utf-8")
     assert text.startswith("*HEADING\n")
-    assert text.count("*END STEP") == 4
+    assert text.count("*END STEP") == 5
 
 
 def test_command_says_in_one_line_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

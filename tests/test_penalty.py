@@ -57,6 +57,30 @@ def test_on_a_nearly_flat_face_it_is_contact_with_softer_nodes(indenting: float)
     assert abs(state.force[:, 0].sum()) > 0.1 * FRICTION * state.force[:, 1].sum()  # the face does pull
 
 
+def test_what_slides_before_it_touches_leaves_a_trace_that_fades() -> None:
+    """An indenter of 50 mm that comes down aslant. If the way from where nodes lay unloaded is slip, each bears
+    friction in full at first; with more increments there is less pressure by then."""
+    problem, weight = pressed_block(50.0, 100.0)
+    apart = []
+    for increments in (8, 32):
+        ends = [
+            press(
+                problem,
+                weight,
+                replace(LAW, slides_open=each),
+                untouched(problem),
+                lift(problem, 0.002, DEPTH),
+                increments,
+            )
+            for each in (True, False)
+        ]
+        counted, not_counted = (end.force for end in ends)
+        assert np.abs(counted[:, 0]).max() <= FRICTION * counted[:, 1].max() * (1.0 + 1e-9)
+        apart.append(np.linalg.norm(counted - not_counted) / np.linalg.norm(not_counted))
+    assert apart[0] > 1e-3
+    assert apart[1] < 0.7 * apart[0]  # the root of a quarter is a half, and pressure rises as the root at a front
+
+
 def test_friction_holds_its_cone_on_turning_normals() -> None:
     """Forces of magnitude N sqrt(1 + mu^2) at most: no node bears more shear than mu N, whichever way its normal."""
     problem, weight = pressed_block(0.1, 0.6)

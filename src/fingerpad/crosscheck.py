@@ -196,12 +196,13 @@ def _turning_forces(
     problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
 ) -> tuple[FloatArray, FloatArray]:
     indented, *stimulus = targets(condition, settings)
-    law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting)
+    law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting, slides_open=True)
     first = replace(law, friction=settings.friction_indenting)
-    before = press(problem, section.weight, first, untouched(problem), indented, INDENTATION_INCREMENTS)
+    # in the deck's increments, which decide how much of what slides before it touches bears friction
+    before = press(problem, section.weight, first, untouched(problem), indented, settings.indentation_increments)
     state: PenaltyState = before
     for target in stimulus:
-        state = press(problem, section.weight, law, state, target, STIMULUS_INCREMENTS)
+        state = press(problem, section.weight, law, state, target, settings.stimulus_increments)
     return before.force, state.force
 
 

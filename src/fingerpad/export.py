@@ -307,13 +307,14 @@ def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[s
     switched = settings.friction_acting != settings.friction_indenting
     switch = ["*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR", *_friction(settings.friction_acting, settings)]
     step = f"*STEP{', NLGEOM' if scene.kinematics is Kinematics.FINITE else ''}, INC={LARGEST_COUNT}"
-    lines = []
+    # in the first step CalculiX takes overlap for a misfit of the parts, which comes to bear as the step goes on
+    lines = _step("nothing moves in the first step", step, [(0.0, 0.0)] * count, 1, [], [])
     for number, (title, move) in enumerate(moves):
         increments = settings.stimulus_increments if number else settings.indentation_increments
         change = switch if switched and number == 1 else []
-        lines += _step(title, step, move, increments, change)
+        lines += _step(title, step, move, increments, change, _output(count))
         if settings.rest_increments:
-            lines += _step(f"at rest after {title}", step, move, settings.rest_increments, [])
+            lines += _step(f"at rest after {title}", step, move, settings.rest_increments, [], _output(count))
     return lines
 
 
@@ -322,7 +323,12 @@ def _friction(coefficient: float, settings: DeckSettings) -> list[str]:
 
 
 def _step(
-    title: str, step: str, displacement: Sequence[tuple[float, float]], increments: int, before: list[str]
+    title: str,
+    step: str,
+    displacement: Sequence[tuple[float, float]],
+    increments: int,
+    before: list[str],
+    output: list[str],
 ) -> list[str]:
     """One static step in equal increments: displacement (x, y) [mm] of every actuator from its place in the row."""
     length = f"{1.0 / increments:.9g}"
@@ -335,7 +341,7 @@ def _step(
             for number, move in enumerate(displacement)
             for axis, value in enumerate(move, start=1)
         ),
-        *_output(len(displacement)),
+        *output,
         "*END STEP",
     ]
 

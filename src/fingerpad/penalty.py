@@ -8,7 +8,10 @@ along the profile, and the weight w of the node:
     N = k_n w max(-g, 0)                                         pressing force
     T = -k_t w (s - s_0), held within |T| <= mu N                shearing force; s_0 follows when it slips
     f = N n + T t,    q - (X - actuator position) - C f(q) = 0   solved by Newton's method for q.
-Source: G. Dhondt, CalculiX manual, face-to-face penalty contact; here node by node.
+CalculiX takes for s_0 of a node that comes to touch where it lay unloaded. All that has slid until then is slip, so the
+node bears friction in full from its first increment in contact on. That leaves a trace as large as the pressure at the
+end of it, which fades with more increments.
+Source: G. Dhondt, CalculiX manual, face-to-face penalty contact, and its version 2.20; here node by node.
 """
 
 from __future__ import annotations
@@ -29,17 +32,21 @@ TOLERANCE = 1e-10  # mm of residual displacement; source: 1e-6 of the smallest p
 
 @dataclass(frozen=True)
 class PenaltyLaw:
-    """Slopes [MPa/mm] of pressure over penetration and of shear over elastic slip, and friction coefficient [1]."""
+    """Slopes [MPa/mm] of pressure over penetration and of shear over elastic slip, and friction coefficient [1].
+
+    slides_open: whether what slides before it touches is slip, as in CalculiX, or what does in the increment alone.
+    """
 
     pressure_slope: float
     stick_slope: float
     friction: float
+    slides_open: bool = False
 
 
 @dataclass(frozen=True)
 class PenaltyState:
     """A solved state: actuator (n_actuators, 2) [mm], force on the skin (n, 2) [N/mm], position (n, 2) of the skin in
-    its actuator's frame [mm], and arc length (n,) of the profile at which its shear vanishes [mm].
+    its actuator's frame [mm], and arc length (n,) of the profile at which its shear vanishes, or would [mm].
     """
 
     actuator: FloatArray
@@ -106,7 +113,8 @@ def _increment(
     problem: ContactProblem, weight: FloatArray, law: PenaltyLaw, start: PenaltyState, actuator: FloatArray
 ) -> PenaltyState | None:
     """The state after one increment; None if Newton's method does not converge."""
-    unloaded = untouched(problem).position - actuator[problem.actuator_of]
+    first = untouched(problem)
+    unloaded = first.position - actuator[problem.actuator_of]
     count = weight.size
     by_node = problem.compliance.reshape(2 * count, count, 2)
     position = start.position
@@ -123,6 +131,8 @@ def _increment(
             if np.linalg.norm(residual) < size:
                 break
         if np.abs(residual).max() < TOLERANCE:
+            if law.slides_open:
+                origin = np.where(_surface(problem.row, position).gap < 0.0, origin, first.origin)
             return PenaltyState(actuator, force, position, origin)
     return None
 

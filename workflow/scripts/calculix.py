@@ -37,19 +37,21 @@ def row(name: str, case: dict[str, Any], against: str, apart: dict[str, float]) 
 def compared(
     scene: Scene, condition: str, name: str, case: dict[str, Any], folder: Path, limit: float
 ) -> tuple[list[dict[str, Any]], Outcome]:
-    """Rows of one case beside fingerpad's laws on the same mesh, and CalculiX's outcome. Raises CalculixError."""
+    """Rows of one case beside fingerpad's laws on a mesh of its own, and CalculiX's outcome. Raises CalculixError."""
     fine, settings = prepared(scene, case)
-    scene = on_deck(fine, case["coarsening"])
-    section = mesh_device(scene)
+    deck = on_deck(fine, case["coarsening"])
+    deck_section = mesh_device(deck)
     stimulus = scene.device.condition(condition)
-    reference, seconds = calculix_outcome(scene, section, stimulus, settings, folder, limit)
+    reference, seconds = calculix_outcome(deck, deck_section, stimulus, settings, folder, limit)
+    scene = on_deck(fine, case["fingerpad_coarsening"])
+    section = mesh_device(scene)
     body = body_of(scene)
     solve: Callable[[ContactModel], Outcome]
     if scene.kinematics is Kinematics.FINITE:
         solve = partial(deformed_outcome, scene, section, body, stimulus, settings)
     else:
         solve = partial(fingerpad_outcome, scene, condense_section(section, scene), body, stimulus, settings)
-    cost = {"unknowns": section.unknowns, "calculix_s": round(seconds, 1)}
+    cost = {"unknowns": deck_section.unknowns, "calculix_s": round(seconds, 1)}
     rows = []
     for model in ContactModel:
         try:
