@@ -317,8 +317,10 @@ def touched_status(problem: ContactProblem) -> int:
 def touch_on_the_way(
     reference: FloatArray, start: ContactState, place: FloatArray, gap: FloatArray, nodes: np.ndarray
 ) -> None:
-    """Set the slip reference of nodes (n,) not foreseen: they touch on their way to `place` and `gap` (n,) [mm]."""
-    came = nodes & (start.status == OPEN)
+    """Set the slip reference of nodes (n,) that were not coming nearer: they touch on their way to `place` and `gap`
+    (n,) [mm], which is further than they go, as others bear them up once they touch.
+    """
+    came = nodes & (start.status == OPEN) & (start.drift[:, 1] >= 0.0)
     fraction = np.clip(start.gap[came] / (start.gap[came] - gap[came]), 0.0, 1.0)
     reference[came] = start.place[came] + fraction * (place[came] - start.place[came])
 

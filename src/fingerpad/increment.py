@@ -71,17 +71,18 @@ def solve_increment(
     patch: one from earlier on this path, which serves if contact can still lie within it. Raises NotConvergedError.
     """
     length = float(np.abs(actuator - start.actuator).max())
-    heading = _over(actuator - start.actuator, length)
-    straight = bool(np.abs(heading - start.heading).max() < STRAIGHT)
+    straight = bool(np.abs(_over(actuator - start.actuator, length) - start.heading).max() < STRAIGHT)
     status, ahead = _foreseen(problem, start, length, straight)
-    reference = start.place + _drifted(start, length) if straight else start.place.copy()
+    # of a way that turns the last increment tells nothing
+    start = start if straight else replace(start, drift=np.zeros_like(start.drift))
+    reference = start.place + _drifted(start, length)
     gap_scale = length + float(np.abs(actuator).max())
     origin = unloaded(problem, actuator)
     needed = np.flatnonzero(status != OPEN)
     if needed.size == 0:
         needed = _first_touching(problem, start, origin, gap_scale, status, reference)
     # the last increment promises where the skin will touch the faces
-    guess = start.place + start.drift[:, 0] * length if straight else start.place
+    guess = start.place + start.drift[:, 0] * length
     expected, there = guess, touch(problem, guess)
     patch = patch if there is None else None
     iterations, searched, residual, bias = 0, False, float("inf"), None
