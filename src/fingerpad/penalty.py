@@ -11,7 +11,7 @@ along the profile, and the weight w of the node:
 CalculiX takes for s_0 of a node that comes to touch where it lay unloaded. All that has slid until then is slip, so the
 node bears friction in full from its first increment in contact on. That leaves a trace as large as the pressure at the
 end of it, which fades with more increments.
-Source: G. Dhondt, CalculiX manual, face-to-face penalty contact, and its version 2.20; here node by node.
+Source: G. Dhondt, CalculiX manual, face-to-face penalty contact, and its source (springforc_f2f); here node by node.
 """
 
 from __future__ import annotations
