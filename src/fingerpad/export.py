@@ -330,7 +330,9 @@ def _step(
     before: list[str],
     output: list[str],
 ) -> list[str]:
-    """One static step in equal increments: displacement (x, y) [mm] of every actuator from its place in the row."""
+    """One static step in equal increments: displacement (x, y) [mm] of every actuator from its place in the row; lines
+    before, and the output at its end.
+    """
     length = f"{1.0 / increments:.9g}"
     return [
         *("**", f"** ---- {title}: displacement [mm] of the actuators from their place in the row and y = 0"),

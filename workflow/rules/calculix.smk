@@ -16,9 +16,14 @@ CALCULIX_CASE = {
     "pressure_slope": 500.0,
     "stick_slope": 100.0,
 }
-FINER = {"coarsening": 2.0, "fingerpad_coarsening": 2.0}
+CALCULIX_FINER = {"coarsening": 2.0, "fingerpad_coarsening": 2.0}
 # rubbing, fingerpad's own change of strain moves by a tenth from meshes of these sizes to half of them
-RUBBING = {"friction": "always", "indentation_increments": 20, "stimulus_increments": 8, "fingerpad_coarsening": 1.0}
+CALCULIX_RUBBING = {
+    "friction": "always",
+    "indentation_increments": 20,
+    "stimulus_increments": 8,
+    "fingerpad_coarsening": 1.0,
+}
 CALCULIX_FINITE_CASE = CALCULIX_CASE | {"kinematics": "finite", "law": "neo_hookean", "indentation": 1.4}
 
 
@@ -44,20 +49,22 @@ rule calculix:
         limit=1800,
         cases={
             "base": CALCULIX_CASE,
-            "finer_mesh": CALCULIX_CASE | FINER,
+            "finer_mesh": CALCULIX_CASE | CALCULIX_FINER,
             "smaller_increments": CALCULIX_CASE | {"indentation_increments": 16, "stimulus_increments": 8},
             "softer_penalties": CALCULIX_CASE | {"pressure_slope": 250.0, "stick_slope": 50.0},
-            "sharp": CALCULIX_CASE | FINER | {"edges": "sharp"},
-            "rubbing": CALCULIX_CASE | RUBBING,
-            "rubbing_finer_mesh": CALCULIX_CASE | RUBBING | {"coarsening": 2.0},
-            "rubbing_smaller_increments": CALCULIX_CASE | RUBBING | {"indentation_increments": 40},
-            "rubbing_smallest_increments": CALCULIX_CASE | RUBBING | {"indentation_increments": 80},
+            "sharp": CALCULIX_CASE | CALCULIX_FINER | {"edges": "sharp"},
+            "rubbing": CALCULIX_CASE | CALCULIX_RUBBING,
+            "rubbing_finer_mesh": CALCULIX_CASE | CALCULIX_RUBBING | {"coarsening": 2.0},
+            "rubbing_smaller_increments": CALCULIX_CASE | CALCULIX_RUBBING | {"indentation_increments": 40},
+            "rubbing_smallest_increments": CALCULIX_CASE | CALCULIX_RUBBING | {"indentation_increments": 80},
             "finite_neo_hookean": CALCULIX_FINITE_CASE,
-            "finite_finer_mesh": CALCULIX_FINITE_CASE | FINER,
-            "finite_sharp": CALCULIX_FINITE_CASE | FINER | {"edges": "sharp"},
-            "finite_rubbing": CALCULIX_FINITE_CASE | RUBBING,
-            "finite_rubbing_finer_mesh": CALCULIX_FINITE_CASE | RUBBING | {"coarsening": 2.0},
-            "finite_rubbing_smaller_increments": CALCULIX_FINITE_CASE | RUBBING | {"indentation_increments": 40},
+            "finite_finer_mesh": CALCULIX_FINITE_CASE | CALCULIX_FINER,
+            "finite_sharp": CALCULIX_FINITE_CASE | CALCULIX_FINER | {"edges": "sharp"},
+            "finite_rubbing": CALCULIX_FINITE_CASE | CALCULIX_RUBBING,
+            "finite_rubbing_finer_mesh": CALCULIX_FINITE_CASE | CALCULIX_RUBBING | {"coarsening": 2.0},
+            "finite_rubbing_smaller_increments": CALCULIX_FINITE_CASE
+            | CALCULIX_RUBBING
+            | {"indentation_increments": 40},
             "finite_ogden": CALCULIX_FINITE_CASE | {"law": "ogden"},
             # deeper down this law turns tissue inside out
             "finite_green": CALCULIX_FINITE_CASE | {"law": "green", "indentation": 0.8},
