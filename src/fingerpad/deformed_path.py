@@ -26,6 +26,7 @@ from .deformation import internal_force, internal_force_and_tangent
 from .deformed import Span, deformed, increments_of, is_far, solver_on, undeformed
 from .errors import ContactError
 from .factors import factorise
+from .increment import solve_increment
 from .patch import Patch
 from .path import advance, drifting_to
 
@@ -140,13 +141,17 @@ def _corrected(
     power = 2 if start.displacement is tissue.displacement and tissue.spring is None else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
-    displacement, first, patch = start.displacement, None, None
+    displacement, first, state, patch = start.displacement, None, None, None
     for correction in range(MAX_CORRECTIONS):
         try:
             back = -tissue.solve(internal_force(span.elements, displacement)[free])
             last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
-            state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
+            if state is None or problem.friction > 0.0:
+                state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
+            else:  # of which way it came leaves no trace
+                there = replace(problem, free=last)
+                state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
         except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
             raise _UnsettledError from error
         step = back + tissue.solve(span.loads @ state.force.ravel())

@@ -15,8 +15,9 @@ from .contact import ContactProblem, ContactState, pressing_and_shearing
 from .contact_law import Criterion, Interface
 from .device import Condition
 from .errors import ContactError, MeshError
+from .increment import solve_increment
 from .indentation import indent
-from .path import follow
+from .path import advance
 from .readout import Readout
 from .scene import Scene
 from .strain import receptor_readouts
@@ -117,9 +118,10 @@ def follow_condition(
     scene: Scene, problem: ContactProblem, before: ContactState, condition: Condition
 ) -> list[ContactState]:
     """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
-    states, (_, count) = [before], increments(scene, problem)
+    states, patch, (_, count) = [before], None, increments(scene, problem)
     for moved in condition.moves:
-        states.append(follow(problem, states[-1], before.actuator + moved, count))
+        state, patch = advance(problem, states[-1], before.actuator + moved, count, patch, solve_increment)
+        states.append(state)
     return states[1:]
 
 
