@@ -4,7 +4,8 @@ About the pre-indented state u_0 with tangent K, a path on the condensed maps en
     u' = u + K^-1 (L f - R(u))
 of the tissue. Where R(u') is not L f, the contact nodes' displacement without forces, free = L^T (u - K^-1 R(u)), is
 another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
-the way from u_0, where K is exact, and evenly from elsewhere. So the tissue is in equilibrium wherever a move ends.
+the way from u_0, where K is exact, and evenly from elsewhere; without friction the way leaves no trace, and only its
+end is found anew. So the tissue is in equilibrium wherever a move ends.
 
 Any K leads there. Without friction a pressed finger can all but sway freely, and corrections on its tangent go astray
 with the softest mode: there K is the tangent and a spring on that mode.
@@ -149,7 +150,7 @@ def _corrected(
             first = last if first is None else first
             if state is None or problem.friction > 0.0:
                 state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
-            else:  # of which way it came leaves no trace
+            else:
                 there = replace(problem, free=last)
                 state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
         except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
