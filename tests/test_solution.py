@@ -18,11 +18,19 @@ from fingerpad.errors import ContactError, ReachError
 from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
 from fingerpad.mesh import mesh_section, nominal_edges
+from fingerpad.path import follow
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
 from fingerpad.scene import Scene
-from fingerpad.solution import Solution, contact_problem, indent_device, indented_state, solve_condition
+from fingerpad.solution import (
+    Solution,
+    contact_problem,
+    follow_condition,
+    indent_device,
+    indented_state,
+    solve_condition,
+)
 from scenes import condensed, scene, solve, solved
 
 FINE = {"indentation_increments": 80, "stimulus_increments": 16}
@@ -139,6 +147,20 @@ def test_normal_and_lateral_histories_combine() -> None:
     assert solution.force.shape[0] == 3
     assert pressed[3] == 0.0
     assert min(pressed[:3]) > 0.01
+
+
+def test_a_patch_from_the_last_move_leaves_no_trace() -> None:
+    """A history is the same whether the patch of one move serves the next, or every move makes its own."""
+    base, time = scene("device2"), np.arange(1.0, 5.0)
+    tangential = 0.01 * np.array([[1.0, -1.0, 1.0, -1.0], [2.0, 0.0, 0.0, -2.0], [-1.0, 0.0, 1.0, 0.0], [0.0] * 4])
+    history = Condition("history", "test", 0.0, time, np.zeros_like(tangential), tangential)
+    problem = contact_problem(base, *condensed("device2"), Interface.SHEAR)
+    before = indented_state(base, problem)
+    anew = before
+    for state, moved in zip(follow_condition(base, problem, before, history), history.moves, strict=True):
+        anew = follow(problem, anew, before.actuator + moved, base.model.numerics.stimulus_increments)
+        # as without friction above: what gaps of 1e-9 of 1.7 mm are worth
+        assert np.abs(state.force - anew.force).max() < 6e-8
 
 
 def solve_anew(changed: Scene, condition: Condition) -> Solution:

@@ -54,12 +54,12 @@ def advance(
     and giving the last of it back. Where the actuators stand there is nothing to solve, unless nodes are `drifting`.
     """
     start = state.actuator
-    if _stand(start, target):
-        if not drifting:
-            return state, carried
-        target = start
+    standing = _stand(start, target)
+    if standing and not drifting:
+        return state, carried
+    target = start if standing else target
     done, step = 0.0, 1.0 / increments
-    smallest = step / 2.0**problem.max_cuts
+    smallest = step / 2.0 ** (0 if standing else problem.max_cuts)  # where nothing moves, half of it is as hard
     cuts = 0
     while done < 1.0:
         goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step

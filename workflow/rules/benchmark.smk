@@ -34,7 +34,7 @@ rule benchmark_steps:
         runtime=60,
     params:
         code=code("benchmark_steps.py"),
-        repeats={"small": 5, "finite": 3},
+        repeats={"small": 9, "finite": 3},
     script:
         "../scripts/benchmark_steps.py"
 
