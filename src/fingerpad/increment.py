@@ -251,9 +251,11 @@ def _drifted(start: ContactState, length: float) -> FloatArray:
 
 
 def _residual(problem: ContactProblem, gap_scale: float, found: _Everywhere, slip: FloatArray) -> float:
-    """Largest residual of all equations [1]: gaps and slips (n,) [mm] over the load, forces over the largest."""
+    """Largest residual of equations and limits [1]: gaps and slips (n,) [mm] over the load, forces over the largest."""
     status = found.status
     pressing, shearing = resolved(problem, found.force, found.slope)
     excess = np.abs(shearing + problem.friction * SLIP_SIGN[status] * pressing)[status > STICK]
-    displaced = np.concatenate([found.gap[status != OPEN], slip[status == STICK]])
+    # what rounding leaves of a force on a soft patch may be worth a large gap
+    overlap = np.minimum(found.gap[status == OPEN], 0.0)
+    displaced = np.concatenate([found.gap[status != OPEN], slip[status == STICK], overlap])
     return max(largest_of(displaced) / gap_scale, largest_of(excess) / max(largest_of(found.force), SMALLEST))
