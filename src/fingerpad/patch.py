@@ -38,7 +38,7 @@ def patch_of(problem: ContactProblem, nodes: np.ndarray, there: FloatArray | Non
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     response = _inverse(compliance)
     if not _inverts(response, compliance):
-        response = np.asarray(np.linalg.inv(compliance), dtype=float)
+        response = np.asarray(np.linalg.inv(compliance).T, dtype=float)  # forces of one displacement in a row
     return Patch(nodes, response, float(np.abs(np.diag(response)).max()))
 
 
