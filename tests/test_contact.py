@@ -130,6 +130,6 @@ def test_a_patch_whose_nodes_move_alike_is_inverted(reach: float) -> None:
     problem = ContactProblem(position, compliance, ActuatorRow((0.5,), 1.0, 0.0), None, 0.5, 1e-9, 10)
     order = np.concatenate([2 * np.arange(x.size), 2 * np.arange(x.size) + 1])
     patch = patch_of(problem, np.arange(x.size), None)
-    unit = compliance[np.ix_(order, order)] @ patch.response
+    unit = compliance[np.ix_(order, order)] @ patch.response.T  # which has one displacement a row
     # what elimination with pivots leaves: some 1e-16 times the condition
     assert np.abs(unit - np.eye(2 * x.size)).max() < 1e-7
