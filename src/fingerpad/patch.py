@@ -13,7 +13,7 @@ import numpy as np
 from .arrays import FloatArray
 from .contact import ContactProblem, face_compliance
 
-LOST = 1e-6  # of unit loads [1] by which an inverse may miss them; source: what one refinement takes to rounding
+LOST = 1e-6  # of unit displacements [1] that a stiffness may miss; source: what one refinement takes to rounding
 ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; source: fewest seconds of 16 to 50 (measured)
 
 
@@ -37,8 +37,8 @@ def patch_of(problem: ContactProblem, nodes: np.ndarray, there: FloatArray | Non
     held = np.flatnonzero(np.diag(compliance) == 0.0)
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     response = _inverse(compliance)
-    if not _inverts(response, compliance):
-        response = np.asarray(np.linalg.inv(compliance).T, dtype=float)  # forces of one displacement in a row
+    if not _answers(response, compliance):
+        response = np.asarray(np.linalg.inv(compliance).T, dtype=float)
     return Patch(nodes, response, float(np.abs(np.diag(response)).max()))
 
 
@@ -54,16 +54,17 @@ def holds(patch: Patch, nodes: np.ndarray, count: int) -> bool:
     return bool(held[nodes].all())
 
 
-def _inverts(inverse: FloatArray, matrix: FloatArray) -> bool:
-    """Whether a matrix times its inverse, both (n, n), leaves even and alternating loads as they are, but for LOST."""
-    loads = np.ones((matrix.shape[0], 2))
-    loads[::2, 1] = -1.0
-    return bool(np.abs(matrix @ (inverse @ loads) - loads).max() < LOST)
+def _answers(response: FloatArray, compliance: FloatArray) -> bool:
+    """Whether the forces of an even and of an alternating displacement cause them again, but for LOST."""
+    moved = np.ones((2, compliance.shape[0]))
+    moved[1, ::2] = -1.0
+    return bool(np.abs(moved @ response @ compliance.T - moved).max() < LOST)
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:
     """Inverse of a symmetric matrix (n, n) whose leading blocks are regular, by halves of halves: products of matrices
-    take a quarter of the seconds that elimination does. Without pivots, digits are lost where halves are much alike.
+    take a quarter of the seconds that elimination does. Without pivots digits are lost where halves are much alike, all
+    of them where the matrix is not symmetric.
     """
     half = matrix.shape[0] // 2
     if half < ELIMINATED:

@@ -30,15 +30,13 @@ class SolveIncrement(Protocol[State]):
     ) -> tuple[State, Any]: ...
 
 
-def follow(
-    problem: ContactProblem, state: ContactState, target: FloatArray, increments: int, patch: Patch | None = None
-) -> ContactState:
+def follow(problem: ContactProblem, state: ContactState, target: FloatArray, increments: int) -> ContactState:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
 
     Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
     CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see increment).
     """
-    return advance(problem, state, target, increments, patch, solve_increment)[0]
+    return advance(problem, state, target, increments, None, solve_increment)[0]
 
 
 def advance(
