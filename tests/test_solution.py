@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fingerpad.actuator_body import condense_body
-from fingerpad.certificate import PENETRATION_LIMIT, certify
+from fingerpad.certificate import DISSIPATION_LIMIT, PENETRATION_LIMIT, certify
 from fingerpad.condensation import condense_section
 from fingerpad.contact import face_shape, rest, touch, touching_height
 from fingerpad.contact_law import Interface
@@ -239,6 +239,21 @@ def test_certificate_refuses_a_wrong_solution() -> None:
     sheared[:, 0] = 0.7 * state.force[:, 1]
     with pytest.raises(ContactError, match=r"penetration|cone"):
         certify(problem, found, replace(state, force=sheared))
+
+
+def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:
+    """Where the skin was left nothing presses, and what rounding has left of the work is no error; more than that is."""
+    base = scene("device2").coarsened(3.0)
+    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    problem = contact_problem(base, found, None, Interface.SHEAR)
+    pressed = indented_state(base, problem)
+    left = follow(problem, pressed, np.full_like(pressed.actuator, -0.1), 8)  # down and aside
+    assert not left.force.any()
+    assert left.largest_force >= pressed.largest_force > 0.0
+    allowed = DISSIPATION_LIMIT * problem.friction * left.largest_force * np.abs(left.actuator).max()
+    certify(problem, found, replace(left, dissipation=-0.5 * allowed))
+    with pytest.raises(ContactError, match="negative dissipation"):
+        certify(problem, found, replace(left, dissipation=-2.0 * allowed))
 
 
 def test_face_shape_functions_interpolate_quadratics() -> None:

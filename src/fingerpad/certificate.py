@@ -20,7 +20,7 @@ ADJACENT = 0.75
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
 TENSION_LIMIT = 1e-6  # of the largest pressure [1]
 CONE_LIMIT = 1e-6  # of the largest shear that friction allows [1]
-DISSIPATION_LIMIT = 1e-9  # of the work of friction's largest force along the indentation [1]
+DISSIPATION_LIMIT = 1e-9  # of the work of friction under the largest force so far along the indentation [1]
 
 
 @dataclass(frozen=True)
@@ -58,13 +58,13 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     smallest = float(pressure[active].min()) if active.any() else 0.0
     beyond = max(float(excess.max()), 0.0) / friction_limit if friction_limit > 0.0 else 0.0
     indentation = float(np.abs(state.actuator).max())
-    work = friction_limit * indentation
     # what lies within the tolerance of gaps may just touch, and rounding may pull
-    slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max() * section.weight.max())
+    slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max())
+    work = problem.friction * max(state.largest_force, slight) * indentation
     checks = {
         "contact residual": (state.residual, problem.tolerance),
         "penetration [mm]": (penetration, PENETRATION_LIMIT * indentation),
-        "tension [MPa]": (-smallest, max(TENSION_LIMIT * largest, slight)),
+        "tension [MPa]": (-smallest, max(TENSION_LIMIT * largest, slight / float(section.weight.max()))),
         "excess over the friction cone": (beyond, CONE_LIMIT),
         "negative dissipation [N mm/mm]": (-state.dissipation, DISSIPATION_LIMIT * work),
     }

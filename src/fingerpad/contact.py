@@ -106,8 +106,8 @@ class ContactState:
     length: of the last increment, the largest movement of an actuator [mm]; zero at rest. heading: (n_actuators, 2)
     movement of the actuators over that length [1]. drift: (n, 2) change of place and gap over it [1]. trend: (n, 2)
     change of force over it [N/mm²].
-    dissipation: frictional work so far [N mm per mm]. residual: of the contact equations, relative, the largest so
-    far [1]. iterations, cuts, searches: Newton iterations, halved increments and increments whose states did not settle
+    largest_force: largest component of a node's force so far [N/mm]. dissipation: frictional work so far [N mm per
+    mm]. residual: of the contact equations, relative, the largest so far [1]. iterations, cuts, searches: Newton iterations, halved increments and increments whose states did not settle
     all at once, so far.
     """
 
@@ -120,6 +120,7 @@ class ContactState:
     heading: FloatArray
     drift: FloatArray
     trend: FloatArray
+    largest_force: float
     dissipation: float
     residual: float
     iterations: int
@@ -143,7 +144,7 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
     status = np.full(count, int(Status.OPEN))
     gap = y + profile(problem.row, x)[0]
     return ContactState(
-        actuator, nothing, status, x, gap, 0.0, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0, 0, 0
+        actuator, nothing, status, x, gap, 0.0, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0.0, 0, 0, 0
     )
 
 

@@ -171,6 +171,7 @@ def _accepted(
         heading=_over(actuator - start.actuator, length),
         drift=_over(np.array([found.place - start.place, found.gap - start.gap]).T, length),
         trend=_over(found.force - start.force, length),
+        largest_force=max(start.largest_force, largest_of(found.force)),
         dissipation=start.dissipation + work,
         residual=max(start.residual, residual),
     )
