@@ -25,6 +25,7 @@ from scenes import condensed, scene, section
 
 SCHEMA = Path(__file__).parents[1] / "workflow" / "schemas" / "device.schema.yaml"
 SOFT = Material(1.0, 0.3)
+FORCES = 1e-6  # of the largest [1]: forces follow gaps, known to 1e-9, a thousandfold
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,17 @@ class Sprung(Body):
 
     def mount(self) -> FloatArray:
         return np.diag([1.0 / self.along, 1.0 / self.into])
+
+
+@dataclass(frozen=True)
+class Leaning(Body):
+    """A puck on a leaf spring that gives way along one direction, at `angle` [rad] to the face, by 0.5 mm per N/mm."""
+
+    angle: float
+
+    def mount(self) -> FloatArray:
+        along = np.array([np.cos(self.angle), np.sin(self.angle)])
+        return np.outer(along, along) / 2.0
 
 
 def with_body(body: Body) -> Scene:
@@ -115,6 +127,20 @@ def test_they_are_pressed_onto_the_finger(body: Body) -> None:
     state = indent_device(other, skin, body_of(other), interface).state
     assert state.force[:, 1].sum() > 0.0
     assert state.residual <= other.model.numerics.newton_tolerance
+
+
+def test_bodies_that_lean_press_as_their_mirror_image_does() -> None:
+    """A row of pucks that all lean one way does not mirror, but leaning the other way it bears the mirrored forces."""
+    skin, _ = condensed("device3")
+
+    def forces(angle: float) -> FloatArray:
+        other = with_body(Leaning(SOFT, 0.15, angle))
+        return indent_device(other, skin, body_of(other), Interface.SHEAR).state.force
+
+    left, right = forces(np.pi / 6.0), forces(-np.pi / 6.0)
+    mirrored = right[::-1] * [-1.0, 1.0]
+    assert left == pytest.approx(mirrored, abs=FORCES * np.abs(left).max())
+    assert np.abs(left - right).max() > 0.01 * np.abs(left).max()
 
 
 def test_bodies_that_move_their_face_are_refused() -> None:

@@ -8,12 +8,13 @@ from functools import cache
 import numpy as np
 import pytest
 
+from fingerpad.active_set import NotConvergedError
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact import ContactProblem, ContactState, Status, rest
 from fingerpad.device import ActuatorRow
 from fingerpad.errors import ContactError
 from fingerpad.patch import patch_of
-from fingerpad.path import follow
+from fingerpad.path import advance, follow
 
 SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
 
@@ -118,6 +119,24 @@ def test_a_path_that_cannot_be_followed_is_a_named_error() -> None:
     broken = replace(problem, compliance=np.zeros_like(problem.compliance), max_cuts=2)
     with pytest.raises(ContactError, match=r"increment 1/3 halved 2 times, residual .*, tolerance 1e-10"):
         follow(broken, rest(broken, 0.0), lift(broken, 0.0, 0.01), 3)
+
+
+def test_a_halved_increment_is_another() -> None:
+    """Of three increments the first is halved, so that the last, made whole again, would reach over the end: where that
+    fails, half of what is left is tried, not the same again."""
+    problem, tried = touched(0.1, 1.0, 0.5), list[float]()
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: np.ndarray, patch: None
+    ) -> tuple[ContactState, None]:
+        tried.append(float(actuator[0, 1]))
+        if len(tried) in (1, 5):
+            raise NotConvergedError(1.0)
+        return replace(state, actuator=actuator), None
+
+    reached, _ = advance(problem, rest(problem, 0.0), lift(problem, 0.0, 1.2), 3, None, solve)
+    assert tried == pytest.approx([0.4, 0.2, 0.6, 1.0, 1.2, 1.1, 1.2])
+    assert reached.actuator == pytest.approx(lift(problem, 0.0, 1.2))
 
 
 @pytest.mark.parametrize("reach", [0.05, 0.3])

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from fingerpad.actuator_body import condense_body
-from fingerpad.certificate import DISSIPATION_LIMIT, PENETRATION_LIMIT, certify
+from fingerpad.certificate import CONE_LIMIT, DISSIPATION_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT, Certificate, certify
 from fingerpad.condensation import condense_section
-from fingerpad.contact import face_shape, rest, touch, touching_height
+from fingerpad.contact import ContactProblem, ContactState, face_shape, rest, touch, touching_height
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.edges import mesh_device
-from fingerpad.errors import ContactError, ReachError
+from fingerpad.errors import CertificateError, ContactError, ReachError
 from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
 from fingerpad.mesh import mesh_section, nominal_edges
@@ -223,26 +223,54 @@ def test_every_state_on_the_way_is_certified(way: list[float]) -> None:
         solve_anew(scene("device2").coarsened(3.0), far)
 
 
-def test_certificate_refuses_a_wrong_solution() -> None:
-    """Forces that were tampered with do not pass."""
+@pytest.mark.parametrize("interface", Interface)
+def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> None:
+    """States that obey all laws but one, which the error names; half of what a law allows passes, and is told."""
     base = scene("device2")
     found, body = condensed("device2")
-    problem = contact_problem(base, found, body, Interface.SHEAR)
+    problem = contact_problem(base, found, body, interface)
     state = indented_state(base, problem)
+    (least,) = np.flatnonzero(state.status != 0)[[np.argmin(state.force[state.status != 0, 1])]]
+    largest = state.force[:, 1].max()
+
+    def bearing(shearing: float, pressing: float) -> tuple[ContactProblem, ContactState]:
+        """With another force on that node, on tissue that leaves all nodes where they were."""
+        tampered = state.force.copy()
+        tampered[least] = shearing, pressing
+        free = -(problem.compliance @ (tampered - state.force).ravel()).reshape(-1, 2)
+        return replace(problem, free=free), replace(state, force=tampered)
+
+    def lowered(share: float) -> tuple[ContactProblem, ContactState]:
+        overlap = np.array([0.0, share * PENETRATION_LIMIT * state.actuator[0, 1]])
+        return replace(problem, position=problem.position - overlap), state
+
+    def pulling(share: float) -> tuple[ContactProblem, ContactState]:
+        pressure = (state.force[:, 1] / found.weight).max()
+        return bearing(0.0, -share * TENSION_LIMIT * pressure * found.weight[least])
+
+    def sheared(share: float) -> tuple[ContactProblem, ContactState]:
+        limit = problem.friction * state.force[least, 1]
+        return bearing(limit + share * CONE_LIMIT * (problem.friction or 1.0) * largest, state.force[least, 1])
+
+    def certified(tampered: tuple[ContactProblem, ContactState]) -> Certificate:
+        return certify(tampered[0], found, tampered[1])
+
     assert certify(problem, found, state).penetration_share < 1e-3
-    overlap = np.array([0.0, 0.5 * PENETRATION_LIMIT * state.actuator[0, 1]])
-    deeper = replace(problem, position=problem.position - overlap)
-    assert certify(deeper, found, state).penetration_share == pytest.approx(0.5, rel=1e-3)
-    with pytest.raises(ContactError, match="penetration"):
-        certify(problem, found, replace(state, force=0.99 * state.force))
-    sheared = state.force.copy()
-    sheared[:, 0] = 0.7 * state.force[:, 1]
-    with pytest.raises(ContactError, match=r"penetration|cone"):
-        certify(problem, found, replace(state, force=sheared))
+    assert certified(lowered(0.5)).penetration_share == pytest.approx(0.5, rel=1e-3)
+    assert certified(pulling(0.5)).tension_share == pytest.approx(0.5, rel=1e-3)
+    assert certified(sheared(0.5)).cone_share == pytest.approx(0.5, rel=1e-3)
+    for law, tampered in (
+        ("contact residual", (problem, replace(state, residual=2.0 * problem.tolerance))),
+        ("penetration", lowered(2.0)),
+        ("tension", pulling(2.0)),
+        ("excess over the friction cone", sheared(2.0)),
+    ):
+        with pytest.raises(CertificateError, match=f"certificate: {law} "):
+            certified(tampered)
 
 
 def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:
-    """Where the skin was left nothing presses, and what rounding has left of the work is no error; more than that is."""
+    """Where the skin was left nothing presses, and rounding of the work is no error; more than that is."""
     base = scene("device2").coarsened(3.0)
     found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
     problem = contact_problem(base, found, None, Interface.SHEAR)
@@ -252,7 +280,7 @@ def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:
     assert left.largest_force >= pressed.largest_force > 0.0
     allowed = DISSIPATION_LIMIT * problem.friction * left.largest_force * np.abs(left.actuator).max()
     certify(problem, found, replace(left, dissipation=-0.5 * allowed))
-    with pytest.raises(ContactError, match="negative dissipation"):
+    with pytest.raises(CertificateError, match="certificate: negative dissipation "):
         certify(problem, found, replace(left, dissipation=-2.0 * allowed))
 
 

@@ -60,17 +60,14 @@ def wedged() -> tuple[ContactProblem, ContactState, np.ndarray]:
     return problem, follow(problem, pressed, moved[None, :], 4), moved
 
 
-def test_beyond_it_there_are_three_and_history_chooses() -> None:
-    """Stick, slip and separation all obey every law; the path from above ends in one, that from below in another."""
+def test_beyond_it_history_chooses_among_answers() -> None:
+    """Stick and separation both obey every law; the path from above ends in one, that from below in the other."""
     problem, from_above, moved = wedged()
     assert from_above.status[0] == Status.STICK
     assert from_above.force[0] == pytest.approx(STIFFNESS @ moved)
     away = follow(problem, rest(problem, 0.0), np.array([[0.0, -0.005]]), 1)
     from_below = follow(problem, away, moved[None, :], 1)
     assert from_below.status[0] == Status.OPEN
-    pressing, slip = sliding(4.0, -1.0, moved)
-    assert pressing > 0.0 > slip
-    assert STIFFNESS[0, 0] - 4.0 * STIFFNESS[1, 0] < 0.0  # its sign
 
 
 def test_a_turned_state_is_refused() -> None:

@@ -19,7 +19,7 @@ ADJACENT = 0.75
 # What a certificate may not exceed; source: each lies two orders below the score error that is aimed at (0.5 %)
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
 TENSION_LIMIT = 1e-6  # of the largest pressure [1]
-CONE_LIMIT = 1e-6  # of the largest shear that friction allows [1]
+CONE_LIMIT = 1e-6  # of the largest shear that friction allows, without friction of the largest pressing force [1]
 DISSIPATION_LIMIT = 1e-9  # of the work of friction under the largest force so far along the indentation [1]
 
 
@@ -29,8 +29,9 @@ class Certificate:
 
     equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
     penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
-    Coulomb's limit, over the largest limit [1]. dissipation: smallest frictional work so far [N mm per mm].
-    penetration_share, tension_share, cone_share: of what was allowed there [1].
+    Coulomb's limit, over the largest limit, or without friction over the largest pressing force [1]. dissipation:
+    smallest frictional work so far [N mm per mm]. penetration_share, tension_share, cone_share: of what was allowed
+    there [1].
     """
 
     equilibrium: float
@@ -52,14 +53,14 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     pressing, shearing = pressing_and_shearing(problem, state)
     pressure = pressing / section.weight
     largest = float(pressure.max(initial=0.0))
-    friction_limit = problem.friction * float(pressing.max(initial=0.0))
     excess = np.abs(shearing) - problem.friction * pressing
     penetration = max(float(-reevaluated_gap(problem, state).min()), 0.0)
     smallest = float(pressure[active].min()) if active.any() else 0.0
-    beyond = max(float(excess.max()), 0.0) / friction_limit if friction_limit > 0.0 else 0.0
     indentation = float(np.abs(state.actuator).max())
     # what lies within the tolerance of gaps may just touch, and rounding may pull
     slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max())
+    limit = (problem.friction or 1.0) * max(float(pressing.max()), slight)
+    beyond = max(float(excess.max()), 0.0) / limit if limit > 0.0 else 0.0
     work = problem.friction * max(state.largest_force, slight) * indentation
     checks = {
         "contact residual": (state.residual, problem.tolerance),

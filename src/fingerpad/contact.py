@@ -107,8 +107,8 @@ class ContactState:
     movement of the actuators over that length [1]. drift: (n, 2) change of place and gap over it [1]. trend: (n, 2)
     change of force over it [N/mm²].
     largest_force: largest component of a node's force so far [N/mm]. dissipation: frictional work so far [N mm per
-    mm]. residual: of the contact equations, relative, the largest so far [1]. iterations, cuts, searches: Newton iterations, halved increments and increments whose states did not settle
-    all at once, so far.
+    mm]. residual: of the contact equations, relative, the largest so far [1]. iterations, cuts, searches: Newton
+    iterations, halved increments and increments whose states did not settle all at once, so far.
     """
 
     actuator: FloatArray

@@ -139,7 +139,8 @@ def _corrected(
 ) -> Move:
     """`move` on the tissue's tangent alone. Raises _UnsettledError."""
     span, free = tissue.span, tissue.span.elements.free
-    power = 2 if start.displacement is tissue.displacement and tissue.spring is None else 1
+    exact = tissue.spring is None and np.array_equal(start.displacement, tissue.displacement)
+    power = 2 if exact else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
     displacement, first, state, patch = start.displacement, None, None, None

@@ -102,7 +102,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
     0), of the scene's kinematics. On the skin under the row it is at most face_size + growth * depth, and at most
     receptor_size + growth * distance at the receptor line. The mesh is refined for both signs of x, and so symmetric.
 
-    Raises MeshError if an element is inverted, or more than MAX_ELEMENTS are asked for.
+    Raises MeshError if an element is inverted, more than MAX_ELEMENTS are asked for, or MAX_REFINEMENTS leave some too
+    large.
     """
     model = scene.model
     outline = _Outline(model.finger)
@@ -120,6 +121,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
                 f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try larger sizes in"
                 " numerics (edge_size, face_size, receptor_size, growth) or thicker layers"
             )
+    else:
+        raise MeshError(f"{scene.device.name}: {MAX_REFINEMENTS} refinements leave elements larger than asked for")
     return _mirrored(scene, outline, logical)
 
 

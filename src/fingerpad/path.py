@@ -66,7 +66,7 @@ def advance(
             done = goal
             step = min(2.0 * step, 1.0 / increments)
         except NotConvergedError as failure:
-            step /= 2.0
+            step = (goal - done) / 2.0
             cuts += 1
             state = replace(state, cuts=state.cuts + 1)
             if step < smallest or cuts > CRAWL * problem.max_cuts:

@@ -103,7 +103,7 @@ def press(
         if found is not None:
             state, done, step = found, goal, min(2.0 * step, 1.0 / increments)
             continue
-        step /= 2.0
+        step = (goal - done) / 2.0
         if step < smallest:
             raise ContactError(f"penalty contact did not converge: {done:.1%} of the way")
     return state

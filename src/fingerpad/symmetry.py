@@ -11,11 +11,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from .compliance import CondensedBody
 from .contact import ContactProblem, ContactState, Status
 from .contact_law import Criterion
 from .indentation import indent
 
 MIRROR = np.array([-1.0, 1.0])  # of the components x and y
+ALIKE = 1e-10  # of the largest compliance [1]; source: rounding of a condensation leaves 1e-12
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])
 
 
@@ -27,7 +29,7 @@ def indent_by_halves(problem: ContactProblem, criterion: Criterion, increments: 
 
 
 def mirrors(problem: ContactProblem) -> bool:
-    """Whether nodes and actuators mirror about x = 0, with none of them on it."""
+    """Whether nodes and actuators mirror about x = 0, with none of them on it, and bodies each in itself."""
     x = problem.position[:, 0]
     positions = np.asarray(problem.row.positions)
     return bool(
@@ -35,7 +37,16 @@ def mirrors(problem: ContactProblem) -> bool:
         and np.array_equal(-positions[::-1], positions)
         and np.all(x != 0.0)
         and np.all(positions != 0.0)
+        and (problem.body is None or _body_mirrors(problem.body))
     )
+
+
+def _body_mirrors(body: CondensedBody) -> bool:
+    """Whether a body answers mirrored forces with mirrored displacements."""
+    count = body.coordinate.size
+    answers = body.compliance.reshape(count, 2, count, 2)
+    images = answers[::-1, :, ::-1] * MIRROR[:, None, None] * MIRROR
+    return bool(np.abs(images - answers).max() <= ALIKE * np.abs(answers).max())
 
 
 def fold(problem: ContactProblem) -> ContactProblem:
