@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from fingerpad.accuracy import true_errors, with_errors
+from fingerpad.accuracy import LEAST, true_errors, with_errors
 
 
 def row(condition: str, score: float | str | None, interface: str = "shear", readout: str = "strain") -> dict[str, Any]:
@@ -28,6 +28,18 @@ def test_error_is_the_difference_and_no_less_than_the_median() -> None:
     assert [each["score_error"] for each in found] == pytest.approx([0.02, 0.04, 0.24])
     columns = ["kinematics", "device", "condition", "interface", "readout", "score", "score_error", "unit"]
     assert list(found[0]) == columns
+
+
+def test_conditions_with_one_stimulus_count_once() -> None:
+    """Three that are one have no difference by chance, and others 4 and 5 %: the middle one is 4 %."""
+    same = [row(name, "1.0") for name in ("a", "b", "c")]
+    found = with_errors([*same, row("d", "2.0"), row("e", "4.0")], [*same, row("d", "2.08"), row("e", "4.2")])
+    assert [each["score_error"] for each in found] == pytest.approx([0.04, 0.04, 0.04, 0.08, 0.2])
+
+
+def test_a_single_condition_whose_meshes_agree_by_chance_has_the_least_error() -> None:
+    (found,) = with_errors([row("a", "2.0")], [row("a", "2.0")])
+    assert found["score_error"] == pytest.approx(2.0 * LEAST)
 
 
 def test_two_unlike_halves_are_not_averaged() -> None:

@@ -237,7 +237,7 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     shear = [row for row in forecast(given) if row["interface"] == "shear"]
     assert all(row["score"] > 0.0 and row["score_error"] is None for row in shear)
     (caveat,) = {caveat for row in shear for caveat in row["caveats"] if caveat.startswith("error unknown")}
-    assert caveat.startswith("error unknown: on a mesh of twice the sizes, device=device2, condition=alternate_180")
+    assert caveat.startswith("error unknown: on a mesh of 2 times the sizes, device=device2, condition=alternate_180")
     said = f"caveat: alternate_180 (shear, strain), alternate_180 (shear, change_of_strain): {caveat}"
     assert said in predicting.as_table(given, shear)
 

@@ -327,7 +327,7 @@ def test_correlation_of_three_points_in_closed_form() -> None:
     row = make_table(make_scores("device2", [0.0, 2.0, 1.0])).iloc[0]
     assert row["n"] == 3
     assert row["slope_sign"] == 1
-    assert row["slope_over_error"] == pytest.approx(1.0 / (2.0 * 0.25))
+    assert row["r_error"] == pytest.approx(2.0 * 0.25 / math.sqrt(2.0 * 2.0))
     assert row["r2"] == pytest.approx(0.25)
     assert row["p"] == pytest.approx(1.0 - 2.0 / math.pi * math.atan(0.5 / math.sqrt(0.75)))
     assert row["kendall_tau"] == pytest.approx(1.0 / 3.0)
@@ -355,6 +355,17 @@ def test_device1_counts_nine_conditions_and_says_that_seven_are_distinct() -> No
         1.0 + np.outer([1.0, 2.0, 3.0], [0.0, 0.5, 1.0]).ravel() / 3.0,
     )
     assert row["r2"] == pytest.approx(expected, abs=1e-4)
+
+
+def test_conditions_with_one_stimulus_count_once_whatever_is_stated() -> None:
+    """Three of five share a stimulus, rated 1, 2 and 3: p is that of three conditions, the first rated 2."""
+    scores, ratings = [1.0, 1.0, 1.0, 2.0, 3.0], [1.0, 2.0, 3.0, 5.0, 4.0]
+    measured = pd.DataFrame({"device": "own", "condition": [f"c{i}" for i in range(5)], "rating": ratings})
+    row = make_table(make_scores("own", scores), measured.assign(kind="measured", source="")).iloc[0]
+    r = squared_correlation(np.array([1.0, 2.0, 3.0]), np.array([2.0, 5.0, 4.0])) ** 0.5
+    assert row["p"] == pytest.approx(1.0 - 2.0 / math.pi * math.atan(r / math.sqrt(1.0 - r**2)))
+    assert row["note"] == "3 of 5 conditions are distinct"
+    assert row["r2"] == pytest.approx(squared_correlation(np.array(scores), np.array(ratings)))
 
 
 def test_columns_and_one_row_for_each_device_interface_and_readout() -> None:

@@ -1,11 +1,13 @@
 """The paper's statements, each checked against computed scores and correlations.
 
-Nothing here knows how a check will end: a claim is a test together with the numbers it looked at. Where scores differ
-by less than their errors, it is undecided. What the paper says in words is held against their usual bounds.
+Nothing here knows how a check will end: a claim is a test together with the numbers it looked at. Where what is
+compared differs by less than its errors, or these are not known, it is undecided. What the paper says in words is held
+against their usual bounds.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -46,7 +48,7 @@ class _AbsentError(Exception):
 
 @dataclass(frozen=True)
 class _Score:
-    """A score and its error, in one unit; an error of 0 where it is not known."""
+    """A score and its error, in one unit; an infinite error where it is not known."""
 
     value: float
     error: float
@@ -102,8 +104,8 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
     `perception.correlation_table`, or its CSV read back.
 
     Returns the columns kinematics, claim, source, holds (see `Holds`) and evidence (a sentence with the numbers). To
-    rise means by more than the larger of both errors, a slope's sign counts if no errors of that size change it. A
-    claim which needs a score or a rating that is not there has no row: it is neither confirmed nor refuted.
+    rise means by more than the larger of both errors; what they can add up to in a correlation is taken to first order.
+    A claim which needs a score or a rating that is not there has no row: it is neither confirmed nor refuted.
     """
     rows = []
     for kinematics in scores["kinematics"].unique():
@@ -121,7 +123,7 @@ def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:
     by_key = {}
     for (device, interface, readout), group in scores.groupby(KEY[1:], sort=False):
         scored = group.astype({"score": float, "score_error": float}).dropna(subset=["score"])
-        rows = scored[["dispersion", "phase_deg", "score", "score_error"]].fillna({"score_error": 0.0})
+        rows = scored[["dispersion", "phase_deg", "score", "score_error"]].fillna({"score_error": math.inf})
         by_key[device, interface, readout] = _Scores(
             {(dispersion, float(phase)): _Score(*score) for dispersion, phase, *score in rows.itertuples(index=False)},
             TYPESET_UNITS.get(group["unit"].iloc[0], group["unit"].iloc[0]),
@@ -206,19 +208,34 @@ def _device1_strain(tables: _Tables) -> Verdict:
     return missed, f"{steps.count('<')} of {len(steps)} steps rise. Scores [{scores.unit}]: {shown}."
 
 
+def _held(holds: bool) -> Holds:
+    return Holds.YES if holds else Holds.NO
+
+
+def _is_less(low: float, high: float, error: float) -> Holds:
+    """Whether a number is less than another, by more than an error."""
+    if abs(high - low) < error:
+        return Holds.UNDECIDED
+    return _held(low < high - CONSTANT * abs(high))
+
+
 # --- correlations --------------------------------------------------------------------------------------------------
 
 
 _NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
 
 
-def _held(holds: bool) -> Holds:
-    return Holds.YES if holds else Holds.NO
-
-
 def _slope(row: Mapping[str, Any]) -> int:
     """Sign of the slope; 0 also where there is none, as for a constant score."""
     return 0 if pd.isna(row["slope_sign"]) else int(row["slope_sign"])
+
+
+def _r(row: Mapping[str, Any]) -> _Score:
+    """Pearson's r [1], and what errors of scores can add up to in it to the first order; 0 where there is no slope."""
+    if _slope(row) == 0:
+        return _Score(0.0, 0.0)
+    error = math.inf if pd.isna(row["r_error"]) else float(row["r_error"])
+    return _Score(_slope(row) * math.sqrt(row["r2"]), error)
 
 
 def _described(row: Mapping[str, Any]) -> str:
@@ -230,18 +247,14 @@ def _described(row: Mapping[str, Any]) -> str:
 
 
 def _correlates(
-    device: str, interface: Interface, readout: Readout, sign: int = 1, at_least: float = 0.0
+    device: str, interface: Interface, readout: Readout, sign: int = 1, more_than: float = 0.0
 ) -> Callable[[_Tables], Verdict]:
-    """The slope has that sign, and |r| is at least so large [1]."""
+    """The slope has that sign, and |r| is larger than that [1]."""
 
     def check(tables: _Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
-        evidence = f"{_NAME[readout]}, {_described(row)}."
-        if _slope(row) == 0 or float(row["r2"]) < at_least**2:
-            return Holds.NO, evidence
-        if row["slope_over_error"] < 1.0:
-            return Holds.UNDECIDED, evidence
-        return _held(_slope(row) == sign), evidence
+        r = _r(row)
+        return _is_less(more_than, sign * r.value, r.error), f"{_NAME[readout]}, {_described(row)}."
 
     return check
 
@@ -251,20 +264,23 @@ def _correlates_less(device: str, interface: Interface, readout: Readout, than: 
 
     def check(tables: _Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
-        return _held(_slope(row) == 0 or float(row["r2"]) < than**2), f"{_NAME[readout]}, {_described(row)}."
+        r = _r(row)
+        return _is_less(abs(r.value), than, r.error), f"{_NAME[readout]}, {_described(row)}."
 
     return check
 
 
 def _device2_weaker(tables: _Tables) -> Verdict:
-    """R², taken negative where the slope is and 0 where there is none, is lower without shear."""
+    """Pearson's r is lower without shear."""
     off, on = (
         tables.correlation("device2", interface, Readout.CHANGE_OF_STRAIN)
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
-    without, with_shear = (_slope(row) * row["r2"] if _slope(row) else 0.0 for row in (off, on))
-    evidence = f"Change of strain, {_described(off)}; {_described(on)}."
-    return _held(without < with_shear - CONSTANT), evidence
+    without, with_shear = _r(off), _r(on)
+    return (
+        _is_less(without.value, with_shear.value, max(without.error, with_shear.error)),
+        f"Change of strain, {_described(off)}; {_described(on)}.",
+    )
 
 
 # --- shear off -----------------------------------------------------------------------------------------------------
@@ -276,16 +292,16 @@ def _device2_spread(tables: _Tables) -> Verdict:
         tables.scores("device2", interface, Readout.CHANGE_OF_STRAIN)
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
-    spreads = [
-        max(values) - min(values) for values in ([s["alternate", phase].value for phase in PHASES] for s in (off, on))
-    ]
-    return _held(spreads[0] < spreads[1] * (1.0 - CONSTANT)), (
-        f"Largest less smallest change-of-strain score [{on.unit}]: {spreads[0]:.4g} without shear,"
-        f" {spreads[1]:.4g} with it."
+    ordered = [sorted((s["alternate", phase] for phase in PHASES), key=lambda score: score.value) for s in (off, on)]
+    without, with_shear = (scores[-1].value - scores[0].value for scores in ordered)
+    error = max(score.error for scores in ordered for score in (scores[0], scores[-1]))
+    return _is_less(without, with_shear, error), (
+        f"Largest less smallest change-of-strain score [{on.unit}]: {without:.4g} without shear,"
+        f" {with_shear:.4g} with it."
     )
 
 
-def _effect_of_shear(tables: _Tables, device: str, dispersions: Sequence[str]) -> float:
+def _effect_of_shear(tables: _Tables, device: str, dispersions: Sequence[str]) -> _Score:
     """Mean |score without shear - score with it| over the mean score with it [1]; change of strain."""
     off, on = (
         tables.scores(device, interface, Readout.CHANGE_OF_STRAIN)
@@ -295,16 +311,17 @@ def _effect_of_shear(tables: _Tables, device: str, dispersions: Sequence[str]) -
     total = sum(on[c].value for c in conditions)
     if total == 0.0:
         raise _AbsentError
-    return sum(abs(off[c].value - on[c].value) for c in conditions) / total
+    effect = sum(abs(off[c].value - on[c].value) for c in conditions)
+    return _Score(effect / total, sum(max(off[c].error, on[c].error) for c in conditions) / total)
 
 
 def _device1_insensitive(tables: _Tables) -> Verdict:
     """The device that moves normally depends less on shear than the one that moves laterally."""
     one = _effect_of_shear(tables, "device1", DISPERSIONS)
     two = _effect_of_shear(tables, "device2", ["alternate"])
-    return _held(one < two * (1.0 - CONSTANT)), (
+    return _is_less(one.value, two.value, max(one.error, two.error)), (
         "Leaving out shear changes the change-of-strain scores, relative to their mean, on average by"
-        f" {one:.3g} for Device 1 and {two:.3g} for Device 2."
+        f" {one.value:.3g} for Device 1 and {two.value:.3g} for Device 2."
     )
 
 
@@ -322,14 +339,14 @@ _CLAIMS: tuple[_Claim, ...] = (
         _Claim(
             f"Device {number}: the change of strain correlates very well.",
             _RESULTS,
-            _correlates(f"device{number}", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, at_least=VERY_STRONG),
+            _correlates(f"device{number}", Interface.SHEAR, Readout.CHANGE_OF_STRAIN, more_than=VERY_STRONG),
         )
         for number in (1, 2, 3)
     ),
     _Claim(
         "Device 2: the strain correlates well.",
         _RESULTS,
-        _correlates("device2", Interface.SHEAR, Readout.STRAIN, at_least=STRONG),
+        _correlates("device2", Interface.SHEAR, Readout.STRAIN, more_than=STRONG),
     ),
     _Claim(
         "Device 1: the strain correlates very poorly.",

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .accuracy import with_error, with_errors
+from .accuracy import COARSENING, with_error, with_errors
 from .compliance import CondensedSection
 from .condensation import condense_section
 from .contact_law import Interface
@@ -29,7 +29,6 @@ from .strain import FilteredReadouts
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
 SIZE = 4.0
-COARSER = 2.0  # times the sizes and strides of the first condensation [1]; source: sizes on the skin go by halves
 ROOM = (
     0.6  # mm beside a pin in which its skin may lie; source: skin moves by 0.5 mm under far, slippery pins (measured)
 )
@@ -80,7 +79,7 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
     """
     numerics = scene.model.numerics
     skin = replace(numerics, edge_size=SIZE * numerics.edge_size)
-    scenes = (scene.with_numerics(each) for each in (skin, skin.coarsened(COARSER)))
+    scenes = (scene.with_numerics(each) for each in (skin, skin.coarsened(COARSENING)))
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
@@ -98,7 +97,7 @@ def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Presse
     scene = Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, pins, (_condition(count, 0.0, 0.0, True),)))
     fine = _pressed(scene, pad.fine)
     try:
-        return fine, _pressed(scene.with_numerics(model.numerics.coarsened(COARSER)), pad.coarse)
+        return fine, _pressed(scene.with_numerics(model.numerics.coarsened(COARSENING)), pad.coarse)
     except ContactError as error:
         return fine, str(error)
 

@@ -6,6 +6,7 @@ range of R² over *all* ratings which agree with the stated order, which needs n
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -27,8 +28,8 @@ COLUMNS = [
     *KEY,
     "n",
     "slope_sign",
-    "slope_over_error",
     "r2",
+    "r_error",
     "r2_lowest",
     "r2_highest",
     "kendall_tau",
@@ -161,13 +162,14 @@ def correlation_table(
     `read_stated_order`, `read_published`.
 
     Returns the columns COLUMNS:
-    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. slope_over_error: |slope| over what the
-    errors of scores can add up to in it; below 1 its sign is open; empty if errors are not known. r2: squared Pearson
-    correlation.
+    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson
+    correlation. r_error: what errors of scores can add up to in r, to the first order, larger than |r| where they leave
+    the slope's sign open; empty if they are not known.
     r2_lowest, r2_highest: over all ratings that agree with the stated order (`r2_range`), whichever way the slope
     then is; empty without an order.
     kendall_tau: tau-b. p: two-sided p of the Pearson correlation over distinct conditions: those that share a
-    stimulus count once (the note then says how many are distinct). published_slope: -1 or 1, empty if nothing is said
+    stimulus have one score, and count once with the mean of their ratings (the note then says how many are distinct).
+    published_slope: -1 or 1, empty if nothing is said
     of it. rating_kind: the `label` of RatingKind. note: why numbers are missing, or what to beware of.
 
     Raises RatingError if scores and ratings of a device are not of the same conditions.
@@ -180,7 +182,7 @@ def correlation_table(
     computed = pd.DataFrame(rows, columns=[column for column in COLUMNS if column not in PUBLISHED])
     same = KEY[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
-    numbers = ("slope_over_error", "r2", "r2_lowest", "r2_highest", "kendall_tau", "p", "published_r2")
+    numbers = ("r2", "r_error", "r2_lowest", "r2_highest", "kendall_tau", "p", "published_r2")
     signs = dict.fromkeys(("slope_sign", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
@@ -208,23 +210,23 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}
     notes = []
-    distinct = np.arange(x.size)
+    distinct, which = np.unique(x, return_inverse=True)
+    if distinct.size < x.size:
+        notes.append(f"{distinct.size} of {x.size} conditions are distinct")
     if len(order):
         at_most = order_matrix(list(score.index), order)
         found["r2_lowest"], found["r2_highest"] = r2_range(x, at_most)
-        distinct = np.unique(at_most & at_most.T, axis=0, return_index=True)[1]
-        if distinct.size < x.size:
-            notes.append(f"{distinct.size} of {x.size} conditions are distinct")
         if np.any(at_most & (y[:, None] > y[None, :])):
             notes.append("ratings contradict the stated order")
     r = float(pearsonr(x, y).statistic)
-    weight, error = y - y.mean(), scores["score_error"].to_numpy(float)
+    mean_rating = np.bincount(which, y) / np.bincount(which)
+    weight, spread, error = np.abs(y - y.mean()), x - x.mean(), scores["score_error"].to_numpy(float)
     return {
         **found,
         "slope_sign": int(np.sign(r)),
-        "slope_over_error": abs(float(weight @ x)) / float(np.abs(weight) @ error) if np.all(error > 0.0) else None,
         "r2": r**2,
+        "r_error": float(weight @ error) / math.sqrt(float(weight @ weight) * float(spread @ spread)),
         "kendall_tau": float(kendalltau(x, y).statistic),
-        "p": float(pearsonr(x[distinct], y[distinct]).pvalue) if distinct.size > 2 else None,
+        "p": float(pearsonr(distinct, mean_rating).pvalue) if distinct.size > 2 and np.ptp(mean_rating) > 0.0 else None,
         "note": "; ".join(notes),
     }

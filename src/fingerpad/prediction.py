@@ -27,7 +27,7 @@ from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
 from .tissue_law import Kinematics
 
-COARSER = "on a mesh of twice the sizes, "  # where a score's error is sought
+COARSER = f"on a mesh of {COARSENING:g} times the sizes, "  # where a score's error is sought
 
 Result = TypeVar("Result")
 
