@@ -12,7 +12,7 @@ from fingerpad.certificate import CONE_LIMIT, DISSIPATION_LIMIT, PENETRATION_LIM
 from fingerpad.condensation import condense_section
 from fingerpad.contact import ContactProblem, ContactState, face_shape, rest, touch, touching_height
 from fingerpad.contact_law import Interface
-from fingerpad.device import Condition
+from fingerpad.device import ActuatorRow, Condition
 from fingerpad.edges import mesh_device
 from fingerpad.errors import CertificateError, ContactError, ReachError
 from fingerpad.force_curve import small_strain_curve
@@ -221,6 +221,25 @@ def test_every_state_on_the_way_is_certified(way: list[float]) -> None:
     far = Condition("far", "test", 0.0, np.arange(1.0, len(way) + 1.0), np.zeros_like(row), row)
     with pytest.raises(ReachError):
         solve_anew(scene("device2").coarsened(3.0), far)
+
+
+@pytest.mark.parametrize("interface", Interface)
+def test_wider_sharp_pins_are_covered_deeper(interface: Interface) -> None:
+    """Evenly, wherever nodes lie beside an edge: as a cylinder's contact grows, by a power between 1 and 2 (Hertz, with
+    its logarithm), but for the few per cent by which fronts between nodes are known."""
+    base, row = scene("device2"), ActuatorRow((0.0,), 0.3, 0.0)
+    still = Condition("still", "alone", 0.0, np.array([1.0]), np.zeros((1, 1)), np.zeros((1, 1)))
+    device = replace(base.device, actuators=row, conditions=(still,), cycles=(), frequencies=())
+    pin = replace(base, device=device)
+    found, widths = condense_section(mesh_section(pin, nominal_edges(row)), pin), np.linspace(0.26, 0.34, 9)
+    problems = [
+        replace(contact_problem(pin, found, None, interface), row=replace(row, width=float(width))) for width in widths
+    ]
+    depths = [indented_state(pin, each).actuator[0, 1] - touching_height(each) for each in problems]
+    assert np.all(np.diff(depths) > 0.0)
+    fit = np.polynomial.Polynomial.fit(np.log(widths), np.log(depths), 1)
+    assert 1.0 < fit.deriv()(0.0) < 2.0
+    assert np.abs(fit(np.log(widths)) - np.log(depths)).max() < 0.03
 
 
 @pytest.mark.parametrize("interface", Interface)

@@ -17,6 +17,8 @@ from .requirements import require, require_positive
 from .tissue_law import Kinematics
 
 CROSSING = 15  # decimals of displacements [1]; cos(pi/2) is 6e-17 in floating point: a pin at its zero crossing rests
+# ASSUME: actuators.edge_radius = 0 is regularised to this radius, so that a node at the edge has one slope
+SHARP_RADIUS = 0.001  # mm; source: a fifteenth of the smallest elements at edges, that no solution tells from none
 ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
 
 
@@ -81,9 +83,14 @@ class ActuatorRow:
             )
 
     @property
+    def corner_radius(self) -> float:
+        """Radius of the edges as they are modelled [mm]: that of sharp ones is SHARP_RADIUS."""
+        return max(self.edge_radius, SHARP_RADIUS)
+
+    @property
     def half_face(self) -> float:
-        """Half width of the flat part of the face [mm]."""
-        return self.width / 2.0 - self.edge_radius
+        """Half width of the flat part of the face, between the edges as they are modelled [mm]."""
+        return self.width / 2.0 - self.corner_radius
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from .errors import SceneError
 from .finger import Layer, Material
 from .mesh import SectionMesh, mesh_strip
 from .numerics import Numerics
-from .profile import SHARP_RADIUS, WALL_ANGLE, profile
+from .profile import WALL_ANGLE, profile
 from .reach import contact_tractions
 from .receptors import receptor_strain
 from .scene import Scene
@@ -160,8 +160,8 @@ def _rigid(name: str, row: ActuatorRow, centre: float) -> _Part:
 
 def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, material: Material) -> _Part:
     """A deformable strip whose face is lowered to the profile; its base is prescribed."""
-    radius = max(row.edge_radius, SHARP_RADIUS)
-    mesh = mesh_strip(row, replace(numerics, edge_size=min(numerics.edge_size, radius / EDGE_ELEMENTS)))
+    finer = replace(numerics, edge_size=min(numerics.edge_size, row.corner_radius / EDGE_ELEMENTS))
+    mesh = mesh_strip(row, finer)
     x, y = mesh.doflocs
     thickness = -float(y.min())
     # ASSUME: under its rounded edges the body is as much thinner as its face is lower

@@ -12,8 +12,6 @@ from .arrays import FloatArray
 from .device import ActuatorRow
 
 WALL_ANGLE = np.deg2rad(75.0)  # rad; beyond it the circle goes on as its tangent; source: skin wraps by less (measured)
-# ASSUME: actuators.edge_radius = 0 is regularised to this radius, so that a node at the edge has one slope
-SHARP_RADIUS = 0.001  # mm; source: a tenth of the node spacing at an edge
 
 
 def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -47,5 +45,5 @@ def bend(row: ActuatorRow, x: FloatArray) -> FloatArray:
 
 def _edge(row: ActuatorRow, x: FloatArray) -> tuple[float, FloatArray, float]:
     """Radius of the edges [mm], distance beyond the flat face (n,) [mm], and that at which the wall begins [mm]."""
-    radius = max(row.edge_radius, SHARP_RADIUS)
-    return radius, np.maximum(np.abs(x) - (row.width / 2.0 - radius), 0.0), float(radius * np.sin(WALL_ANGLE))
+    radius = row.corner_radius
+    return radius, np.maximum(np.abs(x) - row.half_face, 0.0), float(radius * np.sin(WALL_ANGLE))

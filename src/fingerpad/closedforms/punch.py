@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..device import ActuatorRow
-from ..profile import SHARP_RADIUS
+from ..device import SHARP_RADIUS, ActuatorRow
 from .blocks import HALF_WIDTH, Block, element_means, half_plane, pressed
 from .comparison import Comparison, compare, refined
 
