@@ -30,13 +30,15 @@ from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import forecast, steps
+from fingerpad.prediction import Condensed, Solved, rows_of
+from fingerpad.resampling import resampling_to_grid
 from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
 from fingerpad.solution import Indented, Solution
 from fingerpad.template import DRIVES, device_text
 from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_device, checked_document
-from scenes import scene, solve, solved
+from scenes import condensed, scene, solve, solved
 
 ROOT = Path(__file__).parents[1]
 DEVICES = ROOT / "config" / "devices"
@@ -335,9 +337,41 @@ def test_caveats_of_a_solution() -> None:
 def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
     """Finite strain is not."""
     given = scene("device2")
-    deep = replace(solved("device2", "alternate_090", Interface.SHEAR), indentation=4.34)
-    assert solution_caveats(given, deep) == ["indentation is 87% of the pad: small strain does not hold"]
+    deep = replace(solved("device2", "alternate_090", Interface.SHEAR), depth=4.34)
+    assert solution_caveats(given, deep) == ["actuators go 87% of the pad deep: small strain does not hold"]
     assert solution_caveats(given.with_kinematics(Kinematics.FINITE), deep) == []
+
+
+def test_a_face_of_few_elements_is_doubted() -> None:
+    given = scene("device2")
+    narrow = replace(
+        given, device=replace(given.device, actuators=replace(given.device.actuators, width=0.03, edge_radius=0.0))
+    )
+    solution = solved("device2", "alternate_090", Interface.SHEAR)
+    assert solution_caveats(narrow, solution) == ["actuators are 2.0 elements wide: try a smaller numerics.edge_size"]
+
+
+def test_caveats_are_notes_of_scores() -> None:
+    """So the workflow's table has them, too."""
+    given = scene("device2")
+    solution = replace(solved("device2", "alternate_090", Interface.SHEAR), cuts=1, searches=MANY_SEARCHES + 1)
+    section, body = condensed("device2")
+    reading = Condensed(section, body, resampling_to_grid(section.arc, given.model.gabor.spacing))
+    condition = given.device.condition("alternate_090")
+    strain, change = rows_of(given, reading, Solved(condition, Interface.SHEAR, solution))
+    assert strain["note"] == change["note"]
+    assert strain["note"] == "increments were halved once; 11 increments did not settle at once"
+
+
+def test_a_closed_pipe_is_no_mistake() -> None:
+    """`fingerpad check FILE | head -0`: whoever reads has read enough."""
+    command = [sys.executable, "-m", "fingerpad.cli", "check", str(ROOT / "config" / "devices" / "device2.yaml")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT / "src") as job:
+        assert job.stdout is not None
+        assert job.stderr is not None
+        job.stdout.close()
+        said = job.stderr.read()
+    assert (job.returncode, said) == (0, "")
 
 
 def test_a_device_that_lifts_off_is_near_no_limit() -> None:

@@ -12,9 +12,10 @@ from fingerpad.certificate import CONE_LIMIT, DISSIPATION_LIMIT, PENETRATION_LIM
 from fingerpad.condensation import condense_section
 from fingerpad.contact import ContactProblem, ContactState, face_shape, rest, touch, touching_height
 from fingerpad.contact_law import Interface
+from fingerpad.depth import require_tissue
 from fingerpad.device import ActuatorRow, Condition
 from fingerpad.edges import mesh_device
-from fingerpad.errors import CertificateError, ContactError, ReachError
+from fingerpad.errors import CertificateError, ContactError, DepthError, ReachError
 from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
 from fingerpad.mesh import mesh_section, nominal_edges
@@ -210,7 +211,9 @@ def test_failures_name_device_condition_and_interface() -> None:
     problem = contact_problem(base, *condensed("device2"), Interface.SHEAR)
     for beyond, what in ((3.6, r"[\d.]+ mm are missing"), (2.6, "an actuator touches no skin")):
         lifted = np.where(np.abs(problem.position[:, [0]]) > beyond, [0.0, 30.0], [0.0, 0.0])
-        with pytest.raises(ContactError, match=rf"pre-indentation did not reach 'full' contact within 5 mm: {what} at"):
+        with pytest.raises(
+            ContactError, match=rf"pre-indentation did not reach 'full' contact within 5 mm from first touch: {what} at"
+        ):
             indented_state(base, replace(problem, position=problem.position + lifted))
 
 
@@ -286,6 +289,21 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
     ):
         with pytest.raises(CertificateError, match=f"certificate: {law} "):
             certified(tampered)
+
+
+@pytest.mark.parametrize("interface", Interface)
+def test_a_stimulus_through_the_tissue_is_refused(interface: Interface) -> None:
+    """Linear tissue would let it pass. Of four pins the one that goes deepest counts, from where it touches itself."""
+    base = scene("device2")
+    pressed = indent_device(base, condensed("device2")[0], None, interface)
+    touching = touching_height(pressed.problem)  # of the inner pins
+    room = base.model.finger.pad_thickness - (pressed.state.actuator[0, 1] - touching)
+    for extra, pins in ((-0.01, [0, 0, 1, 0]), (0.01, [1, 0, 0, 1])):
+        up = np.stack([np.zeros(4), (room + extra) * np.array(pins)], axis=1)
+        require_tissue(pressed.problem, (pressed.state.actuator + up)[None], base.model.finger.pad_thickness)
+    deep = Condition("deep", "test", 0.0, np.array([1.0]), np.array([[0, 0, room + 0.01, 0]]), np.zeros((1, 4)))
+    with pytest.raises(DepthError, match=r"5\.01 mm deep, into 5 mm of tissue"):
+        follow_condition(base, pressed.problem, pressed.state, deep)
 
 
 def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:

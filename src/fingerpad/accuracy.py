@@ -52,7 +52,7 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
             share = max(least.get(group, 0.0) for group in groups)
             table.append(with_error(row, max(estimate[case], share * float(row["score"]))))
         else:
-            table.append(with_error(row, None) | ({"note": second[case]["note"]} if _is_scored(row) else {}))
+            table.append(with_error(row, None) | ({"note": _joined(row, second[case])} if _is_scored(row) else {}))
     return table
 
 
@@ -103,6 +103,11 @@ def has_error(row: Mapping[str, Any]) -> bool:
 
 def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:
     return tuple(row[column] for column in columns)
+
+
+def _joined(*rows: Mapping[str, Any]) -> str:
+    """The notes of several rows."""
+    return "; ".join(row["note"] for row in rows if row["note"])
 
 
 def _is_scored(row: Mapping[str, Any]) -> bool:

@@ -14,20 +14,22 @@ from .tissue_law import Kinematics
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
 NEAR = 0.1  # of a certificate's limit [1]; source: shipped devices stay below 0.05
 
-# Indentation over the pad's thickness [1]; source: the mean strain is then 0.5, the logarithmic one 0.69: small strain
-# is off by more than a quarter. Shipped devices have up to 0.35
+# Depth of an actuator over the pad's thickness [1]; source: mean strain is then 0.5, the logarithmic one 0.69: small
+# strain is off by over a quarter. Shipped devices have up to 0.35
 DEEP = 0.5
+# Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
+FEW = 5.0
 
 
 def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
-    """Indentation too deep for small strain, increments that were cut or did not settle at once, and figures of the
-    certificate near their limits.
+    """Actuators too deep for small strain, faces too narrow for the mesh, increments that were cut or did not settle at
+    once, and figures of the certificate near their limits.
     """
     certificate = solution.certificate
-    found = []
-    depth = solution.indentation / scene.model.finger.pad_thickness
-    if scene.kinematics is Kinematics.SMALL and depth > DEEP:
-        found.append(f"indentation is {depth:.0%} of the pad: small strain does not hold")
+    found = depth_caveats(scene, solution.depth)
+    elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
+    if elements < FEW:
+        found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
     if solution.cuts:
         found.append(f"increments were halved {'once' if solution.cuts == 1 else f'{solution.cuts} times'}")
     if solution.searches > MANY_SEARCHES:
@@ -39,6 +41,13 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     }
     found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
     return found
+
+
+def depth_caveats(scene: Scene, depth: float) -> list[str]:
+    """Whether actuators go too deep [mm] for small strain."""
+    share = depth / scene.model.finger.pad_thickness
+    deep = scene.kinematics is Kinematics.SMALL and share > DEEP
+    return [f"actuators go {share:.0%} of the pad deep: small strain does not hold"] if deep else []
 
 
 def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:

@@ -17,6 +17,7 @@ from .compliance import CondensedBody
 from .contact import ContactProblem
 from .contact_law import Interface
 from .deformed_path import DeformedTissue, Move, deformed_tissue, move
+from .depth import require_tissue
 from .device import Condition
 from .elasticity import displacement_basis, node_dofs
 from .finite_strain import logarithmic_strain
@@ -99,6 +100,7 @@ def _certified(finger: PressedFinger, end: Move) -> Certificate:
 def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Move]:
     """The pre-indented state, and the ends of all moves of a stimulus. Raises ContactError."""
     before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
+    require_tissue(finger.problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
     moves = [finger.start]
     for moved in condition.moves:
         moves.append(move(finger.tissue, finger.problem, moves[-1], before.actuator + moved, count))

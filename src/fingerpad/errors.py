@@ -61,6 +61,10 @@ class CriterionError(ContactError):
     """Pre-indentation did not bring about the contact that was asked for."""
 
 
+class DepthError(ContactError):
+    """An actuator would be pressed deeper than the tissue is thick."""
+
+
 class CertificateError(ContactError):
     """A solution disobeys the laws it was solved for."""
 

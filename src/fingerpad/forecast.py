@@ -9,9 +9,8 @@ from threadpoolctl import threadpool_limits
 
 from .accuracy import with_error, with_errors
 from .arrays import FloatArray
-from .caveats import score_caveats, solution_caveats
+from .caveats import score_caveats
 from .edges import edge_intervals
-from .errors import ContactError
 from .prediction import coarser_rows, prepared, rows_of, solve_scene
 from .readout import CONSTANT
 from .roughness import KEY, unpredicted_rows
@@ -29,13 +28,12 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     """
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
-        rows, caveats = _solved_rows(scene, edges, step)
+        rows = _solved_rows(scene, edges, step)
         coarser = coarser_rows(scene, edges, step) if error else []
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
     table = with_errors(found, coarser) if error else [with_error(row, None) for row in found]
-    caveats = [own + ([row["note"]] if row["note"] else []) for own, row in zip(caveats, table, strict=False)]
-    caveats += [[] for _ in silent]
+    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[] for _ in silent]
     return [
         row | {"rank": rank, "caveats": own + close}
         for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)
@@ -66,18 +64,12 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
     ]
 
 
-def _solved_rows(
-    scene: Scene, edges: FloatArray, step: Callable[[], object]
-) -> tuple[list[dict[str, Any]], list[list[str]]]:
-    """Rows of the score table, and what is to be said of the solution of each."""
+def _solved_rows(scene: Scene, edges: FloatArray, step: Callable[[], object]) -> list[dict[str, Any]]:
+    """Rows of the score table of what the device moves."""
     condensed = prepared(scene, edges)
     step()
     rows: list[dict[str, Any]] = []
-    caveats: list[list[str]] = []
     for solved in solve_scene(scene, condensed):
-        own = rows_of(scene, condensed, solved)
-        rows += own
-        said = [] if isinstance(solved.solution, ContactError) else solution_caveats(scene, solved.solution)
-        caveats += [said for _ in own]
+        rows += rows_of(scene, condensed, solved)
         step()
-    return rows, caveats
+    return rows

@@ -13,11 +13,13 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
+from .caveats import depth_caveats
 from .certificate import certify
 from .compliance import CondensedSection
 from .contact_law import Interface
 from .creep import Creep
 from .cycling import vibrate
+from .depth import depth, require_tissue
 from .device import Cycle
 from .errors import ContactError, InertiaError
 from .gabor import filtered_readouts
@@ -44,7 +46,9 @@ class Vibrating:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1]; note: why there is none."""
+    """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1]; note: why there is none, or
+    what to beware of.
+    """
 
     scores: dict[Readout, float]
     inertia: float
@@ -98,7 +102,9 @@ def _outcome(
     )
     try:
         _require_no_inertia(scene, frequency, effect)
-        return Outcome(vibration_scores(scene, condensed, creep, indented, cycle, frequency), effect, "")
+        scores = vibration_scores(scene, condensed, creep, indented, cycle, frequency)
+        note = "; ".join(depth_caveats(scene, depth(indented.problem, _highest(indented, cycle))))
+        return Outcome(scores, effect, note)
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
 
@@ -109,8 +115,9 @@ def vibration_scores(
     """Both scores [mm2] of a condition at a frequency [Hz], if all states of its last cycle have their certificate.
     Raises ContactError, naming it.
     """
-    what = f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {frequency:g} Hz"
-    with named(what):
+    speed = f"{frequency:g} Hz" if frequency > SLOWLY else "slowly"
+    with named(f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {speed}"):
+        require_tissue(indented.problem, _highest(indented, cycle), scene.model.finger.pad_thickness)
         steps = scene.model.vibration.steps
         vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
         for problem, state in zip(vibration.problems, vibration.states, strict=True):
@@ -120,6 +127,12 @@ def vibration_scores(
     filtered = filtered_readouts(condensed.resampling, *strains, scene.model.gabor)
     span = score_span(scene.device.actuators, scene.model.readout.span_margin)
     return {each: roughness_score(filtered.arc, filtered.filtered(each), span) for each in Readout}
+
+
+def _highest(indented: Indented, cycle: Cycle) -> FloatArray:
+    """Where actuators (1, n_actuators, 2) [mm] stand highest in a cycle, each at its own time."""
+    amplitude = np.stack([np.zeros(cycle.normal.size), np.abs(cycle.normal)], axis=1)
+    return np.asarray(indented.state.actuator + amplitude)[None]
 
 
 def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:

@@ -52,7 +52,7 @@ def raise_until(
         height = float(state.actuator[0, 1]) + step
         if height - touch > limit:
             raise CriterionError(
-                f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm:"
+                f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm from first touch:"
                 f" {_lacking(missing)} at {height - step - touch:.3g} mm"
             )
         target = state.actuator.copy()

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from .accuracy import COARSENING
 from .actuator_body import body_of
 from .arrays import FloatArray
+from .caveats import solution_caveats
 from .compliance import CondensedBody, CondensedSection
 from .condensation import condense_section
 from .contact_law import Interface
@@ -156,10 +157,13 @@ def pressed_device(
 def rows_of(
     scene: Scene, condensed: Condensed | Meshed, solved: Solved, unsolved: str = f"{NO_PREDICTION}: "
 ) -> list[dict[str, Any]]:
-    """Rows of the score table for one solution; without one, rows without scores, whose note is `unsolved` and why."""
+    """Rows of the score table for one solution, with its caveats as their note; without one, rows without scores, whose
+    note is `unsolved` and why.
+    """
     if isinstance(solved.solution, ContactError):
         return unscored_rows(scene, solved.condition, solved.interface, f"{unsolved}{solved.solution}")
-    return score_rows(scene, solved.condition, solved.interface, read_out(scene, condensed, solved.solution))
+    read, note = read_out(scene, condensed, solved.solution), "; ".join(solution_caveats(scene, solved.solution))
+    return score_rows(scene, solved.condition, solved.interface, read, note)
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

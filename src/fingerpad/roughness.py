@@ -43,12 +43,14 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
 
 
 def score_rows(
-    scene: Scene, condition: Condition, interface: Interface, readouts: FilteredReadouts
+    scene: Scene, condition: Condition, interface: Interface, readouts: FilteredReadouts, note: str = ""
 ) -> list[dict[str, Any]]:
-    """Rows of the score table for one condition and interface: one a read-out."""
+    """Rows of the score table for one condition and interface: one a read-out. note: what to beware of."""
     span = score_span(scene.device.actuators, scene.model.readout.span_margin)
     return [
-        _row(scene, condition, interface, readout, roughness_score(readouts.arc, readouts.filtered(readout), span), "")
+        _row(
+            scene, condition, interface, readout, roughness_score(readouts.arc, readouts.filtered(readout), span), note
+        )
         for readout in Readout
     ]
 

@@ -13,6 +13,7 @@ from .certificate import Certificate, certify, worst
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState, pressing_and_shearing
 from .contact_law import Criterion, Interface
+from .depth import depth, require_tissue
 from .device import Condition
 from .errors import ContactError, MeshError
 from .increment import solve_increment
@@ -34,14 +35,16 @@ LEAVE_OUT = "; `kinematics: small` in the device's file leaves finite strain out
 class Solution:
     """A solved condition.
 
-    indentation: height of the faces above the lowest point of the undeformed pad [mm]. indented_force: (n, 2) [N/mm]
-    after pre-indentation. force: (n_times, n, 2) [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the
+    indentation: height of the faces above the lowest point of the undeformed pad [mm]. depth: largest height of an
+    actuator above that at which it first touches undeformed skin [mm], at any time. indented_force: (n, 2) [N/mm] after
+    pre-indentation. force: (n_times, n, 2) [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the
     end. place: (n,) x of the skin nodes from their actuator's centre at the end [mm]. status: (n,) at the end. arc:
     (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts, searches: of the whole
     path. certificate.
     """
 
     indentation: float
+    depth: float
     indented_force: FloatArray
     force: FloatArray
     pressure: FloatArray
@@ -118,6 +121,7 @@ def follow_condition(
     scene: Scene, problem: ContactProblem, before: ContactState, condition: Condition
 ) -> list[ContactState]:
     """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
+    require_tissue(problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
     states, patch, (_, count) = [before], None, increments(scene, problem)
     for moved in condition.moves:
         state, patch = advance(problem, states[-1], before.actuator + moved, count, patch, solve_increment)
@@ -165,6 +169,7 @@ def solution(
     pressing, shearing = pressing_and_shearing(problem, last)
     return Solution(
         float(before.actuator[0, 1]),
+        depth(problem, np.array([state.actuator for state in states])),
         before.force,
         np.array([state.force for state in states[1:]]),
         pressing / section.weight,

@@ -1,5 +1,5 @@
 # Roughness scores: of one device, condition and interface, the same from a coarser mesh, and the tidy table of all.
-# REQUIRED INPUTS: results/{kinematics}/{device}/edges.csv, results/{kinematics}/{device}/{condition}/{interface}/filtered.npz.
+# REQUIRED INPUTS: results/{kinematics}/{device}/edges.csv, solution.npz and filtered.npz in results/{kinematics}/{device}/{condition}/{interface}.
 # OUTPUTS: score.csv beside it, results/{kinematics}/{device}/check.csv, results/scores.csv
 
 
@@ -8,6 +8,7 @@ rule score:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
+        solution=solution_of,
         filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
     output:
         score="results/{kinematics}/{device}/{condition}/{interface}/score.csv",
@@ -21,6 +22,8 @@ rule score:
         scene=lambda w: support.fingerprint(
             scene_of(w).device.actuators,
             scene_of(w).model.readout.span_margin,
+            scene_of(w).model.numerics,
+            scene_of(w).model.finger.pad_thickness,
             condition_of(w).dispersion,
             condition_of(w).phase_deg,
         ),

@@ -1,22 +1,32 @@
-"""Score the filtered read-outs of one device, condition and interface."""
+"""Score the filtered read-outs of one device, condition and interface; its note says what to beware of."""
 
 from pathlib import Path
 
+from fingerpad.caveats import solution_caveats
 from fingerpad.contact_law import Interface
 from fingerpad.roughness import score_rows
 from fingerpad.scenefile import load_scene
+from fingerpad.solution import Solution
 from fingerpad.store import load, write_rows
 from fingerpad.strain import FilteredReadouts
 from fingerpad.tissue_law import Kinematics
 
 
 def main(
-    config: Path, device: Path, filtered: Path, kinematics: str, condition: str, interface: str, score: Path
+    config: Path,
+    device: Path,
+    solution: Path,
+    filtered: Path,
+    kinematics: str,
+    condition: str,
+    interface: str,
+    score: Path,
 ) -> None:
-    """Read the filtered read-outs, integrate them, write one row a read-out."""
+    """Read solution and filtered read-outs, integrate these, write one row a read-out."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    rows = score_rows(scene, scene.device.condition(condition), Interface(interface), load(filtered, FilteredReadouts))
-    write_rows(score, rows)
+    note = "; ".join(solution_caveats(scene, load(solution, Solution)))
+    read = load(filtered, FilteredReadouts)
+    write_rows(score, score_rows(scene, scene.device.condition(condition), Interface(interface), read, note))
 
 
 if __name__ == "__main__":
@@ -24,6 +34,7 @@ if __name__ == "__main__":
     main(
         Path(job.input.config),
         Path(job.input.device),
+        Path(job.input.solution),
         Path(job.input.filtered),
         job.wildcards.kinematics,
         job.wildcards.condition,

@@ -61,11 +61,13 @@ def described(scene: Scene) -> str:
     kind = "deformable" if row.body else "rigid"
     conditions = ", ".join(condition.name for condition in device.conditions)
     normal, lateral = device.strokes
+    distinct = ", ".join(condition.name for condition in device.distinct_conditions)
+    alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
     return (
         f"{device.title} ({device.name})\n"
         f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
-        f"{len(device.conditions)} conditions: {conditions}\n"
+        f"{len(device.conditions)} conditions: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral"
     )

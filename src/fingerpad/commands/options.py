@@ -71,6 +71,6 @@ def existing_file(device: Path) -> Path:
     with suppress(UsageError):
         folders.append(find_checkout(Path.cwd()).devices)
     known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
-    close = get_close_matches(device.stem, known, n=1)
+    close = [] if device.is_dir() else get_close_matches(device.stem, known, n=1)
     hint = f"; did you mean {os.path.relpath(known[close[0]])}?" if close else ""
     raise UsageError(f"{device}: found {found}; allowed: a device file, such as those in config/devices{hint}")
