@@ -250,6 +250,13 @@ def test_edited_filter_reruns_filter_and_what_follows(changeable: Project, plan:
     assert not {"mesh", "condense", "condense_body", "solve"} & {job.rule for job in run.jobs}
 
 
+def test_edited_title_reruns_what_shows_it_alone(changeable: Project) -> None:
+    changeable.edit(DEVICE, lambda text: re.sub('title: {value: "[^"]*"', 'title: {value: "Another name"', text))
+    rules = {job.rule for job in changeable.snakemake("-n", "all").jobs}
+    assert "figure_section" in rules
+    assert not rules & {*SOLVER, "filter", "score", "check", "scores"}
+
+
 def test_new_mesh_that_equals_the_old_one_hides_no_edited_tissue(changeable: Project) -> None:
     changeable.edit(CONFIG, lambda text: text.replace("modulus: {value: 0.08,", "modulus: {value: 0.09,"))
     mesh, condensed = "results/small/device2/mesh.npz", "results/small/device2/condensed.npz"

@@ -36,10 +36,8 @@ def section_stiffness(
 ) -> tuple[csc_matrix, np.ndarray]:
     """Stiffness of the section, or of some elements [N/mm per mm], and the unknowns (2, n_nodes) of its nodes."""
     basis = displacement_basis(section.mesh, elements)
-    finger = scene.model.finger
-    materials = [layer.material for layer in finger.layers]
     layer = section.layer if elements is None else section.layer[elements]
-    return stiffness(basis, materials, layer), node_dofs(basis)
+    return stiffness(basis, scene.model.finger.materials, layer), node_dofs(basis)
 
 
 def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:

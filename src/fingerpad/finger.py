@@ -101,6 +101,11 @@ class Finger:
         return (*self.pad, *self.dorsal)
 
     @property
+    def materials(self) -> list[Material]:
+        """Materials of all layers, in their order."""
+        return [layer.material for layer in self.layers]
+
+    @property
     def pad_thickness(self) -> float:
         """Soft tissue between pad and bone on the mid-line [mm]."""
         return sum(layer.thickness for layer in self.pad)

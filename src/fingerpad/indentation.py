@@ -12,9 +12,9 @@ from .increment import solve_increment
 from .path import SolveIncrement, State, advance
 from .profile import profile
 
-END_TOLERANCE = 1e-4  # mm of face or gap that may be missing when pre-indentation ends; source: 1e-4 of the indentation
+END_TOLERANCE = 1e-4  # mm of face or gap that may be missing at its end; source: 6e-5 of Device 2's indentation
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
-END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: 1e-4 of the indentation
+END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: as END_TOLERANCE
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
 
 

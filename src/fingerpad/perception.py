@@ -19,7 +19,7 @@ from .arrays import FloatArray
 from .csvrows import listed
 from .errors import RatingError
 from .ratings import NO_RATINGS, RatingKind, order_matrix
-from .readout import CONSTANT
+from .readout import CONSTANT, is_constant
 from .roughness import KEY, NO_PREDICTION
 
 BoolArray = NDArray[np.bool_]
@@ -95,7 +95,7 @@ def extreme_ratings(score: FloatArray, at_most: BoolArray) -> tuple[FloatArray, 
     Raises RatingError if the order makes all ratings equal, or has too many up-sets (see `up_sets`).
     Source: Robertson, Wright and Dykstra 1988, Order Restricted Statistical Inference.
     """
-    if _is_constant(score):
+    if is_constant(score):
         raise RatingError("the score is constant, so nothing can correlate with it")
     x = _unit(score)
     generators = _unit(up_sets(at_most).astype(float))
@@ -127,10 +127,6 @@ def _unit(values: FloatArray) -> FloatArray:
     """Centred and scaled to norm 1 along the last axis."""
     centred = values - values.mean(axis=-1, keepdims=True)
     return np.asarray(centred / np.linalg.norm(centred, axis=-1, keepdims=True))
-
-
-def _is_constant(values: FloatArray) -> bool:
-    return bool(np.ptp(values) <= CONSTANT * np.abs(values).max())
 
 
 def _uncorrelated(generators: FloatArray, covariance: FloatArray) -> FloatArray:
@@ -205,7 +201,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     y = rating.loc[score.index].to_numpy()
     found: dict[str, Any] = {"n": x.size, "rating_kind": kind}
     for values, note in ((x, CONSTANT_SCORE), (y, "constant rating")):
-        if _is_constant(values):
+        if is_constant(values):
             return {**found, "note": note}
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}

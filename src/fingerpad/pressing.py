@@ -159,8 +159,7 @@ def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensi
     basis = displacement_basis(section.mesh, parts.elements)
     joined = _joined(basis.element_dofs, free.size)
     order = fill_reducing_order(joined, parts.dofs, free, loads.indices if condensing else None)
-    finger, law = scene.model.finger, scene.model.tissue
-    materials = [layer.material for layer in finger.layers]
+    materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
     return Span(elements_of(basis, tissue, order), csc_matrix(loads[order]))
 

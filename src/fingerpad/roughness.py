@@ -22,6 +22,7 @@ ERROR_UNKNOWN = "error unknown"
 
 def score_span(row: ActuatorRow, margin: float) -> tuple[float, float]:
     """Span (start, stop) [mm] of the score: x of the row's outer edges and a margin on each side, as arc lengths."""
+    # ASSUME: readout.span_margin is laid off from x of the row's ends as if that were arc length (docs/model.md, 10)
     return row.positions[0] - row.width / 2.0 - margin, row.positions[-1] + row.width / 2.0 + margin
 
 

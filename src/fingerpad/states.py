@@ -104,8 +104,7 @@ def _mean(stresses: FloatArray) -> FloatArray:
 def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
     """Stress (n_elements k, 4) [MPa] that belongs to the strain of each point."""
     gradient = gradient_at(section.mesh, displacement, points)
-    finger, law = scene.model.finger, scene.model.tissue
-    materials = [layer.material for layer in finger.layers]
+    materials, law = scene.model.finger.materials, scene.model.tissue
     layer = np.repeat(section.layer, points.shape[1])
     if scene.kinematics is Kinematics.FINITE:
         return np.asarray(cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T)

@@ -38,6 +38,7 @@ def receptor_readouts(
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
+    # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
     peak = int(np.argmax(np.trapezoid(changes**2, arc, axis=1)))
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 

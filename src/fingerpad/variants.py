@@ -13,13 +13,12 @@ from typing import Any
 import numpy as np
 from scipy.stats import kendalltau, pearsonr
 
-from .arrays import FloatArray
 from .compliance import CondensedSection
 from .contact_law import Interface
 from .finger import Material
 from .gabor import filtered_readouts
 from .measures import Measure, measured
-from .readout import CONSTANT, Readout, Side
+from .readout import Readout, Side, is_constant
 from .resampling import resampling_to_grid
 from .roughness import KEY, SCORE_UNIT, score_rows
 from .scene import Scene
@@ -81,17 +80,13 @@ def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, A
         usual = np.array(list(reference.values()))
         for variant, scores in variants.items():
             values = np.array([scores[condition] for condition in reference])
-            constant = _is_constant(usual) or _is_constant(values)
+            constant = is_constant(usual) or is_constant(values)
             row = dict(zip([*KEY, *VARIANT], (*key, *variant), strict=True))
             row["n"] = usual.size
             row["kendall_tau"] = None if constant else float(kendalltau(usual, values).statistic)
             row["r"] = None if constant else float(pearsonr(usual, values).statistic)
             found.append(row)
     return found
-
-
-def _is_constant(values: FloatArray) -> bool:
-    return bool(np.ptp(values) <= CONSTANT * np.abs(values).max())
 
 
 def _with_wavelengths(scene: Scene, factor: float) -> Scene:

@@ -52,7 +52,7 @@ rule reference:
         runtime=480,
     params:
         code=code("reference.py"),
-        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+        scene=scored_of,
     script:
         "../scripts/reference.py"
 

@@ -94,6 +94,13 @@ def mode_of(wildcards):
     return MODES[wildcards.mode]
 
 
+def scored_of(wildcards):
+    """What all scores of the wildcard device hang on: neither its title nor its vibrations."""
+    model, device = scene_of(wildcards).model, scene_of(wildcards).device
+    parts = model.finger, tissue_of(wildcards), model.contact, model.gabor, model.readout, model.numerics, model.skips
+    return support.fingerprint(*parts, device.control, device.actuators, device.conditions)
+
+
 def tissue_of(wildcards):
     """What finite kinematics know of the tissue besides its layers; with small ones nothing."""
     return scene_of(wildcards).model.tissue if kinematics_of(wildcards) == Kinematics.FINITE else None

@@ -48,7 +48,7 @@ rule check:
         ENVIRONMENT
     params:
         code=code("check.py"),
-        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+        scene=scored_of,
     script:
         "../scripts/check.py"
 

@@ -55,8 +55,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     """Errors of displacement and gradient in L2 on elements of at most that size [mm]."""
     same = uniform(scene, spacing)
     section = mesh_section(same, nominal_edges(same.device.actuators))
-    finger, law = scene.model.finger, scene.model.tissue
-    materials = [layer.material for layer in finger.layers]
+    materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[:, None])
     basis = displacement_basis(section.mesh)
     dofs = node_dofs(basis)
