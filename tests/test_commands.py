@@ -22,7 +22,7 @@ import fingerpad.commands.predict as predicting
 from conftest import Project, coarsened
 from fingerpad import prediction
 from fingerpad.api import predict
-from fingerpad.caveats import MANY_SEARCHES, score_caveats, solution_caveats
+from fingerpad.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
 from fingerpad.compliance import CondensedBody, CondensedSection
@@ -324,12 +324,12 @@ def test_caveats_of_a_solution() -> None:
     assert solution_caveats(scene("device2"), solution) == []
     worse = replace(
         solution,
-        cuts=2,
+        cuts=MANY_CUTS + 1,
         searches=MANY_SEARCHES + 1,
         certificate=replace(solution.certificate, penetration_share=0.5),
     )
     halved, searched, near = solution_caveats(scene("device2"), worse)
-    assert "halved 2 times" in halved
+    assert f"halved {MANY_CUTS + 1} times" in halved
     assert str(MANY_SEARCHES + 1) in searched
     assert near == "certificate: penetration is 50% of its limit"
 
@@ -354,13 +354,13 @@ def test_a_face_of_few_elements_is_doubted() -> None:
 def test_caveats_are_notes_of_scores() -> None:
     """So the workflow's table has them, too."""
     given = scene("device2")
-    solution = replace(solved("device2", "alternate_090", Interface.SHEAR), cuts=1, searches=MANY_SEARCHES + 1)
+    solution = replace(solved("device2", "alternate_090", Interface.SHEAR), cuts=3, searches=11)
     section, body = condensed("device2")
     reading = Condensed(section, body, resampling_to_grid(section.arc, given.model.gabor.spacing))
     condition = given.device.condition("alternate_090")
     strain, change = rows_of(given, reading, Solved(condition, Interface.SHEAR, solution))
     assert strain["note"] == change["note"]
-    assert strain["note"] == "increments were halved once; 11 increments did not settle at once"
+    assert strain["note"] == "increments were halved 3 times; 11 increments did not settle at once"
 
 
 def test_a_closed_pipe_is_no_mistake() -> None:
