@@ -23,7 +23,7 @@ FEW = 5.0
 
 
 def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
-    """Actuators too deep for small strain, faces too narrow for the mesh, many increments that were cut or did not settle
+    """Actuators too deep for small strain or too narrow for the mesh, many increments that were cut or did not settle
     at once, and figures of the certificate near their limits.
     """
     certificate = solution.certificate
