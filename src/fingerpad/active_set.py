@@ -105,6 +105,18 @@ class Trial:
     largest: float
 
 
+@dataclass(frozen=True)
+class Settled:
+    """Trial and states (b,) of a patch that agree, slip references (n,) [mm] of all nodes, with those of the patch that
+    touched on the way, and the iterations it took.
+    """
+
+    trial: Trial
+    status: np.ndarray
+    reference: FloatArray
+    iterations: int
+
+
 def settle(
     increment: PatchProblem,
     start: ContactState,
@@ -112,10 +124,11 @@ def settle(
     status: np.ndarray,
     reference: FloatArray,
     done: int,
-) -> tuple[Trial, np.ndarray, int]:
-    """Trial and states (b,) that agree, and the iterations it took; sets references (n,) of nodes that touch.
+) -> Settled:
+    """Trial and states that agree.
 
-    guess: places (b,) [mm] to begin with. Raises NotConvergedError after MAX_ITERATIONS, those `done` before included.
+    guess, status: places [mm] and states (b,) to begin with. reference: (n,) [mm]. Raises NotConvergedError after
+    MAX_ITERATIONS, those `done` before included.
     """
     problem, nodes = increment.problem, increment.patch.nodes
     states = _states(problem, status)
@@ -141,7 +154,7 @@ def settle(
                 if _is_turned(matrix):
                     turned = True
                     break
-                return _obeying(problem, trial, states), status, iteration + 1
+                return Settled(_obeying(problem, trial, states), status, reference, iteration + 1)
             continue
         if settling:
             if residual > SETTLED:
@@ -154,7 +167,7 @@ def settle(
         states = _states(problem, status)
         released[changed[now == OPEN]] = True
         if touching.size:
-            _touch_there(reference, start, nodes, trial, touching)
+            reference = _touched_there(reference, start, nodes, trial, touching)
         if ((was == OPEN) | (now == STICK)).any():  # nodes come to the profile or stop; others are where they were
             trial = _at(increment, trial.moved, states, reference[nodes])
     raise NotConvergedError(residual, turned)
@@ -167,15 +180,15 @@ def _states(problem: ContactProblem, status: np.ndarray) -> _States:
     return _States(status, open_, slip, drag, np.concatenate([slip, open_, status.size + open_]))
 
 
-def _touch_there(
+def _touched_there(
     reference: FloatArray, start: ContactState, nodes: np.ndarray, trial: Trial, touching: np.ndarray
-) -> None:
-    """Set the slip reference (n,) of the patch's nodes that touch now."""
+) -> FloatArray:
+    """Slip references (n,) [mm] once these of the patch's nodes touch."""
     place, gap = start.place.copy(), start.gap.copy()
     place[nodes], gap[nodes] = trial.place, trial.gap
     mask = np.zeros(start.place.size, dtype=bool)
     mask[nodes[touching]] = True
-    touch_on_the_way(reference, start, place, gap, mask)
+    return touched_on_the_way(reference, start, place, gap, mask)
 
 
 def _at(increment: PatchProblem, moved: FloatArray, states: _States, reference: FloatArray) -> Trial:
@@ -314,15 +327,17 @@ def touched_status(problem: ContactProblem) -> int:
     return STICK if problem.friction > 0.0 else SLIP_FORWARD
 
 
-def touch_on_the_way(
+def touched_on_the_way(
     reference: FloatArray, start: ContactState, place: FloatArray, gap: FloatArray, nodes: np.ndarray
-) -> None:
-    """Set the slip reference of nodes (n,) that were not coming nearer: they touch on their way to `place` and `gap`
-    (n,) [mm], which is further than they go, as others bear them up once they touch.
+) -> FloatArray:
+    """Slip references (n,) [mm] once nodes (n,) touch. Those that were not coming nearer do so on their way to `place`
+    and `gap` (n,) [mm], which is further than they go, as others bear them up once they touch.
     """
     came = nodes & (start.status == OPEN) & (start.drift[:, 1] >= 0.0)
     fraction = np.clip(start.gap[came] / (start.gap[came] - gap[came]), 0.0, 1.0)
-    reference[came] = start.place[came] + fraction * (place[came] - start.place[came])
+    touched = reference.copy()
+    touched[came] = start.place[came] + fraction * (place[came] - start.place[came])
+    return touched
 
 
 def dragged(shearing: FloatArray) -> np.ndarray:

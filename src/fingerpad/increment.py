@@ -24,7 +24,7 @@ from .active_set import (
     largest_of,
     newly_touching,
     settle,
-    touch_on_the_way,
+    touched_on_the_way,
     touched_status,
 )
 from .arrays import FloatArray
@@ -82,7 +82,7 @@ def solve_increment(
     origin = unloaded(problem, actuator)
     needed = np.flatnonzero(status != OPEN)
     if needed.size == 0:
-        needed = _first_touching(problem, start, origin, gap_scale, status, reference)
+        needed, status, reference = _first_touching(problem, start, origin, gap_scale, status, reference)
     # the last increment promises where the skin will touch the faces
     guess = start.place + start.drift[:, 0] * length
     expected, there = guess, touch(problem, guess)
@@ -99,21 +99,21 @@ def solve_increment(
         nodes = patch.nodes
         bias = np.zeros(2 * nodes.size) if bias is None else bias
         increment = PatchProblem(problem, patch, origin[nodes].T, bias, gap_scale)
-        trial, status_there, count = settle(increment, start, guess[nodes], status[nodes], reference, iterations)
-        iterations, searched = iterations + count, searched or count > SIMULTANEOUS
-        found = _everywhere(increment, origin, there, trial, status_there)
-        status, guess = found.status, found.place
+        settled = settle(increment, start, guess[nodes], status[nodes], reference, iterations)
+        iterations, searched = iterations + settled.iterations, searched or settled.iterations > SIMULTANEOUS
+        found = _everywhere(increment, origin, there, settled.trial, settled.status)
+        status, guess, reference = found.status, found.place, settled.reference
         missed = (status == OPEN) & (found.gap < -problem.tolerance * gap_scale)
         missed[nodes] = False
         if missed.any():
-            touch_on_the_way(reference, start, found.place, found.gap, missed)
+            reference = touched_on_the_way(reference, start, found.place, found.gap, missed)
             status[missed] = touched_status(problem)
             needed, ahead = np.flatnonzero(status != OPEN), ahead | missed
             continue
         slip = found.place - reference
         residual = _residual(problem, gap_scale, found, slip)
         if residual > problem.tolerance:
-            bias = bias + found.moved[nodes].T.ravel() - trial.moved  # what rounding in the stiffness has left
+            bias = bias + found.moved[nodes].T.ravel() - settled.trial.moved  # what rounding in the stiffness has left
         elif _gives_elsewhere(problem, found, there, gap_scale):
             steps.append(np.where(status != OPEN, found.place - expected, 0.0))
             ends.append(found.place)
@@ -227,16 +227,16 @@ def _first_touching(
     gap_scale: float,
     status: np.ndarray,
     reference: FloatArray,
-) -> np.ndarray:
+) -> tuple[np.ndarray, np.ndarray, FloatArray]:
     """Nodes (k,) with which contact begins, or the nearest if it does not, where nothing bears a force yet: all nodes
-    lie where the actuators left them, at `origin` (n, 2) [mm]. Sets their states (n,) and slip references (n,) [mm].
+    lie where the actuators left them, at `origin` (n, 2) [mm]; then states (n,) and slip references (n,) [mm].
     """
     place, height = origin.T
     gap = height + profile(problem.row, place)[0]
     first = newly_touching(gap < -problem.tolerance * gap_scale, gap, status, problem.actuator_of)
-    touch_on_the_way(reference, start, place, gap, first)
-    status[first] = touched_status(problem)
-    return np.flatnonzero(first) if first.any() else np.array([int(np.argmin(gap))])
+    needed = np.flatnonzero(first) if first.any() else np.array([int(np.argmin(gap))])
+    reference = touched_on_the_way(reference, start, place, gap, first)
+    return needed, np.where(first, touched_status(problem), status), reference
 
 
 def _drifted(start: ContactState, length: float) -> FloatArray:
