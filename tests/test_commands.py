@@ -363,6 +363,17 @@ def test_caveats_are_notes_of_scores() -> None:
     assert strain["note"] == "increments were halved 3 times; 11 increments did not settle at once"
 
 
+def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixture[str]) -> None:
+    """As high as skin nodes of the mesh over their ends."""
+    assert main(["check", str(ROOT / "config" / "devices" / "device2.yaml")]) == 0
+    (rise,) = re.findall(r"outermost faces lies (\S+) mm above that touched first", capsys.readouterr().out)
+    x, y = condensed("device2")[0].position.T
+    row = scene("device2").device.actuators
+    ends = row.positions[2] - row.half_face, row.positions[3] + row.half_face
+    low, high = np.interp(ends, x, y)
+    assert float(rise) == pytest.approx(high - low, abs=0.005 + 1e-3)  # two digits, and hats between nodes
+
+
 def test_a_closed_pipe_is_no_mistake() -> None:
     """`fingerpad check FILE | head -0`: whoever reads has read enough."""
     command = [sys.executable, "-m", "fingerpad.cli", "check", str(ROOT / "config" / "devices" / "device2.yaml")]

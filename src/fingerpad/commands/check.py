@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+import numpy as np
 from tqdm import tqdm
 
 from ..errors import UsageError
@@ -69,5 +70,16 @@ def described(scene: Scene) -> str:
         f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
         f"{len(device.conditions)} conditions: {conditions}{alike}\n"
-        f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral"
+        f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
+        f"skin over the outermost faces lies {_rise(scene):.2g} mm above that touched first, on a pad of"
+        f" {scene.model.finger.pad_thickness:g} mm"
     )
+
+
+def _rise(scene: Scene) -> float:
+    """How far [mm] undeformed skin over the ends of the outermost faces lies above the lowest over any face."""
+    finger, row = scene.model.finger, scene.device.actuators
+    centre = np.abs(row.positions)
+    ends = np.array([max(centre.min() - row.half_face, 0.0), centre.max() + row.half_face])
+    lowest, highest = finger.height / 2.0 * (1.0 - np.sqrt(1.0 - (2.0 * ends / finger.width) ** 2))
+    return float(highest - lowest)

@@ -27,7 +27,8 @@ STEPS = 3  # of the progress before any score: mesh, compliance, creep
 DESCRIPTION = """\
 Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
 creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
-frequency there is one. "slow" is a cycle in which tissue is always relaxed.
+frequency there is one. "slow" is a cycle in which tissue is always relaxed. No discretisation error is estimated here;
+`fingerpad predict` states that of the same conditions as snapshots.
 
 examples:
   fingerpad vibrate config/devices/device2.yaml
