@@ -16,11 +16,13 @@ from .profile import profile
 # the end of a face, at least 1 if there is another between
 ADJACENT = 0.75
 
-# What a certificate may not exceed; source: each lies two orders below the score error that is aimed at (0.5 %)
+# What a certificate may not exceed; source: each lies over an order below the score error that is aimed at (0.5 %)
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
 TENSION_LIMIT = 1e-6  # of the largest pressure [1]
 CONE_LIMIT = 1e-6  # of the largest shear that friction allows, without friction of the largest pressing force [1]
-DISSIPATION_LIMIT = 1e-9  # of the work of friction under the largest force so far along the indentation [1]
+# of the work of friction under the largest force so far along the indentation [1]; source: slip is solved to 1e-9 of
+# the way, in up to a hundred increments
+DISSIPATION_LIMIT = 1e-7
 
 
 @dataclass(frozen=True)
