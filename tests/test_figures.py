@@ -475,8 +475,8 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
     place = (contact.position[:, 0].reshape(len(row.positions), -1) - np.array(row.positions)[:, None]).ravel()
     none = np.zeros(0)
     return Solution(
-        1.5, none, none, traction, 0.5 * traction, place, np.where(traction > 0.0, Status.STICK, Status.OPEN), none,
-        none, none, 1, 0, 0, Certificate(*[0.0] * 9),
+        1.5, 1.5, none, none, traction, 0.5 * traction, place, np.where(traction > 0.0, Status.STICK, Status.OPEN),
+        none, none, none, 1, 0, 0, Certificate(*[0.0] * 9),
     )  # fmt: skip
 
 
