@@ -16,7 +16,7 @@ MANY_CUTS = 2  # halved increments [1]; source: shipped devices have up to 2, wi
 NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
 
 # Depth of an actuator over the pad's thickness [1]; source: mean strain is then 0.5, the logarithmic one 0.69: small
-# strain is off by over a quarter. Shipped devices have up to 0.35
+# strain is off by over a quarter. Shipped devices have up to 0.36
 DEEP = 0.5
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
