@@ -43,6 +43,15 @@ def has_p(p: object, kind: object) -> bool:
     return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
 
 
+def is_slope_open(r2: Any, r_error: Any) -> bool:
+    """Whether errors of scores leave the sign of a slope open: they can add up to more than |r|. Numbers may be texts.
+
+    >>> is_slope_open("0.25", "0.6"), is_slope_open(0.25, 0.4), is_slope_open("0.25", "")
+    (True, False, False)
+    """
+    return bool(r_error != "" and float(r2) ** 0.5 < float(r_error))
+
+
 class Relation(StrEnum):
     """How the ratings of two conditions compare, as stated."""
 

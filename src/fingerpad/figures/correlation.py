@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..contact_law import Interface
-from ..ratings import NO_RATINGS, SLOPE_NAME, has_p
+from ..ratings import NO_RATINGS, SLOPE_NAME, has_p, is_slope_open
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -140,6 +140,8 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     lines = [f"n = {score.size}"]
     if pd.notna(row["r2"]):
         lines.append(f"R² = {row['r2']:.3f}, {SLOPE_NAME[int(row['slope_sign'])]}")
+        if is_slope_open(row["r2"], row["r_error"]):
+            lines.append("slope open within errors")
     if pd.notna(row["r2_lowest"]):
         lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
     if pd.notna(row["r2"]):

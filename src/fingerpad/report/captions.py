@@ -9,7 +9,7 @@ from functools import partial
 from ..contact_law import Interface
 from ..device import Device
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, counted, plain
-from ..ratings import has_p
+from ..ratings import has_p, is_slope_open
 from ..readout import Readout
 from ..roughness import TYPESET_UNITS
 from ..scene import Scene
@@ -87,7 +87,8 @@ def correlation_words(row: Row) -> str:
     spread = f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
     tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
     p = f", p {p_value(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
-    return f"R² = {float(row['r2']):.3f}{spread}, {SLOPES[row['slope_sign']]}, τ = {tau}{p}, n = {row['n']}"
+    slope = SLOPES[row["slope_sign"]] + (" (open within errors)" if is_slope_open(row["r2"], row["r_error"]) else "")
+    return f"R² = {float(row['r2']):.3f}{spread}, {slope}, τ = {tau}{p}, n = {row['n']}"
 
 
 def _section(results: Results) -> Words:
