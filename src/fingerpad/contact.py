@@ -128,10 +128,16 @@ class ContactState:
     searches: int
 
 
-def touching_height(problem: ContactProblem) -> float:
-    """Height [mm] to which the actuators rise until the first skin node touches."""
+def touching_heights(problem: ContactProblem) -> FloatArray:
+    """Heights (n_actuators,) [mm] to which each actuator rises until it touches the first node of undeformed skin."""
     x = problem.position[:, 0] - np.asarray(problem.row.positions)[problem.actuator_of]
-    return float(np.min(problem.position[:, 1] + profile(problem.row, x)[0]))
+    height = problem.position[:, 1] + profile(problem.row, x)[0]
+    return np.array([height[own].min(initial=np.inf) for own in problem.spans])
+
+
+def touching_height(problem: ContactProblem) -> float:
+    """Height [mm] to which all actuators rise until the first touches."""
+    return float(touching_heights(problem).min())
 
 
 def rest(problem: ContactProblem, height: float) -> ContactState:

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .arrays import FloatArray
-from .contact import ContactProblem
+from .contact import ContactProblem, touching_heights
 from .errors import DepthError
-from .profile import profile
 
 
 def depth(problem: ContactProblem, actuators: FloatArray) -> float:
     """Largest height [mm] of an actuator, in any of its places (k, n_actuators, 2) [mm], above that at which it first
     touches undeformed skin.
     """
-    x = problem.position[:, 0] - np.asarray(problem.row.positions)[problem.actuator_of]
-    height = problem.position[:, 1] + profile(problem.row, x)[0]
-    touching = np.array([height[own].min() for own in problem.spans])
-    return float((actuators[:, :, 1] - touching).max())
+    return float((actuators[:, :, 1] - touching_heights(problem)).max())
 
 
 def require_tissue(problem: ContactProblem, actuators: FloatArray, thickness: float) -> None:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from .arrays import FloatArray
 from .errors import SceneError
 from .requirements import require, require_positive
 
@@ -99,6 +102,11 @@ class Finger:
     def layers(self) -> tuple[Layer, ...]:
         """All layers, those of the pad first."""
         return (*self.pad, *self.dorsal)
+
+    def skin_height(self, x: FloatArray) -> FloatArray:
+        """Height (n,) [mm] of the pad's undeformed skin above its lowest point, at x (n,) [mm] from the mid-line."""
+        height: FloatArray = self.height / 2.0 * (1.0 - np.sqrt(1.0 - (2.0 * x / self.width) ** 2))
+        return height
 
     @property
     def materials(self) -> list[Material]:

@@ -215,15 +215,16 @@ def nominal_edges(row: ActuatorRow) -> FloatArray:
 def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray) -> FloatArray:
     """Largest allowed element size (n,) [mm] at element centres (2, n) [mm] of logical depth zeta (n,)."""
     finger, numerics, row = scene.model.finger, scene.model.numerics, scene.device.actuators
-    a, b = finger.width / 2.0, finger.height / 2.0
     start, stop = edges.T[..., None]
     x = np.clip(np.abs(centre[0]), start, stop)
-    to_edge = np.min(np.hypot(np.abs(centre[0]) - x, centre[1] - b + b * np.sqrt(1.0 - (x / a) ** 2)), axis=0)
+    to_edge = np.min(np.hypot(np.abs(centre[0]) - x, centre[1] - finger.skin_height(x)), axis=0)
     outermost = max(abs(position) for position in row.positions) + row.width / 2.0
     depth = np.minimum(zeta, finger.parallel_depth) + np.maximum(zeta - finger.parallel_depth, 0.0) * (
         finger.pad_thickness - finger.parallel_depth
     )
-    depth = np.where(centre[1] > b, centre[1], depth)  # dorsal tissue is far from the pad, however near its skin
+    depth = np.where(
+        centre[1] > finger.height / 2.0, centre[1], depth
+    )  # dorsal tissue is far from the pad, however near its skin
     beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
     to_face = np.hypot(depth, beyond)
     to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)

@@ -158,15 +158,15 @@ def correlation_table(
     `read_stated_order`, `read_published`.
 
     Returns the columns COLUMNS:
-    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson
-    correlation. r_error: what errors of scores can add up to in r, to the first order, larger than |r| where they leave
-    the slope's sign open; empty if they are not known.
+    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what
+    errors of scores can add up to in r, to the first order, larger than |r| where they leave the slope's sign open;
+    empty if they are not known.
     r2_lowest, r2_highest: over all ratings that agree with the stated order (`r2_range`), whichever way the slope
     then is; empty without an order.
     kendall_tau: tau-b. p: two-sided p of the Pearson correlation over distinct conditions: those that share a
     stimulus have one score, and count once with the mean of their ratings (the note then says how many are distinct).
-    published_slope: -1 or 1, empty if nothing is said
-    of it. rating_kind: the `label` of RatingKind. note: why numbers are missing, or what to beware of.
+    published_slope: -1 or 1, empty if nothing is said of it. rating_kind: the `label` of RatingKind. note: why numbers
+    are missing, or what to beware of.
 
     Raises RatingError if scores and ratings of a device are not of the same conditions.
     """

@@ -23,6 +23,7 @@ NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
 SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
 SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
+OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `slope_name`, in captions
 
 
 class RatingKind(StrEnum):
@@ -43,13 +44,15 @@ def has_p(p: object, kind: object) -> bool:
     return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
 
 
-def is_slope_open(r2: Any, r_error: Any) -> bool:
-    """Whether errors of scores leave the sign of a slope open: they can add up to more than |r|. Numbers may be texts.
+def slope_name(row: Mapping[str, Any]) -> str:
+    """Which way the slope is of a row of the correlation table, also as text, and whether errors of scores leave that
+    open, as they can add up to more than |r|.
 
-    >>> is_slope_open("0.25", "0.6"), is_slope_open(0.25, 0.4), is_slope_open("0.25", "")
-    (True, False, False)
+    >>> slope_name({"slope_sign": "-1", "r2": "0.25", "r_error": "0.6"}), slope_name({"slope_sign": 1, "r_error": ""})
+    ('falling (open)', 'rising')
     """
-    return bool(r_error != "" and float(r2) ** 0.5 < float(r_error))
+    open_ = row["r_error"] != "" and float(row["r2"]) ** 0.5 < float(row["r_error"])
+    return SLOPE_NAME[int(row["slope_sign"])] + (" (open)" if open_ else "")
 
 
 class Relation(StrEnum):

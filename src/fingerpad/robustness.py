@@ -8,7 +8,7 @@ from .alternatives import AS_CONFIGURED, HALF_CYCLES
 from .claims import Holds
 from .contact_law import Interface
 from .pages import table
-from .ratings import SLOPE_NAME
+from .ratings import SLOPE_NAME, slope_name
 from .roughness import KEY
 
 NOTHING = ""
@@ -62,15 +62,15 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
         published = (
             first["published_words"]
             if pd.isna(first["published_r2"])
-            else _signed(first["published_r2"], first["published_slope"])
+            else _published(first["published_r2"], first["published_slope"])
         )
         usual = own[own["varied"] == AS_CONFIGURED].set_index("half_cycle")
-        halves = {each: _signed(usual.loc[each, "r2"], usual.loc[each, "slope_sign"]) for each in HALF_CYCLES}
+        halves = {each: f"{usual.loc[each, 'r2']:.3g}, {slope_name(usual.loc[each])}" for each in HALF_CYCLES}
         rising = int((own["slope_sign"] > 0).sum())
         rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(own)}"})
     return pd.DataFrame(rows)
 
 
-def _signed(r2: float, slope: float) -> str:
-    """R² and which way the slope is, if that is known."""
+def _published(r2: float, slope: float) -> str:
+    """R² and which way the slope is, if that is said."""
     return f"{r2:.3g}" if pd.isna(slope) else f"{r2:.3g}, {SLOPE_NAME[int(slope)]}"

@@ -81,5 +81,5 @@ def _rise(scene: Scene) -> float:
     finger, row = scene.model.finger, scene.device.actuators
     centre = np.abs(row.positions)
     ends = np.array([max(centre.min() - row.half_face, 0.0), centre.max() + row.half_face])
-    lowest, highest = finger.height / 2.0 * (1.0 - np.sqrt(1.0 - (2.0 * ends / finger.width) ** 2))
+    lowest, highest = finger.skin_height(ends)
     return float(highest - lowest)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ..contact_law import Interface
-from ..ratings import SLOPE_NAME
+from ..ratings import OPEN_SLOPE, slope_name
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -71,7 +71,7 @@ def ablation_figure(
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text, (-30.0, 26.0))
     handles = [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface]
-    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.")
+    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}. {OPEN_SLOPE}")
     return figure
 
 
@@ -138,5 +138,4 @@ def _statistics(correlations: pd.DataFrame, interface: Interface) -> str:
     row = correlations[correlations["interface"] == interface].iloc[0]
     if pd.isna(row["r2"]):
         return f"{INTERFACE_NAME[interface]}: {row['note']}"
-    sign = SLOPE_NAME[int(row["slope_sign"])]
-    return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f} ({row['rating_kind']}), {sign}, n = {row['n']}"
+    return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f} ({row['rating_kind']}), {slope_name(row)}, n = {row['n']}"

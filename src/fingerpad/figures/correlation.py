@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..contact_law import Interface
-from ..ratings import NO_RATINGS, SLOPE_NAME, has_p, is_slope_open
+from ..ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, has_p, slope_name
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -48,7 +48,11 @@ CAPTION = (
     "{interface}n: conditions; those with one and the same stimulus coincide.{rated}"
     " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
 )
-RATED = " Line: least squares. Ratings: {kinds}. range: of R² over all ratings with the stated order. τ: Kendall's.{p}"
+RATED = (
+    " Line: least squares. Ratings: {kinds}. range: of R² over all ratings with the stated order. "
+    + OPEN_SLOPE
+    + " τ: Kendall's.{p}"
+)
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: an order of scores is a prediction, and no comparison with perception."
 
@@ -139,9 +143,7 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     """What the correlation table says of one panel, and how far the scores (n,) spread, line by line."""
     lines = [f"n = {score.size}"]
     if pd.notna(row["r2"]):
-        lines.append(f"R² = {row['r2']:.3f}, {SLOPE_NAME[int(row['slope_sign'])]}")
-        if is_slope_open(row["r2"], row["r_error"]):
-            lines.append("slope open within errors")
+        lines.append(f"R² = {row['r2']:.3f}, {slope_name(row)}")
     if pd.notna(row["r2_lowest"]):
         lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
     if pd.notna(row["r2"]):

@@ -9,12 +9,12 @@ from functools import partial
 from ..contact_law import Interface
 from ..device import Device
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, counted, plain
-from ..ratings import has_p, is_slope_open
+from ..ratings import has_p, slope_name
 from ..readout import Readout
 from ..roughness import TYPESET_UNITS
 from ..scene import Scene
 from ..tissue_law import Kinematics
-from .tables import SLOPES, Row, error_of, measured, p_value
+from .tables import Row, error_of, measured, p_value
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
@@ -87,8 +87,7 @@ def correlation_words(row: Row) -> str:
     spread = f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
     tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
     p = f", p {p_value(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
-    slope = SLOPES[row["slope_sign"]] + (" (open within errors)" if is_slope_open(row["r2"], row["r_error"]) else "")
-    return f"R² = {float(row['r2']):.3f}{spread}, {slope}, τ = {tau}{p}, n = {row['n']}"
+    return f"R² = {float(row['r2']):.3f}{spread}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
 
 
 def _section(results: Results) -> Words:
@@ -238,7 +237,7 @@ def _correlated(results: Results, device: str, interface: Interface, titled: boo
 
 
 def _r2(row: Row) -> str:
-    return f"{float(row['r2']):.3f}, {SLOPES[row['slope_sign']]}" if row["r2"] else f"({row['note']})"
+    return f"{float(row['r2']):.3f}, {slope_name(row)}" if row["r2"] else f"({row['note']})"
 
 
 def _kinds(results: Results) -> str:

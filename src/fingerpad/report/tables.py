@@ -10,7 +10,7 @@ from statistics import median
 from ..accuracy import relative_error
 from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
-from ..ratings import SLOPE_NAME, has_p
+from ..ratings import SLOPE_NAME, has_p, slope_name
 from ..readout import Readout
 from ..tissue_law import Kinematics
 
@@ -112,7 +112,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             row["n"],
             f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
             spread,
-            SLOPES.get(row["slope_sign"], NOTHING),
+            slope_name(row) if row["r2"] else NOTHING,
             f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
             p_value(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
