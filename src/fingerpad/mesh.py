@@ -222,9 +222,8 @@ def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray)
     depth = np.minimum(zeta, finger.parallel_depth) + np.maximum(zeta - finger.parallel_depth, 0.0) * (
         finger.pad_thickness - finger.parallel_depth
     )
-    depth = np.where(
-        centre[1] > finger.height / 2.0, centre[1], depth
-    )  # dorsal tissue is far from the pad, however near its skin
+    # dorsal tissue is far from the pad, however near its skin
+    depth = np.where(centre[1] > finger.height / 2.0, centre[1], depth)
     beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
     to_face = np.hypot(depth, beyond)
     to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)
