@@ -133,7 +133,7 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
     return ensemble_tables(
         pd.concat(members).drop(columns="score_error"),
         usual,
-        read_ratings(ROOT / "data/ratings.csv", CONDITIONS),
+        read_ratings(ROOT / "data/ratings.csv", CONDITIONS).assign(kind="measured"),
         read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS),
         read_published(ROOT / "data/published_r2.csv"),
     )
@@ -142,7 +142,7 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
 def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
     """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
     claims, correlations = tables
-    assert len(claims) == 4 * 16
+    assert len(claims) == 4 * 18
     verdict = claims.set_index(["half_cycle", "varied", "claim"])["holds"]
     turned = verdict[verdict != "yes"].to_dict()
     strain2, strain3 = "Device 2: the strain correlates well.", "Device 3: the strain correlates negatively."
@@ -164,6 +164,7 @@ def test_page_counts_members_and_names_what_turns_a_statement(tables: tuple[pd.D
     assert row.count("yes, 1 of 2 | contact.friction 0.38") == 2
     assert "Device 2: the strain correlates well" not in str(values["always"])
     assert "- Device 1: the change of strain correlates very well." in str(values["always"])
+    assert "- Device 1: leaving out shear matters less than for Device 2. *(weaker)*" in str(values["always"])
     assert "| small | device2 | strain | 0.989, rising | 1, rising | 1, rising | 2 of 4 |" in str(
         values["correlations"]
     )

@@ -15,10 +15,14 @@ from fingerpad.solution import Solution
 from fingerpad.store import load
 
 NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
+    "Device 1: the change of strain correlates very well.": "undecided",
+    "Device 2: the change of strain correlates very well.": "undecided",
+    "Device 3: the change of strain correlates very well.": "undecided",
     "Device 2: the strain correlates well.": "no",
-    "Device 1: the strain correlates very poorly.": "no",
+    "Device 1: the strain correlates very poorly.": "undecided",
     "Device 3: the strain correlates negatively.": "undecided",
     "Device 2 without shear: the change of strain correlates weakly.": "no",
+    "Device 2 without shear: the change of strain is smaller at every phase.": "no",
 }
 EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
 KEY = ["kinematics", "device", "condition", "interface", "readout"]
@@ -90,7 +94,7 @@ def test_what_the_model_should_show(finished: Project) -> None:
     not, and this list changes when the model does."""
     claims = pd.read_csv(finished.folder / "results" / "claims.csv")
     found = {claim: holds for claim, holds in zip(claims["claim"], claims["holds"], strict=True) if holds != "yes"}
-    assert len(claims) == 16
+    assert len(claims) == 18
     assert found == NOT_BORNE_OUT, claims["evidence"].tolist()
 
 

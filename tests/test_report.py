@@ -109,8 +109,22 @@ def built(results: Results, folder: Path) -> str:
     for stem in FIGURES:
         (folder / f"{stem}.png").write_bytes(PIXEL)
     claims = [
-        {"kinematics": "small", "claim": "It rises.", "source": "paper: Results", "holds": "yes", "evidence": TRICK},
-        {"kinematics": "finite", "claim": "It falls.", "source": "paper: Results", "holds": "no", "evidence": "no"},
+        {
+            "kinematics": "small",
+            "claim": "It rises.",
+            "kind": "stated",
+            "source": "paper: Results",
+            "holds": "yes",
+            "evidence": TRICK,
+        },
+        {
+            "kinematics": "finite",
+            "claim": "It falls.",
+            "kind": "stated",
+            "source": "paper: Results",
+            "holds": "no",
+            "evidence": "no",
+        },
     ]
     return report(
         TEMPLATE.read_text(encoding="utf-8"),
@@ -305,9 +319,12 @@ def test_accuracy_counts_only_what_has_a_score(results: Results) -> None:
 
 def test_committed_page_of_assumptions_is_what_the_scene_files_say() -> None:
     files = [CONFIG, *sorted((ROOT / "config" / "devices").glob("*.yaml"))]
-    made = page({f"{path.parent.name}/{path.name}": read_yaml(path) for path in files})
+    modules = {path.stem: path.read_text(encoding="utf-8") for path in sorted((ROOT / "src/fingerpad").glob("*.py"))}
+    made = page({f"{path.parent.name}/{path.name}": read_yaml(path) for path in files}, modules)
     committed = (ROOT / "docs" / "assumptions.md").read_text(encoding="utf-8")
-    assert committed == made, "the scene files have changed: run `snakemake docs` and commit docs/assumptions.md"
+    assert committed == made, (
+        "scene files or assumptions have changed: run `snakemake docs`, commit docs/assumptions.md"
+    )
 
 
 def test_every_source_of_a_scene_file_is_listed_once() -> None:

@@ -26,6 +26,7 @@ GOOD = ["0.5,1,0.01,0", "0.5,2,0,0", "1,1,0,0.02", "1,2,-0.01,0"]
 PHASED = {"amplitude": 0.02, "playback": "snapshot", "phases": [0, 180], "dispersions": {"all": [0, 1]}}
 
 ROWS = [{"phase": 0, "absolute": 0.2, "relative": 0.01}]
+NEIGHBOURS = {"rows": ROWS, "relative_to": "neighbour"}
 
 
 def test_kinds_are_those_of_the_schema() -> None:
@@ -50,6 +51,22 @@ def test_limits_of_a_recording_are_those_of_a_history() -> None:
 
 
 @pytest.mark.parametrize(
+    ("relative_to", "moved"),
+    [
+        ("neighbour", [0.205, 0.195, 0.205, 0.195, 0.205]),
+        ("row", [0.21, 0.19, 0.21, 0.19, 0.21]),
+        ("leader", [0.2, 0.19, 0.2, 0.19, 0.2]),
+    ],
+)
+def test_what_a_relative_displacement_is_relative_to(relative_to: str, moved: list[float]) -> None:
+    stimulus = {**NEIGHBOURS, "relative_to": relative_to, "direction": "lateral", "half_cycle": "first"}
+    (condition,) = alternating(stimulus, 5, ROOT)
+    (cycle,) = alternating_cycles(stimulus, 5)
+    np.testing.assert_allclose(condition.tangential, [moved], rtol=1e-12)  # but for rounding
+    np.testing.assert_allclose(cycle.tangential, moved, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
     ("direction", "normal", "tangential"), [("normal", 1, 0), ("lateral", 0, 1), ("both", 1, 1)], ids=str
 )
 def test_direction_says_where_actuators_move(direction: str, normal: int, tangential: int) -> None:
@@ -57,7 +74,7 @@ def test_direction_says_where_actuators_move(direction: str, normal: int, tangen
         drive = {"direction": direction, "half_cycle": half_cycle}
         made = [
             (phased({**PHASED, **drive}, 2, ROOT)[1], [[0.02, -0.02]]),
-            (alternating({"rows": ROWS, **drive}, 2, ROOT)[0], [[0.205, 0.195]]),
+            (alternating({**NEIGHBOURS, **drive}, 2, ROOT)[0], [[0.205, 0.195]]),
         ]
         for condition, displacement in made:
             assert condition.normal == pytest.approx(sign * normal * np.array(displacement))
@@ -69,7 +86,7 @@ def test_a_phase_may_have_decimals() -> None:
     phases = [0, 22.0, 22.5, 22.50000001, 1e-7, 360]
     drive = {"direction": "normal", "half_cycle": "first"}
     stimulus = {**PHASED, **drive, "phases": phases}
-    rows = {"rows": [{**ROWS[0], "phase": phase} for phase in phases], **drive}
+    rows = {**NEIGHBOURS, "rows": [{**ROWS[0], "phase": phase} for phase in phases], **drive}
     for made, cycles in (
         (phased(stimulus, 2, ROOT), phased_cycles(stimulus, 2)),
         (alternating(rows, 2, ROOT), alternating_cycles(rows, 2)),

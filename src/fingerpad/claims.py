@@ -1,8 +1,9 @@
 """The paper's statements, each checked against computed scores and correlations.
 
 Nothing here knows how a check will end: a claim is a test together with the numbers it looked at. Where what is
-compared differs by less than its errors, or these are not known, it is undecided. What the paper says in words is held
-against their usual bounds.
+compared differs by less than its errors, or these are not known, it is undecided; so is what some ratings with the
+stated order would bear out and others not, where their order is all that is known of them. What the paper says in words
+is held against their usual bounds.
 """
 
 from __future__ import annotations
@@ -17,10 +18,11 @@ from typing import Any
 import pandas as pd
 
 from .contact_law import Interface
+from .ratings import RatingKind
 from .readout import CONSTANT, Readout
 from .roughness import KEY, TYPESET_UNITS
 
-COLUMNS = ["kinematics", "claim", "source", "holds", "evidence"]
+COLUMNS = ["kinematics", "claim", "kind", "source", "holds", "evidence"]
 DISPERSIONS = ("low", "medium", "high")
 PHASES = (0.0, 90.0, 180.0)
 NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than their errors
@@ -29,8 +31,15 @@ NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than their er
 WEAK, MODERATE, STRONG, VERY_STRONG = 0.2, 0.4, 0.6, 0.8
 
 
+class Kind(StrEnum):
+    """Whether the paper makes a statement, or makes a stronger one from which it follows."""
+
+    STATED = "stated"
+    WEAKER = "weaker"
+
+
 class Holds(StrEnum):
-    """Whether a statement holds; undecided where errors of scores leave it open."""
+    """Whether a statement holds; undecided where errors of scores or the choice of ratings leave it open."""
 
     YES = "yes"
     NO = "no"
@@ -51,6 +60,15 @@ class _Score:
     """A score and its error, in one unit; an infinite error where it is not known."""
 
     value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class _Correlation:
+    """Pearson's r [1] over all ratings that may be meant, and what errors of scores can add up to in it."""
+
+    lowest: float
+    highest: float
     error: float
 
 
@@ -94,6 +112,7 @@ class _Claim:
     text: str
     source: str
     check: Callable[[_Tables], Verdict]
+    kind: Kind = Kind.STATED
 
 
 def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFrame:
@@ -103,9 +122,10 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
     without a prediction], score_error [in `unit`, NaN if it is not known], unit. correlations: from
     `perception.correlation_table`, or its CSV read back.
 
-    Returns the columns kinematics, claim, source, holds (see `Holds`) and evidence (a sentence with the numbers). To
-    rise means by more than the larger of both errors; what they can add up to in a correlation is taken to first order.
-    A claim which needs a score or a rating that is not there has no row: it is neither confirmed nor refuted.
+    Returns the columns kinematics, claim, kind (see `Kind`), source, holds (see `Holds`) and evidence (a sentence with
+    the numbers). To rise means by more than the larger of both errors; what they can add up to in a correlation is
+    taken to first order. A claim which needs a score or a rating that is not there has no row: it is neither confirmed
+    nor refuted.
     """
     rows = []
     for kinematics in scores["kinematics"].unique():
@@ -115,7 +135,7 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
                 holds, evidence = claim.check(tables)
             except _AbsentError:
                 continue
-            rows.append((kinematics, claim.text, claim.source, str(holds), evidence))
+            rows.append((kinematics, claim.text, str(claim.kind), claim.source, str(holds), evidence))
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -183,33 +203,61 @@ def _change_rises(device: str, phases: Sequence[float]) -> Callable[[_Tables], V
     return check
 
 
-def _device1_phase(tables: _Tables) -> Verdict:
-    scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
-    chains = {dispersion: _by_phase(scores, dispersion) for dispersion in DISPERSIONS}
-    shown = "; ".join(f"{dispersion} dispersion {_shown(chain)}" for dispersion, chain in chains.items())
-    steps = [step for chain in chains.values() for step in _steps(chain)]
-    return _rises(steps), f"Scores [{scores.unit}]: {shown}."
+Chains = Mapping[str, Chain]
 
 
-def _device1_dispersion(tables: _Tables) -> Verdict:
-    scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
-    chain = _by_dispersion(scores, 180.0)
-    return _rises(_steps(chain)), f"Scores at 180° [{scores.unit}]: {_shown(chain)}."
+def _along_phase(scores: _Scores) -> Chains:
+    """Device 1's scores by phase, at every dispersion."""
+    return {f"{dispersion} dispersion": _by_phase(scores, dispersion) for dispersion in DISPERSIONS}
+
+
+def _along_dispersion(scores: _Scores) -> Chains:
+    """Device 1's scores by dispersion, at every phase at which dispersions differ."""
+    return {f"{phase:g}°": _by_dispersion(scores, phase) for phase in PHASES[1:]}
+
+
+def _all_steps(chains: Chains) -> list[str]:
+    return [step for chain in chains.values() for step in _steps(chain)]
+
+
+def _all_shown(chains: Chains) -> str:
+    return "; ".join(f"{name} {_shown(chain)}" for name, chain in chains.items())
+
+
+def _device1_rises(along: Callable[[_Scores], Chains]) -> Callable[[_Tables], Verdict]:
+    """With shear, Device 1's change-of-strain score rises along these chains."""
+
+    def check(tables: _Tables) -> Verdict:
+        scores = tables.scores("device1", Interface.SHEAR, Readout.CHANGE_OF_STRAIN)
+        chains = along(scores)
+        return _rises(_all_steps(chains)), f"Scores [{scores.unit}]: {_all_shown(chains)}."
+
+    return check
 
 
 def _device1_strain(tables: _Tables) -> Verdict:
     """The strain score misses a step of those which the two claims above make about the change of strain."""
     scores = tables.scores("device1", Interface.SHEAR, Readout.STRAIN)
-    chains = {f"{dispersion} dispersion": _by_phase(scores, dispersion) for dispersion in DISPERSIONS}
-    chains["180°"] = _by_dispersion(scores, 180.0)
-    steps = [step for chain in chains.values() for step in _steps(chain)]
-    shown = "; ".join(f"{name} {_shown(chain)}" for name, chain in chains.items())
+    chains = {**_along_phase(scores), **_along_dispersion(scores)}
+    steps = _all_steps(chains)
     missed = {Holds.YES: Holds.NO, Holds.NO: Holds.YES, Holds.UNDECIDED: Holds.UNDECIDED}[_rises(steps)]
-    return missed, f"{steps.count('<')} of {len(steps)} steps rise. Scores [{scores.unit}]: {shown}."
+    return missed, f"{steps.count('<')} of {len(steps)} steps rise. Scores [{scores.unit}]: {_all_shown(chains)}."
 
 
 def _held(holds: bool) -> Holds:
     return Holds.YES if holds else Holds.NO
+
+
+def _all_hold(parts: Sequence[Holds]) -> Holds:
+    """Whether every part of a statement holds."""
+    if Holds.NO in parts:
+        return Holds.NO
+    return Holds.UNDECIDED if Holds.UNDECIDED in parts else Holds.YES
+
+
+def _throughout(ends: Sequence[Holds]) -> Holds:
+    """Whether a statement holds over a range, from whether it does at its ends."""
+    return ends[0] if len(set(ends)) == 1 else Holds.UNDECIDED
 
 
 def _is_less(low: float, high: float, error: float) -> Holds:
@@ -230,12 +278,25 @@ def _slope(row: Mapping[str, Any]) -> int:
     return 0 if pd.isna(row["slope_sign"]) else int(row["slope_sign"])
 
 
-def _r(row: Mapping[str, Any]) -> _Score:
-    """Pearson's r [1], and what errors of scores can add up to in it to the first order; 0 where there is no slope."""
-    if _slope(row) == 0:
-        return _Score(0.0, 0.0)
+def _is_surrogate(row: Mapping[str, Any]) -> bool:
+    return bool(row["rating_kind"] == RatingKind.SURROGATE.label)
+
+
+def _r(row: Mapping[str, Any]) -> _Correlation:
+    """Pearson's r [1]; of surrogates over all ratings with the stated order, without one over all there are. What
+    errors of scores can add up to in it is taken to the first order. No slope is r = 0.
+    """
+    sign = _slope(row)
+    if sign == 0:
+        return _Correlation(0.0, 0.0, 0.0)
     error = math.inf if pd.isna(row["r_error"]) else float(row["r_error"])
-    return _Score(_slope(row) * math.sqrt(row["r2"]), error)
+    ends = [float(row["r2"])] * 2
+    if _is_surrogate(row):
+        ends = [0.0, 1.0] if pd.isna(row["r2_lowest"]) else [float(row["r2_lowest"]), float(row["r2_highest"])]
+    weakest, strongest = (sign * math.sqrt(each) for each in ends)
+    if weakest == 0.0:  # where r can vanish, it can change its sign
+        weakest = -strongest
+    return _Correlation(min(weakest, strongest), max(weakest, strongest), error)
 
 
 def _described(row: Mapping[str, Any]) -> str:
@@ -243,7 +304,9 @@ def _described(row: Mapping[str, Any]) -> str:
     reason = f"({row['note']}) " if isinstance(row["note"], str) and row["note"] else ""
     sign = "positive" if _slope(row) > 0 else "negative"
     what = f"{sign} slope, {numbers}" if _slope(row) else f"no slope {reason}with "
-    return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']})"
+    ranges = _is_surrogate(row) and not pd.isna(row["r2_lowest"])
+    others = f"; R² {row['r2_lowest']:.2g} to {row['r2_highest']:.2g} over all with the stated order" if ranges else ""
+    return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']}{others})"
 
 
 def _correlates(
@@ -254,7 +317,8 @@ def _correlates(
     def check(tables: _Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
         r = _r(row)
-        return _is_less(more_than, sign * r.value, r.error), f"{_NAME[readout]}, {_described(row)}."
+        ends = [_is_less(more_than, sign * end, r.error) for end in (r.lowest, r.highest)]
+        return _throughout(ends), f"{_NAME[readout]}, {_described(row)}."
 
     return check
 
@@ -265,7 +329,9 @@ def _correlates_less(device: str, interface: Interface, readout: Readout, than: 
     def check(tables: _Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
         r = _r(row)
-        return _is_less(abs(r.value), than, r.error), f"{_NAME[readout]}, {_described(row)}."
+        strengths = [abs(r.lowest), abs(r.highest)] if r.lowest * r.highest > 0.0 else [0.0, max(-r.lowest, r.highest)]
+        ends = [_is_less(strength, than, r.error) for strength in strengths]
+        return _throughout(ends), f"{_NAME[readout]}, {_described(row)}."
 
     return check
 
@@ -277,21 +343,54 @@ def _device2_weaker(tables: _Tables) -> Verdict:
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
     without, with_shear = _r(off), _r(on)
-    return (
-        _is_less(without.value, with_shear.value, max(without.error, with_shear.error)),
-        f"Change of strain, {_described(off)}; {_described(on)}.",
-    )
+    error = max(without.error, with_shear.error)
+    ends = [
+        _is_less(low, high, error)
+        for low, high in ((without.lowest, with_shear.highest), (without.highest, with_shear.lowest))
+    ]
+    return _throughout(ends), f"Change of strain, {_described(off)}; {_described(on)}."
 
 
 # --- shear off -----------------------------------------------------------------------------------------------------
 
 
-def _device2_spread(tables: _Tables) -> Verdict:
-    """Largest less smallest score over the phases is smaller without shear."""
+def _both(tables: _Tables, device: str) -> tuple[_Scores, _Scores]:
+    """A device's change-of-strain scores without shear and with it."""
     off, on = (
-        tables.scores("device2", interface, Readout.CHANGE_OF_STRAIN)
+        tables.scores(device, interface, Readout.CHANGE_OF_STRAIN)
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
+    return off, on
+
+
+def _device2_slides(tables: _Tables) -> Verdict:
+    """The change of strain is smaller without shear at every phase."""
+    off, on = _both(tables, "device2")
+    pairs = [(off["alternate", phase], on["alternate", phase]) for phase in PHASES]
+    shown = "; ".join(
+        f"{phase:g}° {without.value:.4g} without shear, {with_shear.value:.4g} with it"
+        for phase, (without, with_shear) in zip(PHASES, pairs, strict=True)
+    )
+    parts = [_is_less(low.value, high.value, max(low.error, high.error)) for low, high in pairs]
+    return _all_hold(parts), f"Scores [{on.unit}]: {shown}."
+
+
+def _device1_keeps(tables: _Tables) -> Verdict:
+    """No step by phase or by dispersion turns when shear is left out."""
+    without, with_shear = _both(tables, "device1")
+    off, on = ({**_along_phase(scores), **_along_dispersion(scores)} for scores in (without, with_shear))
+    pairs = zip(_all_steps(off), _all_steps(on), strict=True)
+    parts = [Holds.UNDECIDED if NEAR in pair else _held(pair[0] == pair[1]) for pair in pairs]
+    effect = _effect_of_shear(tables, "device1", DISPERSIONS)
+    return _all_hold(parts), (
+        f"{parts.count(Holds.YES)} of {len(parts)} steps stay. Leaving out shear changes the scores, relative to their"
+        f" mean, on average by {effect.value:.3g}. Without shear [{without.unit}]: {_all_shown(off)}."
+    )
+
+
+def _device2_spread(tables: _Tables) -> Verdict:
+    """Largest less smallest score over the phases is smaller without shear."""
+    off, on = _both(tables, "device2")
     ordered = [sorted((s["alternate", phase] for phase in PHASES), key=lambda score: score.value) for s in (off, on)]
     without, with_shear = (scores[-1].value - scores[0].value for scores in ordered)
     error = max(score.error for scores in ordered for score in (scores[0], scores[-1]))
@@ -303,10 +402,7 @@ def _device2_spread(tables: _Tables) -> Verdict:
 
 def _effect_of_shear(tables: _Tables, device: str, dispersions: Sequence[str]) -> _Score:
     """Mean |score without shear - score with it| over the mean score with it [1]; change of strain."""
-    off, on = (
-        tables.scores(device, interface, Readout.CHANGE_OF_STRAIN)
-        for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
-    )
+    off, on = _both(tables, device)
     conditions = [(dispersion, phase) for dispersion in dispersions for phase in PHASES]
     total = sum(on[c].value for c in conditions)
     if total == 0.0:
@@ -331,10 +427,18 @@ _SHEAR = "paper: Role of shear forces in roughness perception"
 _CLAIMS: tuple[_Claim, ...] = (
     _Claim("Device 2: the change of strain rises 0° < 90° < 180°.", _ORDER, _change_rises("device2", PHASES)),
     _Claim(
-        "Device 3: the change of strain rises 180° < 0° < 90°.", _ORDER, _change_rises("device3", (180.0, 0.0, 90.0))
+        "Device 3: the change of strain rises 180° < 0° < 90°.",
+        "paper: Results (of Table 1); the Introduction once has 0° highest",
+        _change_rises("device3", (180.0, 0.0, 90.0)),
     ),
-    _Claim("Device 1: the change of strain rises with phase at every dispersion.", _ORDER, _device1_phase),
-    _Claim("Device 1: the change of strain rises with dispersion at 180°.", _ORDER, _device1_dispersion),
+    _Claim(
+        "Device 1: the change of strain rises with phase at every dispersion.", _ORDER, _device1_rises(_along_phase)
+    ),
+    _Claim(
+        "Device 1: the change of strain rises with dispersion at 90° and 180°.",
+        _ORDER,
+        _device1_rises(_along_dispersion),
+    ),
     *(
         _Claim(
             f"Device {number}: the change of strain correlates very well.",
@@ -369,9 +473,16 @@ _CLAIMS: tuple[_Claim, ...] = (
         _SHEAR,
         _correlates_less("device2", Interface.FRICTIONLESS, Readout.CHANGE_OF_STRAIN, than=MODERATE),
     ),
+    _Claim("Device 2 without shear: the change of strain is smaller at every phase.", _SHEAR, _device2_slides),
+    _Claim("Device 1: leaving out shear turns no order of the change of strain.", _SHEAR, _device1_keeps),
     _Claim(
-        "Device 2 without shear: the change of strain correlates more weakly than with it.", _SHEAR, _device2_weaker
+        "Device 2 without shear: the change of strain correlates more weakly than with it.",
+        _SHEAR,
+        _device2_weaker,
+        Kind.WEAKER,
     ),
-    _Claim("Device 2 without shear: the change of strain varies less with phase.", _SHEAR, _device2_spread),
-    _Claim("Device 1: leaving out shear matters less than for Device 2.", _SHEAR, _device1_insensitive),
+    _Claim(
+        "Device 2 without shear: the change of strain varies less with phase.", _SHEAR, _device2_spread, Kind.WEAKER
+    ),
+    _Claim("Device 1: leaving out shear matters less than for Device 2.", _SHEAR, _device1_insensitive, Kind.WEAKER),
 )

@@ -17,7 +17,7 @@ from .requirements import require, require_positive
 from .tissue_law import Kinematics
 
 CROSSING = 15  # decimals of displacements [1]; cos(pi/2) is 6e-17 in floating point: a pin at its zero crossing rests
-# ASSUME: actuators.edge_radius = 0 is regularised to this radius, so that a node at the edge has one slope
+# ASSUME: actuators.edge_radius = 0 is regularised to SHARP_RADIUS, so that a node at the edge has one slope
 SHARP_RADIUS = 0.001  # mm; source: a fifteenth of the smallest elements at edges, that no solution tells from none
 ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
 

@@ -36,6 +36,7 @@ class Parts:
 
 def whole(section: SectionMesh, tractions: Tractions) -> Parts:
     """The whole section."""
+    # ASSUME: finger: the bone alone holds the finger; skin beside the actuators and the nail bear nothing
     dofs = node_dofs(displacement_basis(section.mesh))
     loads = csc_matrix(unit_loads(dofs, tractions.nodes, dofs.size) @ tractions.by_component())
     return Parts(np.arange(section.mesh.t.shape[1]), dofs, [dofs[:, section.fixed].ravel()], [loads])

@@ -5,13 +5,14 @@ from __future__ import annotations
 import pandas as pd
 
 from .alternatives import AS_CONFIGURED, HALF_CYCLES
-from .claims import Holds
+from .claims import Holds, Kind
 from .contact_law import Interface
 from .pages import table
 from .ratings import SLOPE_NAME, slope_name
 from .roughness import KEY
 
 NOTHING = ""
+TOLD = ["claim", "kind"]
 
 
 def robustness_values(claims: pd.DataFrame, correlations: pd.DataFrame) -> dict[str, object]:
@@ -31,15 +32,20 @@ def robustness_values(claims: pd.DataFrame, correlations: pd.DataFrame) -> dict[
 
 def _always(claims: pd.DataFrame) -> str:
     """Statements that hold in every member and half-cycle, whatever the kinematics, as a list."""
-    held = claims.groupby("claim", sort=False)["holds"].agg(lambda column: (column == Holds.YES).all())
-    return "\n".join(f"- {claim}" for claim in held[held].index)
+    held = claims.groupby(TOLD, sort=False)["holds"].agg(lambda column: (column == Holds.YES).all())
+    return "\n".join(f"- {_told(*each)}" for each in held[held].index)
+
+
+def _told(claim: str, kind: str) -> str:
+    """A statement, with a mark where the paper's is stronger."""
+    return claim if kind == Kind.STATED else f"{claim} *({kind})*"
 
 
 def _statements(claims: pd.DataFrame) -> pd.DataFrame:
     """A row a statement: in how many members it holds, and which turn it, by half-cycle."""
     rows = []
-    for claim, own in claims.groupby("claim", sort=False):
-        row: dict[str, object] = {"statement": claim}
+    for (claim, kind), own in claims.groupby(TOLD, sort=False):
+        row: dict[str, object] = {"statement": _told(claim, kind)}
         for half_cycle in HALF_CYCLES:
             found = own[own["half_cycle"] == half_cycle].set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)

@@ -37,6 +37,7 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
     >>> round(roughness_score(grid, -np.ones(401), (-1.0, 1.0)), 12)
     2.0
     """
+    # ASSUME: readout: the area under the curve is that of the rectified one (docs/model.md, 10)
     start, stop = np.clip(span, grid[0], grid[-1])
     inside = grid[(grid > start) & (grid < stop)]
     points = np.concatenate([[start], inside, [stop]])

@@ -1,7 +1,11 @@
-"""Where the values of scene files come from: every quantity with its unit and source, and a page that lists them."""
+"""Where values come from: every quantity of scene files with its unit and source, and what is assumed in code.
+
+`page` lists them.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -36,9 +40,11 @@ INTRODUCTION = """\
 # Assumptions, and where every other value comes from
 
 Written by `snakemake docs` from the scene files; edit those, not this page. Units are mm, N, MPa and s; a number
-without a unit has the unit 1. What is assumed in code, where no value can be changed, carries the comment `# ASSUME:`
-there.
+without a unit has the unit 1. What is assumed in code, where no value can be changed, comes last.
 """
+ASSUMED = re.compile(
+    r"^ *# ASSUME: (?P<first>.*)(?P<rest>(?:\n *# .*)*)", re.MULTILINE
+)  # a comment and the lines after it
 
 
 def quantities(document: Mapping[str, Any]) -> list[Quantity]:
@@ -51,8 +57,19 @@ def quantities(document: Mapping[str, Any]) -> list[Quantity]:
     return list(_walked("", document))
 
 
-def page(documents: Mapping[str, Mapping[str, Any]]) -> str:
-    """Markdown page of all quantities of scene files by name: assumptions first, then the paper's, then references'."""
+def assumed(code: str) -> list[str]:
+    """What the comments `# ASSUME:` of a module say, which begin with the key that they concern.
+
+    >>> assumed("x = 1\\n# ASSUME: finger: it is\\n# round\\ny = 2")
+    ['finger: it is round']
+    """
+    return [" ".join(re.split(r"\n *# ", found["first"] + found["rest"])) for found in ASSUMED.finditer(code)]
+
+
+def page(documents: Mapping[str, Mapping[str, Any]], modules: Mapping[str, str]) -> str:
+    """Markdown page of all quantities of scene files by name: assumptions first, then the paper's, then references';
+    and of what modules, by name, assume in code.
+    """
     found = {name: quantities(document) for name, document in documents.items()}
     parts = [INTRODUCTION]
     for origin, (heading, reason) in HEADINGS.items():
@@ -60,6 +77,8 @@ def page(documents: Mapping[str, Mapping[str, Any]]) -> str:
         for name, listed in found.items():
             if chosen := [each for each in listed if each.origin is origin]:
                 parts.append(f"### `{name}`\n\n{_table(chosen, reason)}")
+    told = [f"| `{name}` | {each} |" for name, code in modules.items() for each in assumed(code)]
+    parts.append("\n".join(["## In code\n", "| module | what is assumed of which key |", "|---|---|", *told, ""]))
     return "\n".join(parts)
 
 

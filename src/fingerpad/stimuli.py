@@ -25,7 +25,9 @@ Builder = Callable[[Mapping[str, Any], int, Path], list[Condition]]
 Displacement = TypeVar("Displacement", FloatArray, ComplexArray)
 
 ALTERNATE = "alternate"  # dispersion of a row whose neighbours differ
-# ASSUME: stimulus.playback: cycle is followed in so many straight lines
+# What actuators in turn move of a relative displacement [1], by what it is relative to
+SHARES = {"neighbour": (0.5, -0.5), "row": (1.0, -1.0), "leader": (0.0, -1.0)}
+# ASSUME: stimulus.playback: cycle is followed in CYCLE_STEPS straight lines
 CYCLE_STEPS = 64  # [1]; source: scores are within 0.2 % of those with 128 for Devices 1 and 2, with 16 within 1.4 %
 
 
@@ -76,33 +78,32 @@ def _lags(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float,
 
 
 def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
-    """Actuator i at absolute + (-1)^i relative / 2 (paper, Table 1)."""
+    """Actuators at their absolute displacement and shares of the relative one in turn (paper, Table 1)."""
     return [
         Condition(
             _named(ALTERNATE, row["phase"]),
             ALTERNATE,
             float(row["phase"]),
             np.array([1.0]),
-            **_directed(stimulus, _alternating(row, count)[None, :]),
+            **_directed(stimulus, _alternating(row, stimulus["relative_to"], count)[None, :]),
         )
         for row in stimulus["rows"]
     ]
 
 
 def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
-    """Actuator i at (absolute + (-1)^i relative / 2) cos(w t)."""
+    """Actuators at the displacements of `alternating` times cos(w t)."""
     cycles = []
     for row in stimulus["rows"]:
-        amplitude: ComplexArray = _alternating(row, count).astype(np.complex128)
+        amplitude: ComplexArray = _alternating(row, stimulus["relative_to"], count).astype(np.complex128)
         directed = _directed(stimulus, amplitude)
         cycles.append(Cycle(_named(ALTERNATE, row["phase"]), ALTERNATE, float(row["phase"]), **directed))
     return cycles
 
 
-def _alternating(row: Mapping[str, Any], count: int) -> FloatArray:
+def _alternating(row: Mapping[str, Any], relative_to: str, count: int) -> FloatArray:
     """Displacements (count,) [mm] of a row of actuators whose neighbours differ."""
-    sign = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
-    return np.asarray(row["absolute"] + sign * row["relative"] / 2.0)
+    return np.asarray(row["absolute"] + np.resize(SHARES[relative_to], count) * row["relative"])
 
 
 def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
@@ -157,8 +158,8 @@ CYCLES: Mapping[str, Callable[[Mapping[str, Any], int], list[Cycle]]] = {
 
 def _directed(stimulus: Mapping[str, Any], displacement: Displacement) -> dict[str, Displacement]:
     """Displacements (..., n_actuators) [mm] of a half-cycle as normal and tangential ones; `both` is both."""
-    # ASSUME: stimulus.half_cycle: first, positive into the skin or to the right. A row that is not its own mirror image
-    # has other gaps open in the second, where every displacement has the opposite sign.
+    # ASSUME: stimulus.half_cycle: first is positive into the skin or to the right. In the second every displacement has
+    # the opposite sign, and a row that is not its own mirror image has other gaps open.
     direction, still = stimulus["direction"], np.zeros_like(displacement)
     shown = displacement if stimulus["half_cycle"] == "first" else still - displacement  # no -0
     return {

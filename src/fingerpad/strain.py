@@ -35,6 +35,7 @@ def receptor_readouts(
     mesh matters): the reference actuator's peak for a snapshot, the peak of the cycle otherwise. Where all values count
     as equal the change is zero. measure: of strains (3m,).
     """
+    # ASSUME: readout: the change of strain is that from the pre-indented state
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0

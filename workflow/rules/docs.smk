@@ -1,19 +1,21 @@
 # Pages and pictures of docs/ that follow from scene files and from `all`: `snakemake docs`. Those that say what was measured
 # are in pages.smk.
-# REQUIRED INPUTS: scene files, the code, results/figures/figure_5_correlation.png.
-# OUTPUTS: docs/assumptions.md, docs/map.md, docs/figures/figure_5_correlation.png
+# REQUIRED INPUTS: scene files, the code, results/claims.csv, results/figures/figure_5_correlation.png.
+# OUTPUTS: docs/assumptions.md, docs/map.md, docs/claims.md, docs/figures/figure_5_correlation.png
 
 
 rule docs:
     input:
         "docs/assumptions.md",
         "docs/map.md",
+        "docs/claims.md",
         "docs/figures/figure_5_correlation.png",
 
 
 rule assumptions:
     input:
         files=[CONFIG, *DEVICE_FILES],
+        modules=sorted((SOURCE / "fingerpad").glob("*.py")),
     output:
         listed="docs/assumptions.md",
     log:
@@ -41,6 +43,22 @@ rule code_map:
         code=code("code_map.py"),
     script:
         "../scripts/code_map.py"
+
+
+rule claims_page:
+    input:
+        template=BASE / "workflow" / "pages" / "claims.md",
+        claims="results/claims.csv",
+    output:
+        page="docs/claims.md",
+    log:
+        "results/logs/claims_page.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("claims_page.py"),
+    script:
+        "../scripts/claims_page.py"
 
 
 rule shown_figure:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..alternatives import FIRST, SECOND
-from ..claims import Holds
+from ..claims import Holds, Kind
 from ..tissue_law import Kinematics
 from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
@@ -27,6 +27,7 @@ MARKS: dict[Holds, dict[str, Any]] = {
 CAPTION = (
     "n = {count} members: in each one assumption is varied, as named under the panels, or none. Left mark of a pair:"
     " first half-cycle of the stimulus, right: second. No mark: a path that could not be followed, or no prediction."
+    " (weaker): follows from what the paper says."
     " Ratings: ordinal surrogates where data/ratings.csv calls them so."
 )
 
@@ -58,7 +59,9 @@ def _marks(axes: Axes, claims: pd.DataFrame, statements: list[str], members: lis
     for holds, look in MARKS.items():
         own = claims["holds"] == str(holds)
         axes.plot(place[own], row[own], linestyle="none", markersize=SIZE, **look)
-    axes.set_yticks(range(len(statements)), ["\n".join(wrap(each, CLAIM_WIDTH)) for each in statements])
+    weaker = set(claims.loc[claims["kind"] == Kind.WEAKER, "claim"])
+    told = [f"{each} (weaker)" if each in weaker else each for each in statements]
+    axes.set_yticks(range(len(statements)), ["\n".join(wrap(each, CLAIM_WIDTH)) for each in told])
     axes.set_xlim(-0.5, len(members) - 0.5)
     axes.set_ylim(len(statements) - 0.5, -0.5)
     for between in range(1, len(members)):

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
+from ..claims import Kind
 from ..figures.style import KINEMATICS_NAME
 from ..ratings import RatingKind
 from ..sources import Origin, Quantity
@@ -82,8 +83,8 @@ def report(
 
 
 def _verdicts(claims: Sequence[Row]) -> dict[str, Counter[str]]:
-    """How many statements end in each verdict, by the name of the kinematics."""
+    """How many statements as the paper makes them end in each verdict, by the name of the kinematics."""
     found: dict[str, Counter[str]] = {}
-    for row in claims:
+    for row in (each for each in claims if each["kind"] == Kind.STATED):
         found.setdefault(KINEMATICS_NAME[Kinematics(row["kinematics"])], Counter())[row["holds"]] += 1
     return found

@@ -1,0 +1,39 @@
+"""The page of the paper's statements: the verdict on each, and the numbers behind it."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from .claims import Holds, Kind
+from .pages import table
+
+
+def claims_values(claims: pd.DataFrame) -> dict[str, object]:
+    """What `workflow/pages/claims.md` asks for, from the table of `claims.claims_table`."""
+    return {
+        "counts": "\n".join(_counted(each, own) for each, own in claims.groupby("kinematics", sort=False)),
+        "verdicts": table(_verdicts(claims)),
+        "evidence": "\n\n".join(_evidence(claim, own) for claim, own in claims.groupby("claim", sort=False)),
+    }
+
+
+def _counted(kinematics: object, claims: pd.DataFrame) -> str:
+    """How many statements as the paper makes them end in each verdict."""
+    stated = claims.loc[claims["kind"] == Kind.STATED, "holds"]
+    numbers = ", ".join(f"{(stated == each).sum()} {each}" for each in Holds)
+    return f"- With {kinematics} kinematics, of n = {stated.size}: {numbers}."
+
+
+def _verdicts(claims: pd.DataFrame) -> pd.DataFrame:
+    """A row a statement, a column of verdicts for each kinematics; empty where there is none."""
+    told = ["claim", "kind", "source"]
+    wide = claims.pivot(index=told, columns="kinematics", values="holds").fillna("")
+    kinematics = list(claims["kinematics"].unique())
+    rows = wide.reindex(pd.MultiIndex.from_frame(claims[told].drop_duplicates())).reset_index()
+    return rows[["claim", "kind", *kinematics, "source"]].rename(columns={"claim": "statement"})
+
+
+def _evidence(claim: object, own: pd.DataFrame) -> str:
+    """A statement with the numbers of each kinematics."""
+    lines = [f"- {row.kinematics}, {row.holds}: {row.evidence}" for row in own.itertuples()]
+    return "\n".join([f"**{claim}**", "", *lines])
