@@ -32,6 +32,7 @@ from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.section import DRIVEN, HEAD, section_figure
 from fingerpad.figures.shear import shear_figure
+from fingerpad.figures.stimuli import stimuli_figure
 from fingerpad.figures.style import MIDDLE, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.finger import Material
@@ -318,16 +319,30 @@ def test_accuracy_of_finite_kinematics_stands_apart_and_tolerances_have_their_qu
     assert "in its quantity's colour" not in words(finite)
 
 
-def test_receptor_figure_has_a_row_a_device() -> None:
+@pytest.mark.parametrize("devices", [DEVICES, [UNRATED], [SINGLE]], ids=len)
+def test_stimuli_have_a_panel_a_condition(devices: list[Device]) -> None:
+    figure = stimuli_figure(devices)
+    require_legible(figure)
+    conditions = [condition for device in devices for condition in device.conditions]
+    assert len(figure.axes) == len(conditions)
+    for axes, condition in zip(figure.axes, conditions, strict=True):
+        heights = np.array([bar.get_height() for bar in axes.patches]).reshape(2, -1)  # normal, then lateral
+        moved = 1e3 * np.stack([condition.normal, condition.tangential])  # um
+        assert np.abs(heights).max() == pytest.approx(np.abs(moved).max())
+        assert heights.shape[1] == moved.shape[2]
+        bottom, top = axes.get_ylim()
+        assert bottom <= heights.min() <= heights.max() <= top
+
+
+def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
     figure = receptor_figure([make_readouts(device) for device in DEVICES])
     require_legible(figure)
-    assert len(figure.axes) == 2 * len(DEVICES)
+    assert len(figure.axes) == 2 * sum(len({c.dispersion for c in device.conditions}) for device in DEVICES)
     assert {label for _, label in axis_labels(figure)} == {"Strain (%)", "Change of strain (%)"}
     assert len({axes.get_xlim() for axes in figure.axes}) == 1
     text = words(figure)
-    assert "Phased pins (n = 8 conditions)" in text
+    assert "Phased pins, low dispersion (n = 4 conditions)" in text
     assert "unrated: push" in text
-    # low_000 and high_000 are one stimulus here, and drawn once: as are all phases of both dispersions
     assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]) == 4
 
 
@@ -477,9 +492,10 @@ def make_contact(row: ActuatorRow) -> CondensedSection:
 def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatArray) -> Solution:
     place = (contact.position[:, 0].reshape(len(row.positions), -1) - np.array(row.positions)[:, None]).ravel()
     none = np.zeros(0)
+    force = np.stack([0.0 * traction, traction], axis=1)
     return Solution(
-        1.5, 1.5, none, none, traction, 0.5 * traction, place, np.where(traction > 0.0, Status.STICK, Status.OPEN),
-        none, none, none, 1, 0, 0, Certificate(*[0.0] * 9),
+        1.5, 1.5, contact.position, force, none, traction, 0.5 * traction, place,
+        np.where(traction > 0.0, Status.STICK, Status.OPEN), none, none, none, 1, 0, 0, Certificate(*[0.0] * 9),
     )  # fmt: skip
 
 
@@ -492,21 +508,24 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     side = np.array([[0, 1]])
     contact = make_contact(device.actuators)
     still = np.zeros((len(distinct), *corner.shape))
-    fields = Fields(corner, side, side, still, np.full(shape, 0.2), contact.position[:, 0])
+    fields = Fields(corner, side, side, still, np.full(shape, 0.2), np.full(shape, -0.003))
     pressed = np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0)
     solution = make_solution(contact, device.actuators, np.tile(pressed, len(device.actuators.positions)))
     shown = [c.name for c in device.conditions if c.dispersion == dispersion]
     scene = Scene(MODEL, device)
     figure = strain_map_figure(scene, dispersion, fields, dict.fromkeys(shown, solution))
     require_legible(figure)
-    for above, beneath in zip(figure.axes[: len(shown)], figure.axes[min(len(shown), 3) :], strict=False):
+    for above, beneath in zip(figure.axes[: len(shown)], figure.axes[2 * min(len(shown), 3) :], strict=False):
         if beneath.get_xlabel():
             assert above.get_position().intervalx == pytest.approx(beneath.get_position().intervalx, abs=1e-3)
     labels = axis_labels(figure)
     assert labels.count(("x (mm)", "Traction (kPa)")) >= 1
-    assert len(figure.axes) == 2 * len(shown) + 1
-    assert "Max. principal strain" in labels[-1][1]
-    assert "%" in labels[-1][1]
+    assert len(figure.axes) == 3 * len(shown) + 2
+    assert "Max. principal strain" in labels[-2][1]
+    assert "Change of\nstrain (%)" in labels[-1][1]
+    bar = figure.axes[-1].get_ylim()
+    assert bar[0] == -bar[1]
+    assert bar[1] >= 0.3  # per cent: the change that is drawn
     text = words(figure)
     assert device.title in text
     assert f"n = {len(shown)} condition" in text
@@ -524,14 +543,18 @@ def test_styles_differ_wherever_conditions_do() -> None:
 
 
 def test_faces_are_projected_on_the_receptor_line() -> None:
-    x = np.linspace(-4.0, 4.0, 9)
+    """Receptors every 0.1 mm, at arc lengths 1.1 times their place, 0.6 mm above a skin that faces touch within 0.4 mm
+    of their centres; the last one touches nothing.
+    """
+    x = np.linspace(-4.0, 4.0, 81)
+    contact = make_contact(PINS)
+    pressed = np.where(np.abs(np.linspace(-0.6, 0.6, 25)) < 0.41, 0.03, 0.0)
+    traction = np.concatenate([pressed, pressed, 0.0 * pressed])
     none = np.zeros((0, 0))
-    condensed = CondensedSection(none, none, none, np.stack([x, 0.0 * x], axis=1), 1.1 * x, none, 0.0)
-    np.testing.assert_allclose(face_arcs(PHASED, condensed), 1.1 * np.array([[-2.5, -1.5], [-0.5, 0.5], [1.5, 2.5]]))
-    around = np.concatenate([[-2.0, -3.0], x, [3.0, 2.0]])  # beyond its widest the line comes back
-    arc = 1.1 * np.arange(-6.0, 7.0)
-    condensed = CondensedSection(none, none, none, np.stack([around, 0.0 * around], axis=1), arc, none, 0.0)
-    np.testing.assert_allclose(face_arcs(PHASED, condensed), 1.1 * np.array([[-2.5, -1.5], [-0.5, 0.5], [1.5, 2.5]]))
+    condensed = CondensedSection(none, none, none, np.stack([x, 0.0 * x + 0.6], axis=1), 1.1 * x, none, 0.0)
+    found = face_arcs(PHASED, condensed, make_solution(contact, PINS, traction))
+    expected = 1.1 * np.array([[-2.4, -1.6], [-0.4, 0.4], [np.nan, np.nan]])
+    np.testing.assert_allclose(found, expected, atol=1e-9)  # but for rounding
 
 
 def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd.DataFrame) -> None:

@@ -15,7 +15,8 @@ class Fields:
 
     corner: (2, 3 n_elements) undeformed corners [mm], three an element. interface, boundary: (k, 2) corners at the
     ends of the facets between layers and on the outside. displacement: (n_loadings, 2, 3 n_elements) [mm]. strain:
-    (n_loadings, 3 n_elements) maximum principal strain [1]. contact: (n,) x of the undeformed contact nodes [mm].
+    (n_loadings, 3 n_elements) maximum principal strain [1]. change: (n_loadings, 3 n_elements) of it since the
+    pre-indented state [1].
     """
 
     corner: FloatArray
@@ -23,4 +24,4 @@ class Fields:
     boundary: np.ndarray
     displacement: FloatArray
     strain: FloatArray
-    contact: FloatArray
+    change: FloatArray

@@ -36,15 +36,16 @@ class Solution:
     """A solved condition.
 
     indentation: height of the faces above the lowest point of the undeformed pad [mm]. depth: largest height of an
-    actuator above that at which it first touches undeformed skin [mm], at any time. indented_force: (n, 2) [N/mm] after
-    pre-indentation. force: (n_times, n, 2) [N/mm] at the stimulus's times. pressure, shear: (n,) [MPa] at the
-    end. place: (n,) x of the skin nodes from their actuator's centre at the end [mm]. status: (n,) at the end. arc:
-    (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts, searches: of the whole
-    path. certificate.
+    actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
+    nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
+    the stimulus's times. pressure, shear: (n,) [MPa] at the end. place: (n,) x of the skin nodes from their actuator's
+    centre at the end [mm]. status: (n,) at the end. arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1].
+    iterations, cuts, searches: of the whole path. certificate.
     """
 
     indentation: float
     depth: float
+    position: FloatArray
     indented_force: FloatArray
     force: FloatArray
     pressure: FloatArray
@@ -170,6 +171,7 @@ def solution(
     return Solution(
         float(before.actuator[0, 1]),
         depth(problem, np.array([state.actuator for state in states])),
+        section.position,
         before.force,
         np.array([state.force for state in states[1:]]),
         pressing / section.weight,

@@ -26,7 +26,6 @@ from .mean_stress import element_means, recover_linear
 from .measures import stress
 from .mesh import SectionMesh
 from .pressing import press
-from .reach import contact_tractions
 from .recovery import gradient_at, recover_displacement, strain_of
 from .scene import Scene
 from .solution import Solution, solve_condition
@@ -116,19 +115,22 @@ def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points
 
 
 def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) -> Fields:
-    """What maps draw of states with those displacements (n_states, 2, n_nodes) [mm]."""
+    """What maps draw of the pre-indented state and others with those displacements (n_states, 2, n_nodes) [mm]."""
     corners = section.mesh.t.T.ravel()
     one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
     one_of[corners] = np.arange(corners.size)
     interface, boundary = (
         one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
     )
-    strains = [strain_at(scene, section.mesh, each, CORNERS).ravel() for each in displacement]
+    before, *strains = (
+        maximum_principal(strain_at(scene, section.mesh, each, CORNERS).ravel()) for each in displacement
+    )
+    strain = np.array(strains)
     return Fields(
         section.mesh.doflocs[:, corners],
         interface,
         boundary,
-        displacement[:, :, corners],
-        np.array([maximum_principal(each) for each in strains]),
-        contact_tractions(section, scene).position[:, 0],
+        displacement[1:, :, corners],
+        strain,
+        strain - before,
     )

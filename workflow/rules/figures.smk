@@ -32,6 +32,7 @@ FIGURES = [
         ),
         *(["kinematics"] if Kinematics.FINITE in KINEMATICS else []),
         "section",
+        "stimuli",
         *(f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]),
     )
     for suffix in ("png", "pdf")
@@ -83,6 +84,10 @@ rule figure_receptors:
         devices=ancient(lambda w: files_with(mode_of(w))),
         recordings=ancient(ALL_RECORDINGS),
         condensed=lambda w: [f"results/small/{name}/condensed.npz" for name in DEVICES_WITH[mode_of(w)]],
+        solutions=lambda w: [
+            f"results/{mode_of(w)}/{name}/{SCENE[name].device.conditions[0].name}/shear/solution.npz"
+            for name in DEVICES_WITH[mode_of(w)]
+        ],
         filtered=lambda w: [
             f"results/{mode_of(w)}/{name}/{condition.name}/shear/filtered.npz"
             for name in DEVICES_WITH[mode_of(w)]
@@ -190,6 +195,25 @@ rule figure_section:
         "../scripts/figure_section.py"
 
 
+rule figure_stimuli:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+    output:
+        png="results/figures/stimuli.png",
+        pdf="results/figures/stimuli.pdf",
+    log:
+        "results/logs/figures/stimuli.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("figure_stimuli.py"),
+        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
+    script:
+        "../scripts/figure_stimuli.py"
+
+
 rule figure_map:
     input:
         config=ancient(CONFIG),
@@ -227,6 +251,7 @@ if LATERAL:
             device=ancient(SCENES / "devices" / f"{LATERAL}.yaml"),
             recordings=ancient(RECORDINGS[LATERAL]),
             condensed=f"results/small/{LATERAL}/condensed.npz",
+            solution=f"results/small/{LATERAL}/{SCENE[LATERAL].device.conditions[0].name}/shear/solution.npz",
             filtered=[
                 f"results/small/{LATERAL}/{condition.name}/shear/filtered.npz"
                 for condition in SCENE[LATERAL].device.conditions

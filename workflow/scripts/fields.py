@@ -27,7 +27,7 @@ def main(
     solutions: list[Path],
     fields: Path,
 ) -> None:
-    """Read the last contact forces of every solution, recover the fields, write them in the same order.
+    """Read the first and last contact forces of every solution, recover the fields, write them in the same order.
 
     pressed: with finite kinematics the pressed finger, from where every stimulus is solved, as forces are not enough.
     """
@@ -36,10 +36,11 @@ def main(
         actuators = load(body, CondensedBody) if body else None
         finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
         names = [path.parent.parent.name for path in solutions]
-        ends = [deformed_states(scene, finger, scene.device.condition(name)).displacement[-1] for name in names]
-        displacement = np.array(ends)
+        states = [deformed_states(scene, finger, scene.device.condition(name)).displacement for name in names]
+        displacement = np.array([states[0][0], *(each[-1] for each in states)])
     else:
-        forces = np.array([load(path, Solution).force[-1] for path in solutions])
+        solved = [load(path, Solution) for path in solutions]
+        forces = np.array([solved[0].indented_force, *(each.force[-1] for each in solved)])
         displacement = recover_displacement(section, scene, forces)
     save(fields, states_fields(scene, section, displacement))
 

@@ -6,21 +6,29 @@ from fingerpad.compliance import CondensedSection
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.style import save
 from fingerpad.scenefile import load_scene
+from fingerpad.solution import Solution
 from fingerpad.store import load
 from fingerpad.strain import FilteredReadouts
 from fingerpad.tissue_law import Kinematics
 
 
 def main(
-    config: Path, devices: list[Path], condensed: list[Path], filtered: list[Path], kinematics: str, stem: Path
+    config: Path,
+    devices: list[Path],
+    condensed: list[Path],
+    solutions: list[Path],
+    filtered: list[Path],
+    kinematics: str,
+    stem: Path,
 ) -> None:
     """Read every device's read-outs (in the order of devices and their conditions), draw, write PNG and PDF."""
     waiting = iter(filtered)
     entries = []
-    for path, section in zip(devices, condensed, strict=True):
+    for path, section, solution in zip(devices, condensed, solutions, strict=True):
         device = load_scene(config, path).device
         readouts = {condition.name: load(next(waiting), FilteredReadouts) for condition in device.conditions}
-        entries.append(DeviceReadouts(device, readouts, face_arcs(device, load(section, CondensedSection))))
+        faces = face_arcs(device, load(section, CondensedSection), load(solution, Solution))
+        entries.append(DeviceReadouts(device, readouts, faces))
     save(receptor_figure(entries, Kinematics(kinematics)), stem)
 
 
@@ -30,6 +38,7 @@ if __name__ == "__main__":
         Path(job.input.config),
         [Path(path) for path in job.input.devices],
         [Path(path) for path in job.input.condensed],
+        [Path(path) for path in job.input.solutions],
         [Path(path) for path in job.input.filtered],
         job.params.kinematics,
         Path(job.output.png).with_suffix(""),

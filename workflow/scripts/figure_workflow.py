@@ -10,17 +10,21 @@ from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.scenefile import load_scene
+from fingerpad.solution import Solution
 from fingerpad.store import load
 from fingerpad.strain import FilteredReadouts
 from fingerpad.tissue_law import Kinematics
 
 
-def main(config: Path, device: Path, condensed: Path, filtered: list[Path], scores: Path, stem: Path) -> None:
+def main(
+    config: Path, device: Path, condensed: Path, solution: Path, filtered: list[Path], scores: Path, stem: Path
+) -> None:
     """Read one device's read-outs (in the order of its conditions) and its scores, draw, write PNG and PDF."""
     scene = load_scene(config, device)
     names = [condition.name for condition in scene.device.conditions]
     readouts = {name: load(path, FilteredReadouts) for name, path in zip(names, filtered, strict=True)}
-    entry = DeviceReadouts(scene.device, readouts, face_arcs(scene.device, load(condensed, CondensedSection)))
+    faces = face_arcs(scene.device, load(condensed, CondensedSection), load(solution, Solution))
+    entry = DeviceReadouts(scene.device, readouts, faces)
     table = rows_with(pd.read_csv(scores), Kinematics.SMALL)
     own = table[(table["device"] == scene.device.name) & (table["interface"] == Interface.SHEAR)]
     save(workflow_figure(entry, scene.model.gabor, scene.model.readout, own), stem)
@@ -32,6 +36,7 @@ if __name__ == "__main__":
         Path(job.input.config),
         Path(job.input.device),
         Path(job.input.condensed),
+        Path(job.input.solution),
         [Path(path) for path in job.input.filtered],
         Path(job.input.scores),
         Path(job.output.png).with_suffix(""),

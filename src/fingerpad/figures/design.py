@@ -145,7 +145,7 @@ class DesignPicture:
         designs = [(self._now, PLACES["now"], answer), *([(self._before, PLACES["before"], before)] if before else [])]
         for artists, place, each in designs:
             _set(artists, place, each)
-        faces = face_arcs(answer.scene.device, answer.section)
+        faces = face_arcs(answer.scene.device, answer.section, answer.solution)
         for artist, (start, stop) in zip(self._faces, np.tile(faces, (len(Readout), 1)), strict=True):
             artist.set(x=start, width=stop - start)
         indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status)

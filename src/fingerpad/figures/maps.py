@@ -1,4 +1,4 @@
-"""Strain maps on the deformed section with the contact tractions beneath, for one device and dispersion.
+"""Maps of strain and its change on the deformed section, contact tractions beneath, for a device and dispersion.
 
 What is drawn are nodal forces over the skin that belongs to their node, with straight lines between: the linear
 tractions of the model (`traction`), whose integral is the contact force.
@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, TriMesh
-from matplotlib.colors import PowerNorm
+from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
@@ -50,16 +51,20 @@ ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces 
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
-    "{counted}, {kinematics}, at the end of the stimulus; displacements to scale. Tractions: linear between nodes."
+    "{counted}, {kinematics}, at the end of the stimulus; displacements to scale. Change: from the pre-indented state,"
+    " at the same tissue. Tractions: linear between nodes."
 )
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
 COVERED = 99.5  # per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar
-STEP = 5.0  # per cent of strain to which the colours' end is rounded up
+STEP, CHANGE_STEP = 5.0, 0.5  # per cent of strain, and of its change, to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
 STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "log. strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
+CHANGE_COLOURS = "RdBu_r"  # red and blue are told apart whichever colours one sees; white is no change
+
+Window = tuple[tuple[float, float], tuple[float, float]]  # ((left, right), (bottom, top)) that is shown [mm]
 
 
 @styled
@@ -69,7 +74,8 @@ def strain_map_figure(
     fields: Fields,
     solutions: Mapping[str, Solution],
 ) -> Figure:
-    """Maximum principal strain at the end of the stimulus and contact tractions, with shear, a panel a condition.
+    """Maximum principal strain at the end of the stimulus, its change and contact tractions, with shear, a column of
+    panels a condition.
 
     fields: a loading for each distinct stimulus of the device, in the order of its conditions. solutions: by
     condition, for all of the dispersion. The colours are common to all figures of one device.
@@ -83,46 +89,60 @@ def strain_map_figure(
     reach = max(abs(x) for x in row.positions) + row.width / 2.0 + ASIDE
     reach = max(reach, (top - bottom) * NARROWEST / 2.0)
     window = ((-reach, reach), (bottom, top))
-    end = colour_end(fields, window)
+    shown = _in_view(fields, window)
+    name, end = STRAIN_NAME[scene.kinematics], colour_end(shown, shown.strain, STEP)
+    change_end = colour_end(shown, np.abs(shown.change), CHANGE_STEP)
 
     columns = min(len(conditions), len(WIDTHS))
     blocks = math.ceil(len(conditions) / columns)
     width = WIDTHS[columns - 1]
     map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (top - bottom) / (2.0 * reach)
-    height = blocks * (map_height + TRACTION_HEIGHT + FURNITURE) + BASE
+    height = blocks * (2.0 * map_height + TRACTION_HEIGHT + FURNITURE) + BASE
     figure = new_figure(width, height)
     grid = figure.subplots(
-        2 * blocks, columns, squeeze=False, sharex=True, height_ratios=[map_height, TRACTION_HEIGHT] * blocks
+        3 * blocks,
+        columns,
+        squeeze=False,
+        sharex=True,
+        height_ratios=[map_height, map_height, TRACTION_HEIGHT] * blocks,
     )
-    maps, tractions = grid[0::2].ravel(), grid[1::2].ravel()
-    styles = condition_styles(shown for shown in conditions_of([device]) if shown.dispersion == dispersion)
+    maps, changes, tractions = (grid[number::3].ravel() for number in range(3))
+    styles = condition_styles(each for each in conditions_of([device]) if each.dispersion == dispersion)
     drawn_tractions = KILO * np.array([traction for s in solutions.values() for traction in (s.pressure, s.shear)])
     limits = HEADROOM * float(drawn_tractions.min()), HEADROOM * float(drawn_tractions.max())
-    for axes, beneath, condition in zip(maps, tractions, conditions, strict=False):
+    scales = {
+        "max": (PowerNorm(0.5, 0.0, end), COLOURS, "white", f"Max. principal {name}\n(%, square-root scale)"),
+        "both": (Normalize(-change_end, change_end), CHANGE_COLOURS, GREY, f"Change of\n{name} (%)"),
+    }
+    drawn = {}
+    for above, below, beneath, condition in zip(maps, changes, tractions, conditions, strict=False):
         loading = distinct.index(device.first_with_stimulus_of(condition.name).name)
         solution = solutions[condition.name]
-        drawn = _draw_map(axes, fields, loading, end)
         rise = np.array([0.0, solution.indentation])
         offsets = condition.moves[-1] + rise
-        draw_actuators(axes, row, offsets, 2.0 * BELOW)
-        axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
-        axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
-        axes.set_title(styles.series[device.name, condition.name].label, loc="left")
-        axes.tick_params(labelleft=False)
+        for axes, values, (extend, scale) in zip(
+            (above, below), (shown.strain, shown.change), scales.items(), strict=True
+        ):
+            drawn[extend] = _draw_map(axes, shown, loading, values, *scale[:3])
+            draw_actuators(axes, row, offsets, 2.0 * BELOW)
+            axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
+            axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
+            axes.tick_params(labelleft=False)
+        above.set_title(styles.series[device.name, condition.name].label, loc="left")
         beneath.tick_params(labelleft=False, labelbottom=True)
-        _draw_tractions(beneath, row, fields.contact, solution, condition)
+        _draw_tractions(beneath, row, solution, condition)
         beneath.set_ylim(*limits)
         beneath.set_xlabel("x (mm)")
-    for axes in (*maps[len(conditions) :], *tractions[len(conditions) :]):
+    for axes in (each for kind in (maps, changes, tractions) for each in kind[len(conditions) :]):
         axes.remove()
-    for leftmost, label in ((maps[::columns], "y (mm)"), (tractions[::columns], "Traction (kPa)")):
-        for axes in leftmost:
+    for kind, label in ((maps, "y (mm)"), (changes, "y (mm)"), (tractions, "Traction (kPa)")):
+        for axes in kind[::columns]:
             axes.tick_params(labelleft=True)
             axes.set_ylabel(label)
-    figure.colorbar(
-        drawn, ax=list(maps[:columns]), extend="max", aspect=14, pad=0.01,
-        label=f"Max. principal {STRAIN_NAME[scene.kinematics]}\n(%, square-root scale)",
-    )  # fmt: skip
+    for kind, (extend, scale) in zip((maps, changes), scales.items(), strict=True):
+        figure.colorbar(
+            drawn[extend], ax=list(kind[:columns]), extend=extend, aspect=14, pad=0.01, label=scale[3],
+        )  # fmt: skip
     several = len({condition.dispersion for condition in device.conditions}) > 1
     named = f", {plain(dispersion)} dispersion" if several else ""
     figure.suptitle(as_title(figure, f"{device.title}{named}, with shear"), fontweight="bold")
@@ -137,38 +157,59 @@ def strain_map_figure(
     return figure
 
 
-def colour_end(fields: Fields, window: tuple[tuple[float, float], tuple[float, float]]) -> float:
-    """Strain [%] at which the colours end: COVERED per cent of the area in view, over all loadings, lie below."""
-    (left, right), (_, top) = window
-    corners = fields.corner.T.reshape(-1, 3, 2)
+@dataclass(frozen=True)
+class _Shown:
+    """What is seen of fields: elements (k, 3) as corners of theirs; strain, change (n_loadings, 3k) [1] there."""
+
+    fields: Fields
+    elements: np.ndarray
+    strain: FloatArray
+    change: FloatArray
+
+
+def _in_view(fields: Fields, window: Window) -> _Shown:
+    """The elements that a window shows under any loading, at whose corners alone fields are drawn."""
+    (left, right), (bottom, top) = window
+    x, y = (fields.corner + fields.displacement).transpose(1, 0, 2)
+    seen = ((x > left) & (x < right) & (y > bottom) & (y < top)).any(axis=0).reshape(-1, 3).any(axis=1)
+    elements = np.arange(fields.corner.shape[1]).reshape(-1, 3)[seen]
+    return _Shown(fields, elements, fields.strain[:, elements.ravel()], fields.change[:, elements.ravel()])
+
+
+def colour_end(shown: _Shown, values: FloatArray, step: float) -> float:
+    """Value [%] at which colours end: COVERED per cent of the area in view, over all loadings, have less.
+
+    values: (n_loadings, 3k) [1], none below zero. step: [%] to which it is rounded up.
+    """
+    corners = shown.fields.corner.T[shown.elements]
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
-    centre = corners.mean(axis=1)
-    seen = (centre[:, 0] > left) & (centre[:, 0] < right) & (centre[:, 1] < top)
-    strain = fields.strain.reshape(len(fields.strain), -1, 3).mean(axis=2)[:, seen]
-    order = np.argsort(strain, axis=None)
-    share = np.cumsum(np.tile(area[seen], len(strain))[order])
-    covered = strain.ravel()[order][np.searchsorted(share, COVERED / PERCENT * share[-1])]
-    return STEP * math.ceil(PERCENT * float(covered) / STEP)
+    means = values.reshape(len(values), -1, 3).mean(axis=2)
+    order = np.argsort(means, axis=None)
+    share = np.cumsum(np.tile(area, len(means))[order])
+    covered = means.ravel()[order][np.searchsorted(share, COVERED / PERCENT * share[-1])]
+    return step * max(math.ceil(PERCENT * float(covered) / step), 1)
 
 
-def _draw_map(axes: Axes, fields: Fields, loading: int, end: float) -> TriMesh:
-    """Strain on the deformed elements, rasterised; the layers' interfaces and the boundary as lines."""
+def _draw_map(
+    axes: Axes, shown: _Shown, loading: int, values: FloatArray, norm: Normalize, colours: str, lines: str
+) -> TriMesh:
+    """Values on the deformed elements, rasterised; the layers' interfaces, in a colour, and the boundary as lines."""
+    fields = shown.fields
     moved = fields.corner + fields.displacement[loading]
+    at = moved[:, shown.elements.ravel()]
     drawn = axes.tripcolor(
-        Triangulation(moved[0], moved[1], np.arange(moved.shape[1]).reshape(-1, 3)), PERCENT * fields.strain[loading],
-        shading="gouraud", cmap=COLOURS, norm=PowerNorm(0.5, 0.0, end), rasterized=True,
+        Triangulation(at[0], at[1], np.arange(at.shape[1]).reshape(-1, 3)), PERCENT * values[loading],
+        shading="gouraud", cmap=colours, norm=norm, rasterized=True,
     )  # fmt: skip
-    for lines, colour in ((fields.interface, "white"), (fields.boundary, "black")):
-        axes.add_collection(LineCollection(list(moved.T[lines]), colors=colour, linewidths=THIN, capstyle="round"))
+    for facets, colour in ((fields.interface, lines), (fields.boundary, "black")):
+        axes.add_collection(LineCollection(list(moved.T[facets]), colors=colour, linewidths=THIN, capstyle="round"))
     return drawn
 
 
-def _draw_tractions(
-    axes: Axes, row: ActuatorRow, contact: FloatArray, solution: Solution, condition: Condition
-) -> None:
-    """Pressure and shear of the nodes in contact, one line an actuator. contact: (n,) x of undeformed nodes [mm]."""
-    nearest = np.argmin(np.abs(contact[:, None] - np.asarray(row.positions)), axis=1)
+def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
+    """Pressure and shear of the nodes in contact, one line an actuator."""
+    nearest = np.argmin(np.abs(solution.position[:, [0]] - np.asarray(row.positions)), axis=1)
     centre = np.asarray(row.positions) + condition.tangential[-1]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear

@@ -1,4 +1,4 @@
-"""Strain and change of strain at the receptors, one row a device (mirrors the paper's figure 4)."""
+"""Strain and change of strain at the receptors, a row a device and dispersion (mirrors the paper's figure 4)."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ..arrays import FloatArray
 from ..compliance import CondensedSection
 from ..device import Device
 from ..readout import Readout
+from ..solution import Solution
 from ..strain import FilteredReadouts
 from ..tissue_law import Kinematics
 from .style import (
@@ -32,21 +33,22 @@ from .style import (
     legend_below,
     letter,
     new_figure,
+    plain,
     styled,
 )
 
-ROW_HEIGHT, LEGEND_HEIGHT = 44.0, 18.0  # mm
+ROW_HEIGHT, LEGEND_HEIGHT = 38.0, 18.0  # mm
 MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces of all devices
 MARKER_SPACING = 2.0  # mm between markers on a curve
 
-CAPTION = "With shear, {kinematics}. Conditions with one and the same stimulus are drawn once."
+CAPTION = "With shear, {kinematics}. In a row, conditions with one and the same stimulus are drawn once."
 
 
 @dataclass(frozen=True)
 class DeviceReadouts:
     """What one device does at the receptors, with shear.
 
-    readouts: by condition. faces: (n_actuators, 2) arc lengths [mm] at which the actuators' faces begin and end.
+    readouts: by condition. faces: (n_actuators, 2) arc lengths [mm] from `face_arcs`.
     """
 
     device: Device
@@ -54,35 +56,48 @@ class DeviceReadouts:
     faces: FloatArray
 
 
-def face_arcs(device: Device, section: CondensedSection) -> FloatArray:
-    """Where the faces (n_actuators, 2) begin and end along the receptor line [mm], straight above each."""
-    half = device.actuators.width / 2.0
-    edges = np.asarray(device.actuators.positions)[:, None] + np.array([-half, half])
-    across = section.receptor[:, 0]
-    pad = slice(int(across.argmin()), int(across.argmax()) + 1)  # beyond its widest the line comes back
-    return np.asarray(np.interp(edges, across[pad], section.arc[pad]))
+def face_arcs(device: Device, section: CondensedSection, solution: Solution) -> FloatArray:
+    """Where the skin that touches each actuator before the stimulus begins and ends (n_actuators, 2) along the receptor
+    line [mm]: at the receptors nearest to its ends in the undeformed section. NaN for an actuator that touches none.
+    """
+    skin = solution.position[solution.indented_force[:, 1] > 0.0]
+    actuator = np.abs(skin[:, [0]] - np.asarray(device.actuators.positions)).argmin(axis=1)
+    ends = np.full((len(device.actuators.positions), 2), np.nan)
+    for number in np.unique(actuator):
+        own = skin[actuator == number]
+        outermost = own[[own[:, 0].argmin(), own[:, 0].argmax()]]
+        apart = np.linalg.norm(outermost[:, None] - section.receptor, axis=2)
+        ends[number] = section.arc[apart.argmin(axis=1)]
+    return ends
 
 
 @styled
 def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = Kinematics.SMALL) -> Figure:
     """Strain (A) and change of strain (B) along the receptor line for all conditions of all devices, with shear."""
-    figure = new_figure(WIDE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
+    rows = [
+        (entry, dispersion)
+        for entry in devices
+        for dispersion in dict.fromkeys(condition.dispersion for condition in entry.device.conditions)
+    ]
+    figure = new_figure(WIDE, ROW_HEIGHT * len(rows) + LEGEND_HEIGHT)
     styles = condition_styles(conditions_of(entry.device for entry in devices))
-    grid = figure.subplots(len(devices), len(Readout), squeeze=False)
-    outermost = [(entry.faces.min(), entry.faces.max()) for entry in devices]
-    shown = min(start for start, _ in outermost) - MARGIN, max(stop for _, stop in outermost) + MARGIN
-    for row, entry in zip(grid, devices, strict=True):
+    grid = figure.subplots(len(rows), len(Readout), squeeze=False)
+    faces = np.concatenate([entry.faces for entry in devices])
+    shown = np.nanmin(faces) - MARGIN, np.nanmax(faces) + MARGIN
+    for row, (entry, dispersion) in zip(grid, rows, strict=True):
+        own = [condition for condition in entry.device.conditions if condition.dispersion == dispersion]
+        distinct = {entry.device.first_with_stimulus_of(condition.name).name: condition for condition in own[::-1]}
         for axes, readout in zip(row, Readout, strict=True):
             draw_faces(axes, entry.faces)
-            distinct = [c for c in entry.device.conditions if entry.device.first_with_stimulus_of(c.name) is c]
-            for number, condition in enumerate(distinct):
+            for number, condition in enumerate(reversed(distinct.values())):
                 found = entry.readouts[condition.name]
                 values = PERCENT * (found.strain if readout is Readout.STRAIN else found.change_of_strain)
                 series = styles.series[entry.device.name, condition.name]
                 draw_curve(axes, found.arc, values, series, number / len(distinct))
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        named = f"{entry.device.title} ({counted(entry.device.conditions)})"
+        several = len(own) < len(entry.device.conditions)
+        named = f"{entry.device.title}{f', {plain(dispersion)} dispersion' if several else ''} ({counted(own)})"
         row[0].set_title(as_title(figure, named, len(Readout)), loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
@@ -93,8 +108,8 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
 
 
 def draw_faces(axes: Axes, faces: FloatArray) -> None:
-    """Shade where the actuators' faces are."""
-    for start, stop in faces:
+    """Shade where skin touches the actuators' faces before the stimulus."""
+    for start, stop in faces[np.isfinite(faces).all(axis=1)]:
         axes.axvspan(start, stop, color=SHADE, linewidth=0.0, zorder=0)
 
 

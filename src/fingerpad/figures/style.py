@@ -319,7 +319,7 @@ def score_label(readout: Readout, unit: str) -> str:
 
 def face_handle() -> Patch:
     """Legend entry of the shaded faces."""
-    return Patch(color=SHADE, label="actuator face")
+    return Patch(color=SHADE, label="under a face before the stimulus")
 
 
 def subtitle(axes: Axes, title: str, text: str) -> None:

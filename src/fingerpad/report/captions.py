@@ -106,6 +106,15 @@ def _section(results: Results) -> Words:
     )
 
 
+def _stimuli(results: Results) -> Words:
+    counts = "; ".join(f"{scene.device.title}: {counted(scene.device.conditions)}" for scene in results.scenes)
+    return Words(
+        "Stimuli",
+        "Bars: how far every actuator moves in every condition of each device.",
+        f"Displacements from the pre-indented position, actuators from left to right. {counts}.",
+    )
+
+
 def _workflow(results: Results) -> Words:
     device, gabor = results.device(results.lateral), results.scenes[0].model.gabor
     scores = ". ".join(
@@ -127,8 +136,9 @@ def _receptors(results: Results) -> Words:
     )
     return Words(
         "Strain and change of strain at the receptors",
-        "Curves of strain (left) and change of strain (right) along the receptor line, one row a device.",
-        f"Maximum principal strain and its change from pre-indentation, with shear. {counts}. Grey: actuator faces.",
+        "Curves of strain (left) and change of strain (right) along the receptors, a row a device and dispersion.",
+        f"Maximum principal strain and its change from pre-indentation, with shear. {counts}."
+        " Grey: under a face before the stimulus.",
     )
 
 
@@ -191,13 +201,14 @@ def _map(results: Results, device: Device, dispersion: str) -> Words:
     shown = _scores(results, device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN, [one.name for one in chosen])
     return Words(
         f"Strain in the section: {device.title}, {plain(dispersion)} dispersion",
-        "Colour maps of the maximum principal strain in the deformed section, and contact tractions on the skin.",
+        "Colour maps of the maximum principal strain in the deformed section and of its change; tractions on the skin.",
         f"With shear, {counted(chosen)}. Change-of-strain scores: {shown}.",
     )
 
 
 _WRITERS: dict[str, Callable[[Results], Words]] = {
     "section": _section,
+    "stimuli": _stimuli,
     "figure_3_workflow": _workflow,
     "figure_4_receptors": _receptors,
     "figure_5_correlation": _correlation,
