@@ -119,6 +119,11 @@ def test_what_cannot_be_varied_is_named(alternative: Alternative, said: str) -> 
         member_scenes(CONFIG, DEVICES, alternative, FIRST)
 
 
+def test_devices_without_half_cycles_have_no_ensemble() -> None:
+    with pytest.raises(SceneError, match=r"no device has a value stimulus\.half_cycle"):
+        member_scenes(CONFIG, {}, None, FIRST)
+
+
 @pytest.fixture(scope="module")
 def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
     """Scores as the paper says; with less friction Device 2's strain falls, and in the second half-cycle Device 3's

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fingerpad.files import replacing, require_folder, write_text
-from fingerpad.store import write_rows
+from fingerpad.store import read_rows, write_rows
 
 
 def test_a_failed_write_leaves_what_was_there(tmp_path: Path) -> None:
@@ -25,6 +25,11 @@ def test_a_row_that_does_not_fit_leaves_no_table(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="b"):
         write_rows(tmp_path / "table.csv", [{"a": 1}, {"b": 2}])
     assert not list(tmp_path.iterdir())
+
+
+def test_no_rows_are_an_empty_table(tmp_path: Path) -> None:
+    write_rows(tmp_path / "table.csv", [])
+    assert read_rows(tmp_path / "table.csv") == []
 
 
 def test_a_written_file_replaces_the_old_one(tmp_path: Path) -> None:

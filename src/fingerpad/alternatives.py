@@ -106,13 +106,15 @@ def member_scenes(
     """Scene files of a member. Without an alternative all devices that have half-cycles, as they are.
 
     An alternative of the model concerns all of them, one of devices those that assume the value. Raises SceneError if
-    it is a key that none has, or a number's factor on what is none.
+    it is a key that none has, or a number's factor on what is none, and if no device has half-cycles.
     """
     cycled = {
         name: _with(document, HALF_CYCLE, lambda _: half_cycle, "varied: half-cycle")
         for name, document in devices.items()
         if "half_cycle" in document["stimulus"]
     }
+    if not cycled:
+        raise SceneError(f"ensemble: no device has a value {HALF_CYCLE}")
     if alternative is None:
         return Scenes(config, cycled)
     source = f"varied: {alternative.source}"

@@ -19,9 +19,11 @@ def main(
     claims: Path,
     correlations: Path,
 ) -> None:
-    """Read all members' scores and literature data, check the statements, write the tables."""
+    """Read all members' scores and literature data, check the statements, write the tables. A member that varies no
+    device with its kinematics has an empty file.
+    """
     tables = ensemble_tables(
-        pd.concat([pd.read_csv(path) for path in members], ignore_index=True),
+        pd.concat([pd.read_csv(path) for path in members if path.stat().st_size], ignore_index=True),
         pd.read_csv(scores),
         read_ratings(ratings, conditions),
         read_stated_order(order, conditions),
