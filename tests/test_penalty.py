@@ -97,6 +97,14 @@ def test_friction_holds_its_cone_on_turning_normals() -> None:
     assert np.any(beyond[pressing > 0.0] > 0.0)  # the edges do press
 
 
+def test_a_flat_face_may_be_overlapped_by_the_radius_of_its_edges() -> None:
+    """Nodes there are as high as the centres of the edges, and have a normal all the same."""
+    problem, weight = pressed_block(0.1, 0.6)
+    with np.errstate(divide="raise", invalid="raise"):
+        state = press(problem, weight, LAW, untouched(problem), lift(problem, 0.0, 0.1), 1)
+    assert state.force[:, 1].sum() > 0.0
+
+
 def test_without_friction_the_work_done_is_stored() -> None:
     """Work of the actuators along the path = energy of tissue and penalties: f C f / 2 + sum N^2 / (2 k w)."""
     problem, weight = pressed_block(0.1, 0.6)

@@ -145,7 +145,7 @@ def _surface(row: ActuatorRow, position: FloatArray) -> _Surface:
     side = np.sign(x)
     beyond = np.maximum(np.abs(x) - flat, 0.0)
     on_edge = beyond > 0.0
-    distance = np.hypot(beyond, y + radius)
+    distance = np.where(on_edge, np.hypot(beyond, y + radius), 1.0)  # from an edge's centre, where there is one
     normal = np.stack([side * beyond / distance, np.where(on_edge, (y + radius) / distance, 1.0)], axis=1)
     return _Surface(
         np.where(on_edge, distance - radius, y),
