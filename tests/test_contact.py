@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from fingerpad.active_set import NotConvergedError
+from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact import ContactProblem, ContactState, Status, rest
 from fingerpad.device import ActuatorRow
-from fingerpad.errors import ContactError
+from fingerpad.errors import ContactError, ConvergenceError
 from fingerpad.patch import patch_of
 from fingerpad.path import advance, follow
 
@@ -119,6 +120,22 @@ def test_a_path_that_cannot_be_followed_is_a_named_error() -> None:
     broken = replace(problem, compliance=np.zeros_like(problem.compliance), max_cuts=2)
     with pytest.raises(ContactError, match=r"increment 1/3 halved 2 times, residual .*, tolerance 1e-10"):
         follow(broken, rest(broken, 0.0), lift(broken, 0.0, 0.01), 3)
+
+
+def test_halvings_of_earlier_increments_are_not_counted() -> None:
+    """Increments of a quarter of the way are too long, and beyond three quarters any is."""
+    problem = ContactProblem(np.zeros((1, 2)), np.eye(2), ActuatorRow((0.0,), 1.0, 0.1), None, 0.0, 1e-9, 8)
+
+    def solve(
+        problem: ContactProblem, start: ContactState, actuator: FloatArray, carried: None
+    ) -> tuple[ContactState, None]:
+        place = float(actuator[0, 1])
+        if place > 0.75 or place - float(start.actuator[0, 1]) > 0.2:
+            raise NotConvergedError(1.0)
+        return replace(start, actuator=actuator), None
+
+    with pytest.raises(ConvergenceError, match=r"75.0% of the way .* increment 4/4 halved 8 times"):
+        advance(problem, rest(problem, 0.0), np.array([[0.0, 1.0]]), 4, None, solve)
 
 
 def test_a_halved_increment_is_another() -> None:

@@ -71,12 +71,13 @@ def advance(
             state = replace(state, cuts=state.cuts + 1)
             if step < smallest or cuts > CRAWL * problem.max_cuts:
                 kind, advice = _named(failure)
+                halvings = round(-np.log2((goal - done) * increments))
                 missed = failure.residual > problem.tolerance
                 residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
                 raise kind(
                     f"contact could not be followed: {done:.1%} of the way from {_located(start)} to"
                     f" {_located(target)} mm, increment {int(done * increments) + 1}/{increments} halved"
-                    f" {cuts - 1} times{residual}; {advice}"
+                    f" {halvings} times{residual}; {advice}"
                     f"{', stiffer bodies' if problem.body else ''} or a finer mesh at the actuators' edges"
                 ) from failure
     return state, carried
