@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 
 from .arrays import FloatArray
@@ -9,8 +11,10 @@ from .contact import FRONT_POWER, OPEN, ContactProblem, ContactState, rest, touc
 from .contact_law import Criterion
 from .errors import CriterionError
 from .increment import solve_increment
-from .path import SolveIncrement, State, advance
+from .path import SolveIncrement, advance
 from .profile import profile
+
+State = TypeVar("State", bound=ContactState)
 
 END_TOLERANCE = 1e-4  # mm of face or gap that may be missing at its end; source: 6e-5 of Device 2's indentation
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 
@@ -14,7 +14,19 @@ from .errors import ContactError, ConvergenceError, InvertedError, SnapError, Un
 from .increment import solve_increment
 from .patch import Patch
 
-State = TypeVar("State", bound=ContactState)
+
+class Halvable(Protocol):
+    """What a path asks of a state, a dataclass: where the actuators stand, and increments halved (`ContactState`)."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def actuator(self) -> FloatArray: ...
+    @property
+    def cuts(self) -> int: ...
+
+
+State = TypeVar("State", bound=Halvable)
 
 NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
 CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost

@@ -17,16 +17,19 @@ Source: G. Dhondt, CalculiX manual, face-to-face penalty contact, and its source
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
+from .active_set import NotConvergedError
 from .arrays import FloatArray
 from .contact import ContactProblem
 from .device import ActuatorRow
 from .errors import ContactError
+from .path import SolveIncrement, advance
 
 MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]
-MAX_HALVINGS = 8  # of a Newton step, and of an increment [1]
+MAX_HALVINGS = 8  # of a Newton step [1]
 TOLERANCE = 1e-10  # mm of residual displacement; source: 1e-6 of the smallest penetration that matters
 
 
@@ -46,13 +49,15 @@ class PenaltyLaw:
 @dataclass(frozen=True)
 class PenaltyState:
     """A solved state: actuator (n_actuators, 2) [mm], force on the skin (n, 2) [N/mm], position (n, 2) of the skin in
-    its actuator's frame [mm], and arc length (n,) of the profile at which its shear vanishes, or would [mm].
+    its actuator's frame [mm], and arc length (n,) of the profile at which its shear vanishes, or would [mm]. cuts:
+    increments halved so far.
     """
 
     actuator: FloatArray
     force: FloatArray
     position: FloatArray
     origin: FloatArray
+    cuts: int = 0
 
 
 @dataclass(frozen=True)
@@ -90,29 +95,23 @@ def press(
     target: FloatArray,
     increments: int,
 ) -> PenaltyState:
-    """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
+    """`path.follow` by the penalty law.
 
-    weight: (n,) length of skin of each node [mm]. Raises ContactError if an increment does not converge.
+    weight: (n,) length of skin of each node [mm]. Raises ConvergenceError.
     """
-    start = state.actuator
-    done, step = 0.0, 1.0 / increments
-    smallest = step / 2.0**MAX_HALVINGS
-    while done < 1.0:
-        goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
-        found = _increment(problem, weight, law, state, start + goal * (target - start))
-        if found is not None:
-            state, done, step = found, goal, min(2.0 * step, 1.0 / increments)
-            continue
-        step = (goal - done) / 2.0
-        if step < smallest:
-            raise ContactError(f"penalty contact did not converge: {done:.1%} of the way")
-    return state
+    solve: SolveIncrement[PenaltyState] = partial(_increment, weight, law)
+    return advance(problem, state, target, increments, None, solve)[0]
 
 
 def _increment(
-    problem: ContactProblem, weight: FloatArray, law: PenaltyLaw, start: PenaltyState, actuator: FloatArray
-) -> PenaltyState | None:
-    """The state after one increment; None if Newton's method does not converge."""
+    weight: FloatArray,
+    law: PenaltyLaw,
+    problem: ContactProblem,
+    start: PenaltyState,
+    actuator: FloatArray,
+    carried: None,
+) -> tuple[PenaltyState, None]:
+    """The state after one increment, which leaves nothing to use again. Raises NotConvergedError."""
     first = untouched(problem)
     unloaded = first.position - actuator[problem.actuator_of]
     count = weight.size
@@ -133,8 +132,8 @@ def _increment(
         if np.abs(residual).max() < TOLERANCE:
             if law.slides_open:
                 origin = np.where(_surface(problem.row, position).gap < 0.0, origin, first.origin)
-            return PenaltyState(actuator, force, position, origin)
-    return None
+            return PenaltyState(actuator, force, position, origin, start.cuts), None
+    raise NotConvergedError(float(np.abs(residual).max()))
 
 
 def _surface(row: ActuatorRow, position: FloatArray) -> _Surface:
