@@ -1,11 +1,13 @@
-"""Newton's method on deformed tissue without contact: a new tangent every step."""
+"""Equilibrium without contact: of linear tissue, and of tissue that deforms much, by Newton's method."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from skfem import Basis
+from scipy.sparse import csc_matrix
+from skfem import Basis, condense, solve
+from skfem.utils import solver_direct_scipy
 
 from ..arrays import FloatArray
 from ..deformation import elements_of, internal_force_and_tangent
@@ -29,8 +31,15 @@ class Equilibrium:
     residuals: tuple[float, ...]
 
 
+def linear_equilibrium(matrix: csc_matrix, held: np.ndarray, start: FloatArray, load: FloatArray) -> FloatArray:
+    """Displacement (size,) [mm] of a stiffness under a load (size,) [N/mm]; unknowns `held` (k,) stay as they start."""
+    solver = solver_direct_scipy(permc_spec="MMD_AT_PLUS_A")
+    return np.asarray(solve(*condense(matrix, load, x=start, D=held), solver=solver))
+
+
 def equilibrium(basis: Basis, tissue: Tissue, held: np.ndarray, start: FloatArray, load: FloatArray) -> Equilibrium:
-    """Equilibrium under a dead load (size,) [N/mm], found from a displacement `start` (size,) [mm].
+    """Equilibrium of tissue that deforms much under a dead load (size,) [N/mm], found from a displacement `start`
+    (size,) [mm] with a new tangent every step.
 
     held: unknowns (k,) that stay as they start. Raises ConvergenceError, CondensationError, InvertedError.
     """

@@ -18,7 +18,7 @@ from ..elasticity import lame
 from ..mesh import mesh_section, nominal_edges
 from ..scene import Scene
 from .comparison import Comparison, compare, orders
-from .patch import solved
+from .equilibrium import linear_equilibrium
 
 WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is two thirds of the section's width
 AMPLITUDE = 0.01  # of the exact displacement [mm]; linear, so any
@@ -74,7 +74,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     field[dofs] = displacement(*section.mesh.doflocs)
     points = np.ones_like(x)
     load = work.assemble(basis, lam=lam * points, mu=mu * points)
-    found = basis.interpolate(solved(matrix, field, dofs[:, section.fixed].ravel(), load))
+    found = basis.interpolate(linear_equilibrium(matrix, dofs[:, section.fixed].ravel(), field, load))
     root = np.sqrt(basis.dx)  # a sum of squares times dx is an integral
 
     def energy(tensor: FloatArray) -> FloatArray:  # its square is the energy density, twice

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import spsolve
 from skfem import MeshTri, MeshTri2
 
-from ..arrays import FloatArray
 from ..device import ActuatorRow
 from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
 from ..finger import Material
 from .blocks import block_contact, block_mesh, pressed
 from .comparison import Comparison, compare
+from .equilibrium import linear_equilibrium
 
 ROUNDING = 1e-10  # relative [1]; source: rounding, 1e-16, times the condition of the stiffness, 1e6 at nu = 0.4999
 GRADIENT = np.array([[0.01, -0.003], [0.02, 0.005]])  # of the uniform displacement [1]: stretch, shear and rotation
@@ -33,7 +31,7 @@ def bulk(poisson: float) -> list[Comparison]:
     matrix = stiffness(basis, [Material(1.0, poisson)], np.zeros(mesh.t.shape[1], dtype=int))
     field = np.zeros(basis.N)
     field[dofs] = GRADIENT @ mesh.doflocs
-    field = solved(matrix, field, basis.get_dofs().all(), np.zeros(basis.N))
+    field = linear_equilibrium(matrix, basis.get_dofs().all(), field, np.zeros(basis.N))
     _, strain = facet_strain(mesh, np.arange(mesh.facets.shape[1]), mesh.f2t[0])
     wanted = np.array([GRADIENT[0, 0], GRADIENT[1, 1], GRADIENT[0, 1] + GRADIENT[1, 0]])
     found = strain @ field
@@ -51,15 +49,6 @@ def contact() -> list[Comparison]:
     lam, mu = lame(SOFT)
     exact = np.full(pressure.size, (lam + 2.0 * mu) * depth / height)
     return [compare("Patch tests", "contact pressure", (1.0 / divisions, block.unknowns), pressure, exact, ROUNDING)]
-
-
-def solved(matrix: csc_matrix, field: FloatArray, held: np.ndarray, load: FloatArray) -> FloatArray:
-    """Displacement (n_unknowns,) [mm] under a load (n_unknowns,), with the unknowns `held` kept as `field` has them."""
-    free = np.setdiff1d(np.arange(field.size), held)
-    answer = field.copy()
-    right = load - matrix[:, held] @ field[held]
-    answer[free] = spsolve(matrix[free][:, free].tocsc(), right[free], permc_spec="MMD_AT_PLUS_A")
-    return answer
 
 
 def _annulus(divisions: int) -> MeshTri2:

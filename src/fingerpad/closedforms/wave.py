@@ -12,7 +12,6 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri, MeshTri2
 
 from ..arrays import FloatArray
@@ -21,6 +20,7 @@ from ..finger import Material
 from ..mean_stress import element_means, recover_linear
 from ..recovery import gradient_at
 from .comparison import Comparison, compare, on_two_meshes
+from .equilibrium import linear_equilibrium
 from .punch import TOLERANCE
 
 SIDE = 1.0  # of the square block, half a period [mm]
@@ -80,9 +80,7 @@ def pressed(basis: Basis, material: Material) -> FloatArray:
 
     load = work.assemble(FacetBasis(mesh, ElementVector(ElementTriP2()), facets=face, intorder=EXACT_ORDER))
     held = np.union1d(dofs[:, y == SIDE], dofs[0, (x == 0.0) | (x == SIDE)])
-    free = np.setdiff1d(np.arange(basis.N), held)
     matrix = stiffness(basis, [material], np.zeros(mesh.nelements, dtype=int))
-    found = np.zeros(basis.N)
-    found[dofs] = displacement(material, mesh.doflocs)
-    found[free] = spsolve(matrix[free][:, free], (load - matrix[:, held] @ found[held])[free])
-    return found
+    start = np.zeros(basis.N)
+    start[dofs] = displacement(material, mesh.doflocs)
+    return linear_equilibrium(matrix, held, start, load)
