@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.compliance import MIRROR
 from fingerpad.contact_law import Interface
 from fingerpad.solution import contact_problem, indented_state
-from fingerpad.symmetry import MIRROR, mirrors
+from fingerpad.symmetry import mirrors
 from scenes import condensed, scene
 
 # Gaps are solved to 1e-9 of the indentation of some 2 mm

@@ -9,6 +9,8 @@ import numpy as np
 from .arrays import FloatArray
 
 VOIGT = 3  # strain components [1]: exx, eyy, gxy = 2 exy
+MIRROR = np.array([-1.0, 1.0])  # signs [1] of the components x and y of a mirror image about x = 0
+MIRROR_VOIGT = np.array([1.0, 1.0, -1.0])  # signs [1] of its strain components
 GRADIENT = 4  # components of a displacement gradient [1]: du_x/dx, du_x/dy, du_y/dx, du_y/dy
 
 

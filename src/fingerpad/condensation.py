@@ -15,7 +15,7 @@ from scipy.sparse.linalg import SuperLU
 from threadpoolctl import threadpool_limits
 
 from .arrays import FloatArray
-from .compliance import VOIGT, CondensedSection
+from .compliance import MIRROR, MIRROR_VOIGT, VOIGT, CondensedSection
 from .elasticity import displacement_basis, node_dofs, stiffness, unit_forces
 from .errors import CondensationError
 from .factors import backward_error, factorise, fill_reducing_order
@@ -67,8 +67,8 @@ def condense_parts(
     points, strain = receptor_strain(section, scene)
     strain = strain if nodal is None else csr_matrix(strain @ nodal)
     if len(parts.loads) > 1:
-        columns = unfolding(tractions.position.shape[0], np.array([-1.0, 1.0]))
-        rows = unfolding(points.shape[0], np.array([1.0, 1.0, -1.0]))
+        columns = unfolding(tractions.position.shape[0], MIRROR)
+        rows = unfolding(points.shape[0], MIRROR_VOIGT)
         read = strain[VOIGT * np.count_nonzero(rows.side < 0) :]
         together, against, residual = _condensed_halves(matrix, parts, read)
         compliance = unfold(together[0], against[0], columns, columns)

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from .arrays import FloatArray
+from .compliance import MIRROR
 from .elasticity import displacement_basis, node_dofs, unit_loads
 from .mesh import SectionMesh
 from .traction import Tractions
@@ -63,7 +64,7 @@ def _folded_loads(section: SectionMesh, tractions: Tractions, dofs: np.ndarray) 
     right, mirror = dofs[:, section.skin[index]].T, dofs[:, section.skin[::-1][index]].T
     forces = tractions.by_component()
     sides = []
-    for unknowns, there, sign in ((right, x >= 0.0, 1.0), (mirror, x < 0.0, np.array([-1.0, 1.0]))):
+    for unknowns, there, sign in ((right, x >= 0.0, 1.0), (mirror, x < 0.0, MIRROR)):
         own = np.flatnonzero(np.repeat(there, 2))
         signs = (sign * np.ones_like(unknowns)).ravel()[own]
         placing = csc_matrix((signs, (unknowns.ravel()[own], own)), shape=(dofs.size, unknowns.size))

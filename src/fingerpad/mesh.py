@@ -18,6 +18,7 @@ from scipy.special import ellipeinc
 from skfem import MeshTri, MeshTri2
 
 from .arrays import FloatArray
+from .compliance import MIRROR
 from .device import ActuatorRow
 from .errors import MeshError
 from .finger import Finger
@@ -143,7 +144,7 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
     down = -row.body.thickness * np.linspace(1.0, 0.0, rows + 1)
     right = MeshTri.init_tensor(across, down)
     # mirrored with its diagonals; joined here, as scikit-fem's + warns of its own arrays' order
-    points = np.hstack([right.p, right.p * np.array([[-1.0], [1.0]])]).round(JOINED)
+    points = np.hstack([right.p, right.p * MIRROR[:, None]]).round(JOINED)
     _, kept, joined = np.unique(points, axis=1, return_index=True, return_inverse=True)
     triangles = joined.ravel()[np.hstack([right.t, right.t + right.p.shape[1]])]
     strip = MeshTri2.from_mesh(MeshTri(np.ascontiguousarray(points[:, kept]), triangles))
@@ -250,7 +251,7 @@ def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
     count = half_points.shape[1]
     twin = np.where(on_axis, np.arange(count), -1)
     twin[~on_axis] = count + np.arange(np.count_nonzero(~on_axis))
-    points = np.hstack([right, right[:, ~on_axis] * np.array([[-1.0], [1.0]])])
+    points = np.hstack([right, right[:, ~on_axis] * MIRROR[:, None]])
     half_of = np.concatenate([np.arange(count), np.flatnonzero(~on_axis)])
     straight = MeshTri(points, np.hstack([logical.t, twin[logical.t]]))
     mesh = MeshTri2.from_mesh(straight)

@@ -15,7 +15,7 @@ from scipy.sparse import csc_matrix
 
 from .actuator_body import body_of
 from .arrays import FloatArray
-from .compliance import CondensedBody, CondensedSection
+from .compliance import MIRROR, CondensedBody, CondensedSection
 from .condensation import condense_section
 from .contact import ContactState, rest, touching_height
 from .contact_law import Interface
@@ -44,7 +44,7 @@ from .receptors import arc_length, receptor_strain
 from .scene import Scene
 from .skin import require_uncrossed, skin_of
 from .solution import contact_problem, increments, indent_device, named_pressing
-from .symmetry import MIRROR, half_of, mirrors, unfolded
+from .symmetry import half_of, mirrors, unfolded
 from .tissue_law import Kinematics
 
 NONE = np.empty((0, 0))  # the compliance that contact on undeformed tissue would have: nobody asks for it

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import FloatArray
+from .compliance import MIRROR
 from .errors import CrossingError
 from .mesh import SectionMesh
 
@@ -36,7 +37,7 @@ def require_uncrossed(skin: Skin, displacement: FloatArray, when: str) -> None:
     """Raise CrossingError, with the place, if the skin crosses itself at a displacement (size,) [mm]."""
     line = skin.position + displacement[skin.unknowns]
     if skin.halved:
-        line = np.concatenate([line[::-1] * [-1.0, 1.0], line])
+        line = np.concatenate([line[::-1] * MIRROR, line])
     found = crossing(line)
     if found is not None:
         x, y = line[found[0]]

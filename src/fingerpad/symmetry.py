@@ -11,12 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from .compliance import CondensedBody
+from .compliance import MIRROR, CondensedBody
 from .contact import ContactProblem, ContactState, Status
 from .contact_law import Criterion
 from .indentation import indent
 
-MIRROR = np.array([-1.0, 1.0])  # of the components x and y
 ALIKE = 1e-10  # of the largest compliance [1]; source: rounding of a condensation leaves 1e-12
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])
 

@@ -10,6 +10,7 @@ from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri, MeshTri2
 
 from ..arrays import FloatArray
+from ..compliance import MIRROR
 from ..condensation import condense
 from ..contact import ContactProblem, ContactState, rest, touching_height
 from ..device import ActuatorRow
@@ -76,7 +77,7 @@ def refined_block(x: FloatArray, y: FloatArray, size: Callable[[FloatArray, Floa
 
 def _mirrored(half: MeshTri) -> MeshTri2:
     """The mesh at x >= 0 together with its mirror image, diagonals included, second-order."""
-    return MeshTri2.from_mesh(half + MeshTri(half.p * np.array([[-1.0], [1.0]]), half.t))
+    return MeshTri2.from_mesh(half + MeshTri(half.p * MIRROR[:, None], half.t))
 
 
 def block_contact(
