@@ -130,9 +130,7 @@ def condense(
 
     Raises CondensationError if the stiffness is singular or the residual is beyond RESIDUAL_TOLERANCE.
     """
-    free = np.ones(matrix.shape[0], dtype=bool)
-    free[fixed] = False
-    order = fill_reducing_order(matrix, dofs, free)
+    order = fill_reducing_order(matrix, dofs, fixed)
     permuted, right, read = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order]
     return condense_ordered(permuted, factorise(permuted), right, read)
 

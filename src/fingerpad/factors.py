@@ -13,12 +13,15 @@ PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue o
 
 
 def fill_reducing_order(
-    matrix: csc_matrix, dofs: np.ndarray, free: np.ndarray, last: np.ndarray | None = None
+    matrix: csc_matrix, dofs: np.ndarray, held: np.ndarray, last: np.ndarray | None = None
 ) -> np.ndarray:
-    """Fill-reducing order of the free unknowns, found on the graph of nodes (an eighth of the work).
+    """Fill-reducing order of the unknowns that are not held, found on the graph of nodes (an eighth of the work).
 
-    last: unknowns that come last in it. The factors join them to one another, and so does the graph beforehand.
+    dofs: (2, n_nodes) unknowns of the nodes. held: unknowns that do not move. last: unknowns that come last. The
+    factors join them to one another, and so does the graph beforehand.
     """
+    free = np.ones(matrix.shape[0], dtype=bool)
+    free[held] = False
     nodes = np.flatnonzero(free[dofs].any(axis=0))
     first = dofs[0, nodes]
     graph = csc_matrix(matrix[first][:, first])

@@ -153,12 +153,10 @@ def whole_span(scene: Scene, section: SectionMesh, condensing: bool) -> Span:
 
 def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> Span:
     """The tissue with one choice of what is held."""
-    free = np.ones(parts.dofs.size, dtype=bool)
-    free[parts.held[which]] = False
     loads = parts.loads[which]
     basis = displacement_basis(section.mesh, parts.elements)
-    joined = _joined(basis.element_dofs, free.size)
-    order = fill_reducing_order(joined, parts.dofs, free, loads.indices if condensing else None)
+    joined = _joined(basis.element_dofs, parts.dofs.size)
+    order = fill_reducing_order(joined, parts.dofs, parts.held[which], loads.indices if condensing else None)
     materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
     return Span(elements_of(basis, tissue, order), csc_matrix(loads[order]))

@@ -21,9 +21,7 @@ def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray)
     K u = f, one factorisation for all loadings. Raises CondensationError.
     """
     matrix, dofs = section_stiffness(section, scene)
-    free = np.ones(matrix.shape[0], dtype=bool)
-    free[dofs[:, section.fixed]] = False
-    order = fill_reducing_order(matrix, dofs, free)
+    order = fill_reducing_order(matrix, dofs, dofs[:, section.fixed].ravel())
     tractions = contact_tractions(section, scene)
     right = np.zeros((matrix.shape[0], forces.shape[0]))
     right[dofs[:, tractions.nodes].T.ravel()] = tractions.by_component() @ forces.reshape(forces.shape[0], -1).T

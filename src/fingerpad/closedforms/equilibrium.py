@@ -44,9 +44,7 @@ def equilibrium(basis: Basis, tissue: Tissue, held: np.ndarray, start: FloatArra
     held: unknowns (k,) that stay as they start. Raises ConvergenceError, CondensationError, InvertedError.
     """
     _, everywhere = internal_force_and_tangent(elements_of(basis, tissue, np.arange(basis.N)), start)
-    free = np.ones(basis.N, dtype=bool)
-    free[held] = False
-    elements = elements_of(basis, tissue, fill_reducing_order(everywhere, node_dofs(basis), free))
+    elements = elements_of(basis, tissue, fill_reducing_order(everywhere, node_dofs(basis), held))
     displacement, residuals, change = start.copy(), [], np.inf
     for _ in range(MAX_STEPS):
         force, tangent = internal_force_and_tangent(elements, displacement)
