@@ -10,7 +10,7 @@ import pytest
 
 from fingerpad.accuracy import COARSENING, with_errors
 from fingerpad.contact_law import Interface
-from fingerpad.design import Pad, Pressed, answer, condense_pad, press
+from fingerpad.design import Pad, PressedRow, answer, condense_pad, press_row
 from fingerpad.edges import edge_intervals
 from fingerpad.errors import SceneError
 from fingerpad.figures.design import DesignPicture
@@ -31,9 +31,9 @@ def pad() -> Pad:
 
 
 @cache
-def pressed(friction: float) -> tuple[Pressed, Pressed | str]:
+def pressed(friction: float) -> tuple[PressedRow, PressedRow | str]:
     """Device 2, pressed."""
-    return press(pad(), PITCH, WIDTH, friction)
+    return press_row(pad(), PITCH, WIDTH, friction)
 
 
 def test_scene_is_that_of_the_device() -> None:
@@ -74,8 +74,8 @@ def test_scores_are_the_devices_within_the_errors_of_both(condition: str, interf
 @pytest.mark.parametrize("pitch", [1.4, PITCH])
 def test_rows_are_pressed_by_halves(pitch: float) -> None:
     """Also where the mid-line is within reach of the pins."""
-    rows = press(pad(), pitch, WIDTH, 0.6)
-    assert all(isinstance(row, Pressed) and mirrors(row.indented.problem) for row in rows)
+    rows = press_row(pad(), pitch, WIDTH, 0.6)
+    assert all(isinstance(row, PressedRow) and mirrors(row.indented.problem) for row in rows)
 
 
 def test_up_and_down_is_another_stimulus() -> None:
@@ -89,20 +89,20 @@ def test_up_and_down_is_another_stimulus() -> None:
 def test_errors_that_cannot_be_known_are_said_to_be_unknown() -> None:
     """Where the coarser mesh cannot be followed, a score has no error, and the reason stands beside it. Here all pins
     slide, and nothing but tissue holds the skin sideways: on the coarser mesh that is not enough."""
-    found = answer(press(pad(), 1.8, 1.0, 0.8), 0.05, 180.0, True)
+    found = answer(press_row(pad(), 1.8, 1.0, 0.8), 0.05, 180.0, True)
     assert "the states of contact have no unique solution; try less friction, less movement" in found.unknown
     assert all(row["score"] > 0.0 and row["score_error"] is None for row in found.rows)
     picture = DesignPicture(4)
     picture.show(found, found)
     assert [text.get_text()[-2:] for axes in picture.figure.axes for text in axes.texts] == ["±?"] * 4
-    known = answer(press(pad(), 1.8, 1.0, 0.8), 0.04, 180.0, True)
+    known = answer(press_row(pad(), 1.8, 1.0, 0.8), 0.04, 180.0, True)
     assert not known.unknown
     assert all(row["score_error"] > 0.0 for row in known.rows)
 
 
 def test_pins_that_overlap_are_refused() -> None:
     with pytest.raises(SceneError, match="overlap"):
-        press(pad(), 1.0, 1.2, 0.6)
+        press_row(pad(), 1.0, 1.2, 0.6)
 
 
 def test_picture_shows_both_designs() -> None:

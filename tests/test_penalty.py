@@ -17,7 +17,7 @@ from fingerpad.device import ActuatorRow
 from fingerpad.errors import ContactError
 from fingerpad.finger import Material
 from fingerpad.path import follow
-from fingerpad.penalty import PenaltyLaw, press, untouched
+from fingerpad.penalty import PenaltyLaw, follow_penalties, untouched
 from fingerpad.solution import contact_problem
 from scenes import condensed, scene
 
@@ -44,8 +44,8 @@ def test_on_a_nearly_flat_face_it_is_contact_with_softer_nodes(indenting: float)
     radius, reach = 50.0, 0.6
     problem, weight = pressed_block(radius, 2.0 * radius)
     law = replace(LAW, friction=indenting)
-    before = press(problem, weight, law, untouched(problem), lift(problem, 0.0, DEPTH), 40)
-    after = press(problem, weight, LAW, before, lift(problem, 0.001, DEPTH), 20)
+    before = follow_penalties(problem, weight, law, untouched(problem), lift(problem, 0.0, DEPTH), 40)
+    after = follow_penalties(problem, weight, LAW, before, lift(problem, 0.001, DEPTH), 20)
 
     soft = np.stack([1.0 / (LAW.stick_slope * weight), 1.0 / (LAW.pressure_slope * weight)], axis=1).ravel()
     softened = replace(problem, compliance=problem.compliance + np.diag(soft))
@@ -64,7 +64,7 @@ def test_what_slides_before_it_touches_leaves_a_trace_that_fades() -> None:
     apart = []
     for increments in (8, 32):
         ends = [
-            press(
+            follow_penalties(
                 problem,
                 weight,
                 replace(LAW, slides_open=each),
@@ -84,8 +84,8 @@ def test_what_slides_before_it_touches_leaves_a_trace_that_fades() -> None:
 def test_friction_holds_its_cone_on_turning_normals() -> None:
     """Forces of magnitude N sqrt(1 + mu^2) at most: no node bears more shear than mu N, whichever way its normal."""
     problem, weight = pressed_block(0.1, 0.6)
-    state = press(problem, weight, LAW, untouched(problem), lift(problem, 0.0, 0.1), 40)
-    state = press(problem, weight, LAW, state, lift(problem, 0.05, 0.1), 20)
+    state = follow_penalties(problem, weight, LAW, untouched(problem), lift(problem, 0.0, 0.1), 40)
+    state = follow_penalties(problem, weight, LAW, state, lift(problem, 0.05, 0.1), 20)
     x, y = state.position.T
     beyond = np.maximum(np.abs(x) - 0.2, 0.0)
     angle = np.sign(x) * np.arctan2(beyond, y + 0.1)
@@ -101,7 +101,7 @@ def test_a_flat_face_may_be_overlapped_by_the_radius_of_its_edges() -> None:
     """Nodes there are as high as the centres of the edges, and have a normal all the same."""
     problem, weight = pressed_block(0.1, 0.6)
     with np.errstate(divide="raise", invalid="raise"):
-        state = press(problem, weight, LAW, untouched(problem), lift(problem, 0.0, 0.1), 1)
+        state = follow_penalties(problem, weight, LAW, untouched(problem), lift(problem, 0.0, 0.1), 1)
     assert state.force[:, 1].sum() > 0.0
 
 
@@ -111,7 +111,7 @@ def test_without_friction_the_work_done_is_stored() -> None:
     law = replace(LAW, friction=0.0)
     state, work, steps = untouched(problem), 0.0, 200
     for height in np.linspace(0.0, 0.1, steps + 1)[1:]:
-        following = press(problem, weight, law, state, lift(problem, 0.0, float(height)), 1)
+        following = follow_penalties(problem, weight, law, state, lift(problem, 0.0, float(height)), 1)
         work += (state.force + following.force)[:, 1].sum() / 2.0 * 0.1 / steps
         state = following
     force = state.force.ravel()

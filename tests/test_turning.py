@@ -15,7 +15,7 @@ from fingerpad.contact_law import ContactLaw, Criterion, Interface, TurningNorma
 from fingerpad.device import ActuatorRow
 from fingerpad.finger import Material
 from fingerpad.path import follow
-from fingerpad.penalty import PenaltyLaw, press, untouched
+from fingerpad.penalty import PenaltyLaw, follow_penalties, untouched
 from fingerpad.profile import bend, profile
 from fingerpad.tissue_law import Kinematics
 
@@ -110,8 +110,8 @@ def test_penalties_that_stiffen_go_to_it() -> None:
     apart = []
     for stiffer in (4.0, 16.0):
         law = PenaltyLaw(500.0 * stiffer, 500.0 * stiffer, FRICTION)
-        other = press(problem, weight, law, untouched(problem), lift(problem, 0.0, DEPTH), 40)
-        other = press(problem, weight, law, other, lift(problem, WAY, DEPTH), 40)
+        other = follow_penalties(problem, weight, law, untouched(problem), lift(problem, 0.0, DEPTH), 40)
+        other = follow_penalties(problem, weight, law, other, lift(problem, WAY, DEPTH), 40)
         apart.append(np.linalg.norm(other.force - state.force) / np.linalg.norm(state.force))
     assert apart[1] < 0.4 * apart[0]
     assert apart[1] < 0.01

@@ -24,7 +24,7 @@ from .export import DeckSettings, input_deck
 from .gabor import filtered_readouts
 from .mesh import SectionMesh
 from .path import follow
-from .penalty import PenaltyLaw, PenaltyState, press, untouched
+from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched
 from .pressing import indented_height
 from .readout import Readout
 from .receptors import arc_length, receptor_gradient
@@ -199,10 +199,12 @@ def _turning_forces(
     law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting, slides_open=True)
     first = replace(law, friction=settings.friction_indenting)
     # in the deck's increments, which decide how much of what slides before it touches bears friction
-    before = press(problem, section.weight, first, untouched(problem), indented, settings.indentation_increments)
+    before = follow_penalties(
+        problem, section.weight, first, untouched(problem), indented, settings.indentation_increments
+    )
     state: PenaltyState = before
     for target in stimulus:
-        state = press(problem, section.weight, law, state, target, settings.stimulus_increments)
+        state = follow_penalties(problem, section.weight, law, state, target, settings.stimulus_increments)
     return before.force, state.force
 
 

@@ -48,7 +48,7 @@ class Pad:
 
 
 @dataclass(frozen=True)
-class Pressed:
+class PressedRow:
     """A row pressed onto a finger. scene: the row at rest. skin: that it is pressed onto."""
 
     scene: Scene
@@ -83,7 +83,7 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
-def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pressed, Pressed | str]:
+def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[PressedRow, PressedRow | str]:
     """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes; in place of the
     coarser one stands why its path cannot be followed, if it cannot.
 
@@ -102,7 +102,7 @@ def press(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Presse
         return fine, str(error)
 
 
-def answer(pressed: tuple[Pressed, Pressed | str], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
+def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
     """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
     pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
 
@@ -145,7 +145,7 @@ def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) ->
     return Condition(NAME, "alternate", phase_deg, np.array([1.0]), normal, tangential)
 
 
-def _moved(row: Pressed, condition: Condition) -> Answer:
+def _moved(row: PressedRow, condition: Condition) -> Answer:
     """The answer on one mesh, its rows without errors. Raises ContactError."""
     scene = replace(row.scene, device=replace(row.scene.device, conditions=(condition,)))
     solution = stimulate(scene, row.skin.section, row.indented, condition)
@@ -164,5 +164,5 @@ def _condensed(scene: Scene, reach: float) -> Condensed:
     return Condensed(section, None, resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 
-def _pressed(scene: Scene, skin: Condensed) -> Pressed:
-    return Pressed(scene, skin, indent_device(scene, skin.section, None, Interface.SHEAR))
+def _pressed(scene: Scene, skin: Condensed) -> PressedRow:
+    return PressedRow(scene, skin, indent_device(scene, skin.section, None, Interface.SHEAR))

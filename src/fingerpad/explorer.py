@@ -11,7 +11,7 @@ from typing import Any
 import ipywidgets
 from threadpoolctl import threadpool_limits
 
-from .design import Answer, Pad, Pressed, answer, press
+from .design import Answer, Pad, PressedRow, answer, press_row
 from .errors import FingerpadError
 from .figures.design import DesignPicture
 from .scene import Scene
@@ -51,7 +51,7 @@ class Explorer:
     """
 
     def __init__(self, pad: Pad) -> None:
-        self._pressed = lru_cache(maxsize=KEPT)(lambda *row: press(pad, *row))
+        self._pressed = lru_cache(maxsize=KEPT)(lambda *row: press_row(pad, *row))
         self._drawing = DesignPicture(len(pad.scene.device.actuators.positions))
         self._shown: Answer | None = None
         self.seconds = self.processor_seconds = 0.0
@@ -91,5 +91,5 @@ class Explorer:
         self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start
 
     def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:
-        pressed: tuple[Pressed, Pressed | str] = self._pressed(pitch, width, friction)
+        pressed: tuple[PressedRow, PressedRow | str] = self._pressed(pitch, width, friction)
         return answer(pressed, amplitude, phase, self.direction.value == "lateral")

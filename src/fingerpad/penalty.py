@@ -87,7 +87,7 @@ def untouched(problem: ContactProblem) -> PenaltyState:
     return PenaltyState(np.zeros((len(problem.row.positions), 2)), np.zeros_like(position), position, arc)
 
 
-def press(
+def follow_penalties(
     problem: ContactProblem,
     weight: FloatArray,
     law: PenaltyLaw,

@@ -28,7 +28,7 @@ from .strain import receptor_readouts
 # times a read-out's wavelength [1]; source: an octave either way, in half octaves
 WAVELENGTH_FACTORS = (0.5, 0.5**0.5, 1.0, 2.0**0.5, 2.0)
 VARIANT = ["measure", "side", "wavelength_factor"]  # columns of the table that say how a score was read
-AS_CONFIGURED = 1.0  # times the wavelengths [1]
+UNCHANGED = 1.0  # wavelength factor [1] of read-outs as configured
 
 
 def material_at(scene: Scene, side: Side) -> Material:
@@ -76,7 +76,7 @@ def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, A
         variants = groups.setdefault(tuple(row[key] for key in KEY), {})
         variants.setdefault(tuple(row[key] for key in VARIANT), {})[row["condition"]] = float(row["score"])
     for key, variants in groups.items():
-        reference = variants[str(Measure.MAXIMUM_PRINCIPAL), str(side), AS_CONFIGURED]
+        reference = variants[str(Measure.MAXIMUM_PRINCIPAL), str(side), UNCHANGED]
         usual = np.array(list(reference.values()))
         for variant, scores in variants.items():
             values = np.array([scores[condition] for condition in reference])

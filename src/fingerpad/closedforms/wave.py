@@ -44,7 +44,7 @@ def wave(poisson: float, divisions: int) -> list[Comparison]:
     lam, mu = lame(material)
     mesh = MeshTri2.from_mesh(MeshTri.init_tensor(side, side))
     basis = displacement_basis(mesh)
-    moved = pressed(basis, material)
+    moved = computed_displacement(basis, material)
     gradient = gradient_at(mesh, moved[node_dofs(basis)], basis.X).reshape(2, 2, mesh.nelements, -1)
     means = element_means(basis, (lam + mu) * (gradient[0, 0] + gradient[1, 1]))
     fine = Basis(mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
@@ -68,7 +68,7 @@ def displacement(material: Material, place: FloatArray) -> FloatArray:
     return np.asarray(np.exp(-depth) * np.array([across, (first + second * (depth + kappa)) * np.cos(along)]))
 
 
-def pressed(basis: Basis, material: Material) -> FloatArray:
+def computed_displacement(basis: Basis, material: Material) -> FloatArray:
     """Displacement (n_unknowns,) over P [mm/MPa] of the block under its pressure."""
     mesh, dofs = basis.mesh, node_dofs(basis)
     x, y = mesh.doflocs
