@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import PurePosixPath
 
 from .digraph import reduced
+from .markdown import table
 
 RULE = re.compile(r"^ *rule (\w+):", re.MULTILINE)
 INTRODUCTION = """\
@@ -43,13 +44,14 @@ def page(modules: Mapping[str, str], rules: Mapping[str, str], scripts: Mapping[
     parts = [
         INTRODUCTION,
         MODULES,
-        _table(
+        table(
             ("level", "module", "what", "imports"),
             [
-                (str(level[name]), f"`{name}`", summary(single[name]), ", ".join(sorted(shown[name])))
+                (level[name], f"`{name}`", summary(single[name]), ", ".join(sorted(shown[name])))
                 for name in sorted(single, key=lambda name: (level[name], name))
             ],
-        ),
+        )
+        + "\n",
     ]
     for package in sorted({path.split("/")[0] for path in modules if "/" in path}):
         inside = {path: text for path, text in sorted(modules.items()) if path.startswith(f"{package}/")}
@@ -57,13 +59,13 @@ def page(modules: Mapping[str, str], rules: Mapping[str, str], scripts: Mapping[
             (f"`{PurePosixPath(path).stem}`", summary(text)) for path, text in inside.items() if "__init__" not in path
         ]
         parts.append(f"### `{package}/`\n\n{summary(inside[f'{package}/__init__.py'])}\n")
-        parts.append(_table(("module", "what"), rows))
+        parts.append(table(("module", "what"), rows) + "\n")
     parts.append("## Rules\n\nA rule without a script gathers targets or copies a file.\n")
     for stem, text in sorted(rules.items()):
         said = [(f"`{name}`", summary(scripts[name]) if name in scripts else "") for name in RULE.findall(text)]
         if said:
             parts.append(f"### `{stem}.smk`\n")
-            parts.append(_table(("rule", "its script"), said))
+            parts.append(table(("rule", "its script"), said) + "\n")
     return "\n".join(parts)
 
 
@@ -93,11 +95,3 @@ def levels(names: Mapping[str, str], edges: Sequence[tuple[str, str]]) -> dict[s
         return max((1 + level(start) for start, stop in edges if stop == name), default=0)
 
     return {name: level(name) for name in names}
-
-
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    return (
-        "\n".join([*lines, *("| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows)])
-        + "\n"
-    )

@@ -8,6 +8,7 @@ from string import Template
 
 import pandas as pd
 
+from . import markdown
 from .benchmark.ladder import OWN_LADDER
 from .closedforms.comparison import ORDER_OF
 from .contact_law import Interface
@@ -43,9 +44,8 @@ def table(rows: pd.DataFrame) -> str:
     |---|---|
     | 1 | x |
     """
-    head = [str(column).replace("_", " ") for column in rows.columns]
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * rows.shape[1]]
-    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows.itertuples(index=False)])
+    heads = [str(column).replace("_", " ") for column in rows.columns]
+    return markdown.table(heads, rows.itertuples(index=False))
 
 
 def accuracy_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:

@@ -6,10 +6,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
+
+from .markdown import table
 
 
 class Origin(StrEnum):
@@ -76,9 +78,10 @@ def page(documents: Mapping[str, Mapping[str, Any]], modules: Mapping[str, str])
         parts.append(f"## {heading}\n")
         for name, listed in found.items():
             if chosen := [each for each in listed if each.origin is origin]:
-                parts.append(f"### `{name}`\n\n{_table(chosen, reason)}")
-    told = [f"| `{name}` | {each} |" for name, code in modules.items() for each in assumed(code)]
-    parts.append("\n".join(["## In code\n", "| module | what is assumed of which key |", "|---|---|", *told, ""]))
+                cells = ((f"`{q.key}`", q.value, "" if q.unit == "1" else q.unit, q.source) for q in chosen)
+                parts.append(f"### `{name}`\n\n{table(('key', 'value', 'unit', reason), cells)}\n")
+    told = ((f"`{name}`", each) for name, code in modules.items() for each in assumed(code))
+    parts.append(f"## In code\n\n{table(('module', 'what is assumed of which key'), told)}\n")
     return "\n".join(parts)
 
 
@@ -108,11 +111,3 @@ def _text(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return ", ".join(map(_text, value)) if isinstance(value, list) else str(value)
-
-
-def _table(rows: Sequence[Quantity], reason: str) -> str:
-    lines = [f"| key | value | unit | {reason} |", "|---|---|---|---|"]
-    for row in rows:
-        cells = (f"`{row.key}`", row.value, "" if row.unit == "1" else row.unit, row.source)
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
