@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array, kron
+from scipy.sparse import csr_array, diags_array, kron
 
 from .arrays import FloatArray
 
@@ -57,12 +57,7 @@ def linear_tractions(face: np.ndarray, points: FloatArray, loaded: np.ndarray) -
     columns = np.concatenate([np.arange(count + 1), element, element + 1])
     entries = np.concatenate([(left + right) / 6.0, middle, middle])
     bearing = np.flatnonzero(weight > 0.0)
-    nodes = np.union1d(2 * bearing, np.flatnonzero(np.repeat(loaded, 2)) // 2 * 2 + 1)
+    nodes = np.union1d(2 * bearing, 2 * np.flatnonzero(loaded) + 1)
     whole = csr_array((entries, (rows, columns)), shape=(face.size, count + 1))
-    loads = whole[nodes][:, bearing] @ _diagonal(1.0 / weight[bearing])
+    loads = whole[nodes][:, bearing] @ diags_array(1.0 / weight[bearing])
     return Tractions(face[nodes], csr_array(loads), (moment[:, bearing] / weight[bearing]).T, weight[bearing])
-
-
-def _diagonal(values: FloatArray) -> csr_array:
-    """Diagonal matrix (n, n)."""
-    return csr_array((values, (np.arange(values.size),) * 2))
