@@ -28,10 +28,10 @@ from fingerpad.deformed_crosscheck import deformed_outcome
 from fingerpad.edges import mesh_device
 from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import CalculixError, ContactError
-from fingerpad.export import DeckSettings, input_deck, material_lines, triangles
+from fingerpad.export import DeckSettings, input_deck, material_lines
 from fingerpad.finger import Material
 from fingerpad.hyperelasticity import tissue_of
-from fingerpad.mesh import mesh_section, nominal_edges
+from fingerpad.mesh import element_nodes, mesh_section, nominal_edges
 from fingerpad.scene import Scene
 from fingerpad.tissue_law import Kinematics, Law, TissueLaw
 from scenes import CONFIG, scene
@@ -161,7 +161,7 @@ def test_calculix_prints_what_is_recorded(law: Law, tmp_path: Path) -> None:
         "*NODE, NSET=ALL",
         *(f"{n}, {x:.12e}, {y:.12e}" for n, (x, y) in zip(numbers, place.T, strict=True)),
         "*ELEMENT, TYPE=CPE6, ELSET=PATCH",
-        *(", ".join(map(str, [k, *nodes])) for k, nodes in enumerate((triangles(mesh) + 1).tolist(), start=1)),
+        *(", ".join(map(str, [k, *nodes])) for k, nodes in enumerate((element_nodes(mesh) + 1).tolist(), start=1)),
         *("*MATERIAL, NAME=TISSUE", *material_lines(MATERIAL, tissue)),
         *("*SOLID SECTION, ELSET=PATCH, MATERIAL=TISSUE", "1.0", "*STEP, NLGEOM", "*STATIC", "1.0, 1.0", "*BOUNDARY"),
         *(f"{n}, {axis}, {axis}, {moved[axis - 1, n - 1]:.9e}" for n in numbers for axis in (1, 2)),

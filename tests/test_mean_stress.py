@@ -13,8 +13,8 @@ from fingerpad.closedforms import bending, wave
 from fingerpad.elasticity import displacement_basis, lame, node_dofs
 from fingerpad.finger import Material
 from fingerpad.mean_stress import element_means, recover_linear
+from fingerpad.mesh import NODES
 from fingerpad.recovery import gradient_at, strain_of
-from fingerpad.vtu import NODES
 from scenes import section
 
 DEVICE = "device2"

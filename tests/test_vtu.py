@@ -15,11 +15,12 @@ from fingerpad.arrays import FloatArray
 from fingerpad.contact_law import Interface
 from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS
 from fingerpad.measures import stress
+from fingerpad.mesh import NODES
 from fingerpad.reach import contact_tractions
 from fingerpad.states import States, linear_states, strain_at, stress_at
 from fingerpad.strain import maximum_principal
 from fingerpad.tissue_law import Kinematics
-from fingerpad.vtu import NODES, field_meshes, skin_tractions, write_collection, write_vtu
+from fingerpad.vtu import field_meshes, skin_tractions, write_collection, write_vtu
 from scenes import condensed, scene, section, solved
 
 DEVICE, CONDITION = "device2", "alternate_180"

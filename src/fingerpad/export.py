@@ -20,7 +20,7 @@ from .device import ActuatorRow, Body, Condition
 from .elasticity import displacement_basis, lame, node_dofs
 from .errors import SceneError
 from .finger import Layer, Material
-from .mesh import SectionMesh, mesh_strip
+from .mesh import SectionMesh, element_nodes, mesh_strip
 from .numerics import Numerics
 from .profile import WALL_ANGLE, profile
 from .reach import contact_tractions
@@ -172,21 +172,11 @@ def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, mater
         name,
         "CPE6",
         node,
-        triangles(mesh),
+        element_nodes(mesh),
         boundary_sides(mesh, np.flatnonzero(outer)),
         np.flatnonzero(y == y.min()),
         material,
     )
-
-
-def triangles(mesh: MeshTri2) -> np.ndarray:
-    """Nodes (n_elements, 6) of second-order triangles: corners counter-clockwise, then the midpoints of sides 1-3."""
-    corner, middle = mesh.t, mesh.nvertices + mesh.t2f  # sides of scikit-fem: 0-1, 1-2, 0-2
-    ordered = np.vstack([corner, middle])
-    a, b, c = mesh.p[:, corner].swapaxes(0, 1)
-    clockwise = (b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0] < 0.0
-    turned = ordered[[0, 2, 1, 5, 4, 3]]
-    return np.asarray(np.where(clockwise, turned, ordered).T)
 
 
 def boundary_sides(mesh: MeshTri2, nodes: np.ndarray) -> list[tuple[int, int]]:
@@ -195,7 +185,7 @@ def boundary_sides(mesh: MeshTri2, nodes: np.ndarray) -> list[tuple[int, int]]:
     whole = np.isin(mesh.facets[:, facets], nodes).all(axis=0) & np.isin(mesh.nvertices + facets, nodes)
     chosen = facets[whole]
     elements = mesh.f2t[0, chosen]
-    sides = np.argmax(triangles(mesh)[elements, 3:] == (mesh.nvertices + chosen)[:, None], axis=1) + 1
+    sides = np.argmax(element_nodes(mesh)[elements, 3:] == (mesh.nvertices + chosen)[:, None], axis=1) + 1
     return list(zip(elements.tolist(), sides.tolist(), strict=True))
 
 
@@ -226,7 +216,7 @@ def _finger(scene: Scene, section: SectionMesh) -> list[str]:
     finger = scene.model.finger
     lines = ["**", "** ---- the finger: nodes [mm] and second-order plane-strain triangles, layer by layer", "*NODE"]
     lines += _nodes(section.mesh.doflocs.T, 0)
-    connectivity = triangles(section.mesh)
+    connectivity = element_nodes(section.mesh)
     layers = finger.layers
     for index, layer in enumerate(layers):
         members = np.flatnonzero(section.layer == index)

@@ -24,7 +24,7 @@ from .finite_strain import logarithmic_strain
 from .hyperelasticity import cauchy_stress, tissue_of
 from .mean_stress import element_means, recover_linear
 from .measures import stress
-from .mesh import SectionMesh
+from .mesh import NODES, SectionMesh
 from .pressing import press
 from .recovery import gradient_at, recover_displacement, strain_of
 from .scene import Scene
@@ -32,7 +32,7 @@ from .solution import Solution, solve_condition
 from .strain import maximum_principal
 from .tissue_law import Kinematics
 
-CORNERS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])  # of the reference triangle
+CORNERS = NODES[:, :3]  # of the reference triangle
 
 
 @dataclass(frozen=True)

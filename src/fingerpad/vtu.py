@@ -15,15 +15,13 @@ import numpy as np
 
 from .arrays import FloatArray
 from .files import replacing, write_text
-from .mesh import SectionMesh
+from .mesh import NODES, SectionMesh, counterclockwise, element_nodes
 from .reach import contact_tractions
 from .scene import Scene
 from .states import States, strain_at, stress_at
 from .strain import maximum_principal
 from .tissue_law import Kinematics
 
-NODES = np.array([[0.0, 1.0, 0.0, 0.5, 0.5, 0.0], [0.0, 0.0, 1.0, 0.0, 0.5, 0.5]])  # corners, midpoints 01, 12, 20
-TURNED = [0, 2, 1, 5, 4, 3]  # the same nodes in the opposite sense
 STRAIN = {Kinematics.SMALL: "strain", Kinematics.FINITE: "logarithmic_strain"}  # what the arrays are called
 STRESS = {Kinematics.SMALL: "stress_MPa", Kinematics.FINITE: "cauchy_stress_MPa"}
 SYMMETRIC = 6  # components of a symmetric tensor [1]
@@ -38,9 +36,7 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
     directions) and cauchy_stress_MPa. In cells: layer, counted from the pad's skin inwards and on with the dorsal ones.
     """
     mesh = section.mesh
-    nodes = np.vstack([mesh.t, mesh.nvertices + mesh.t2f[[0, 1, 2]]])
-    order = np.where(_clockwise(mesh.doflocs[:, mesh.t])[:, None], TURNED, np.arange(NODES.shape[1]))
-    own = np.take_along_axis(nodes.T, order, axis=1).ravel()
+    order, own = counterclockwise(mesh), element_nodes(mesh).ravel()
     point = (NODES.shape[1] * np.arange(len(order))[:, None] + order).ravel()
     cells = [("triangle6", np.arange(own.size).reshape(order.shape))]
     tractions = skin_tractions(section, scene, states.contact)
@@ -102,12 +98,6 @@ def write_collection(path: Path, times: FloatArray, files: Sequence[Path]) -> No
         ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), part="0", file=name)
     ElementTree.indent(root)
     write_text(path, ElementTree.tostring(root, encoding="unicode") + "\n")
-
-
-def _clockwise(corners: FloatArray) -> np.ndarray:
-    """Which triangles (n,) have corners (2, 3, n) that turn clockwise."""
-    (ax, ay), (bx, by) = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return np.asarray(ax * by < ay * bx)
 
 
 def _in_space(plane: FloatArray) -> FloatArray:

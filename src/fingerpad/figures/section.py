@@ -14,7 +14,7 @@ from matplotlib.ticker import MultipleLocator
 
 from ..arrays import FloatArray
 from ..device import ActuatorRow, Device
-from ..mesh import SectionMesh
+from ..mesh import SectionMesh, element_nodes
 from ..profile import profile
 from ..scene import Model
 from .actuators import BASE, draw_actuators
@@ -70,11 +70,8 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
 def _draw_section(axes: Axes, section: SectionMesh) -> None:
     """Layers in their tints, their interfaces, and the receptor line."""
     mesh = section.mesh
-    first, second, third = mesh.t
-    a, b, c = mesh.nvertices + mesh.t2f  # midpoints of the facets 0-1, 1-2 and 0-2
-    x, y = around = mesh.doflocs[:, np.stack([first, a, second, b, third, c, first])]
-    clockwise = (x[2] - x[0]) * (y[4] - y[0]) < (x[4] - x[0]) * (y[2] - y[0])
-    around[:, :, clockwise] = around[:, ::-1, clockwise]  # where elements of one path turn alike, no seams show
+    # where elements of one path turn alike, no seams show
+    around = mesh.doflocs[:, element_nodes(mesh).T[[0, 3, 1, 4, 2, 5, 0]]]
     turn = [Path.MOVETO, *[Path.LINETO] * 5, Path.CLOSEPOLY]
     paths = []
     for number in range(len(section.layer_names)):
