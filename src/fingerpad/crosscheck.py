@@ -220,7 +220,8 @@ def outcome_of(scene: Scene, arc: FloatArray, components: Sequence[FloatArray], 
     gabor, row = scene.model.gabor, scene.device.actuators
     resampling = resampling_to_grid(arc, gabor.spacing)
     grid = resampling.grid
-    filtered = filtered_readouts(resampling, strain[1], strain[1] - strain[0], gabor)
+    readouts = {Readout.STRAIN: strain[1], Readout.CHANGE_OF_STRAIN: strain[1] - strain[0]}
+    filtered = filtered_readouts(resampling, readouts, gabor)
     span = score_span(row, scene.model.readout.span_margin)
     return Outcome(
         grid,

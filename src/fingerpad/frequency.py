@@ -122,9 +122,7 @@ def vibration_scores(
         vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
         for problem, state in zip(vibration.problems, vibration.states, strict=True):
             certify(problem, condensed.section, state)
-    readouts = cyclic_readouts(vibration.strain)
-    strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
-    filtered = filtered_readouts(condensed.resampling, *strains, scene.model.gabor)
+    filtered = filtered_readouts(condensed.resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
     span = score_span(scene.device.actuators, scene.model.readout.span_margin)
     return {each: roughness_score(filtered.arc, filtered.filtered(each), span) for each in Readout}
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from .arrays import FloatArray
@@ -12,14 +14,11 @@ REACH = 6.0  # widths sigma [1] at which the kernel ends; source: exp(-18) = 1.5
 
 
 def filtered_readouts(
-    resampling: Resampling, strain: FloatArray, change_of_strain: FloatArray, gabor: GaborFilter
+    resampling: Resampling, readouts: Mapping[Readout, FloatArray], gabor: GaborFilter
 ) -> FilteredReadouts:
     """Both read-outs at receptors (m,), resampled to the uniform grid and filtered."""
     grid = resampling.grid
-    sampled = {
-        Readout.STRAIN: resampling.weights @ strain,
-        Readout.CHANGE_OF_STRAIN: resampling.weights @ change_of_strain,
-    }
+    sampled = {each: resampling.weights @ readouts[each] for each in Readout}
     filtered = (gabor_filtered(grid, values, gabor.wavelength(key), gabor.sigma) for key, values in sampled.items())
     return FilteredReadouts(grid, *sampled.values(), *filtered)
 

@@ -168,5 +168,4 @@ def rows_of(
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:
     """Filtered read-outs of a solution."""
-    strains = solution.strain, solution.change_of_strain
-    return filtered_readouts(condensed.resampling, *strains, scene.model.gabor)
+    return filtered_readouts(condensed.resampling, solution.readouts, scene.model.gabor)

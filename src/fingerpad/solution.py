@@ -61,6 +61,11 @@ class Solution:
     certificate: Certificate
 
     @property
+    def readouts(self) -> dict[Readout, FloatArray]:
+        """Both read-outs (m,) [1] at the receptors."""
+        return {Readout.STRAIN: self.strain, Readout.CHANGE_OF_STRAIN: self.change_of_strain}
+
+    @property
     def forces(self) -> FloatArray:
         """Forces (1 + n_times, n, 2) [N/mm] after pre-indentation and at the stimulus's times."""
         return np.concatenate([self.indented_force[None], self.force])

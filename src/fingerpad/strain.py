@@ -68,6 +68,10 @@ class FilteredReadouts:
     filtered_strain: FloatArray
     filtered_change_of_strain: FloatArray
 
+    def unfiltered(self, readout: Readout) -> FloatArray:
+        """The read-out (k,) [1] before the filter."""
+        return self.strain if readout is Readout.STRAIN else self.change_of_strain
+
     def filtered(self, readout: Readout) -> FloatArray:
         """The filtered read-out (k,) [mm]."""
         return self.filtered_strain if readout is Readout.STRAIN else self.filtered_change_of_strain

@@ -18,7 +18,7 @@ from .contact_law import Interface
 from .finger import Material
 from .gabor import filtered_readouts
 from .measures import Measure, measured
-from .readout import Readout, Side, is_constant
+from .readout import Side, is_constant
 from .resampling import resampling_to_grid
 from .roughness import KEY, SCORE_UNIT, score_rows
 from .scene import Scene
@@ -54,9 +54,7 @@ def variant_rows(
                 read = receptor_readouts(section.receptor_strain(solution.forces), section.arc, of_strain)
                 for factor in WAVELENGTH_FACTORS:
                     variant = _with_wavelengths(scene, factor)
-                    filtered = filtered_readouts(
-                        resampling, read[Readout.STRAIN], read[Readout.CHANGE_OF_STRAIN], variant.model.gabor
-                    )
+                    filtered = filtered_readouts(resampling, read, variant.model.gabor)
                     for row in score_rows(variant, scene.device.condition(name), interface, filtered):
                         unit = SCORE_UNIT if measure.unit == "1" else f"{measure.unit} {SCORE_UNIT}"
                         how = {"measure": str(measure), "side": str(side), "wavelength_factor": round(factor, 3)}

@@ -11,9 +11,8 @@ from fingerpad.strain import Resampling
 
 def main(config: Path, device: Path, resampling: Path, solution: Path, filtered: Path) -> None:
     """Read the receptors' strains, filter them, write both on the uniform grid."""
-    found = load(solution, Solution)
     gabor = load_scene(config, device).model.gabor
-    save(filtered, filtered_readouts(load(resampling, Resampling), found.strain, found.change_of_strain, gabor))
+    save(filtered, filtered_readouts(load(resampling, Resampling), load(solution, Solution).readouts, gabor))
 
 
 if __name__ == "__main__":

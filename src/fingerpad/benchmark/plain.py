@@ -21,7 +21,6 @@ from ..gabor import filtered_readouts
 from ..increment import solve_increment
 from ..mesh import SectionMesh
 from ..path import advance
-from ..readout import Readout
 from ..resampling import resampling_to_grid
 from ..roughness import score_rows
 from ..scene import Scene
@@ -55,6 +54,5 @@ def plain_scores(
     forces: FloatArray = np.array([each.force for each in states])
     readouts = receptor_readouts(condensed.receptor_strain(forces), condensed.arc)
     resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
-    strains = readouts[Readout.STRAIN], readouts[Readout.CHANGE_OF_STRAIN]
-    read = filtered_readouts(resampling, *strains, scene.model.gabor)
+    read = filtered_readouts(resampling, readouts, scene.model.gabor)
     return condensed, score_rows(scene, condition, Interface.SHEAR, read)

@@ -188,7 +188,7 @@ def _set(artists: _Design, place: float, answer: Answer) -> None:
         factor, _ = SCORE_SCALE[readout]
         known = row["score_error"] is not None
         score, error = factor * row["score"], factor * row["score_error"] if known else 0.0
-        artists.curves[readout].set_data(answer.readouts.arc, PERCENT * _read(answer, readout))
+        artists.curves[readout].set_data(answer.readouts.arc, PERCENT * answer.readouts.unfiltered(readout))
         artists.bars[readout].set_height(score)
         artists.errors[readout].set_data([place, place], [score - error, score + error])
         artists.numbers[readout].set(position=(place, score + error), text=_number(score, error if known else None))
@@ -211,11 +211,6 @@ def _number(score: float, error: float | None) -> str:
         return f"{score:.{SCORE_DIGITS}g}\n±{'?' if error is None else 0}"
     decimals = max(-floor(log10(error)), 0)
     return f"{score:.{decimals}f}\n±{error:.{decimals}f}"
-
-
-def _read(answer: Answer, readout: Readout) -> FloatArray:
-    """A read-out (k,) [1] on the uniform grid."""
-    return answer.readouts.strain if readout is Readout.STRAIN else answer.readouts.change_of_strain
 
 
 def _hold(axes: Axes, lines: list[Line2D], headroom: float = 1.0) -> None:

@@ -91,7 +91,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
             draw_faces(axes, entry.faces)
             for number, condition in enumerate(reversed(distinct.values())):
                 found = entry.readouts[condition.name]
-                values = PERCENT * (found.strain if readout is Readout.STRAIN else found.change_of_strain)
+                values = PERCENT * found.unfiltered(readout)
                 series = styles.series[entry.device.name, condition.name]
                 draw_curve(axes, found.arc, values, series, number / len(distinct))
             axes.set_xlim(*shown)

@@ -63,8 +63,7 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
             found = entry.readouts[condition.name]
             series = styles.series[device.name, condition.name]
             shift = number / len(device.conditions)
-            values = found.strain if readout is Readout.STRAIN else found.change_of_strain
-            draw_curve(receptors, found.arc, PERCENT * values, series, shift)
+            draw_curve(receptors, found.arc, PERCENT * found.unfiltered(readout), series, shift)
             draw_curve(filtered, found.arc, factor * found.filtered(readout), series, shift)
         receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()}\n({power}mm)")
