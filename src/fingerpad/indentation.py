@@ -88,7 +88,7 @@ def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion)
         return max(0.0 if touching[own].any() else float(state.gap[own].min()) for own in problem.spans)
     height = state.gap - profile(problem.row, state.place)[0]
     covered = min(
-        _front(sign * state.place[own][::sign], height[own][::sign], touching[own][::sign])
+        front(sign * state.place[own][::sign], height[own][::sign], touching[own][::sign])
         for own in problem.spans
         for sign in (1, -1)
     )
@@ -100,7 +100,7 @@ def _lacking(missing: float) -> str:
     return f"{missing:.3g} mm are missing" if np.isfinite(missing) else "an actuator touches no skin"
 
 
-def _front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
+def front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
     """Place [mm] up to which one actuator's skin is in contact in the direction of ascending place (n,).
 
     The front is where height to the power FRONT_POWER of the first two open nodes extrapolates to zero: smooth in the

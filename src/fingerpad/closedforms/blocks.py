@@ -20,6 +20,7 @@ from ..path import follow
 from ..traction import linear_tractions
 
 TOLERANCE = 1e-10  # of the contact equations [1]; source: far below any error that is measured
+TISSUE, NEAR_LIMIT = 0.48, 0.4999  # Poisson's ratios [1]: of skin (config/config.yaml), and towards incompressibility
 MAX_CUTS = 10  # halvings of an increment [1]; source: config/config.yaml
 GROWTH = 0.5  # of element size with distance [1]; source: 0.25 changes pressures and stick zones by less than 1e-3
 HALF_WIDTH = 1.0  # of contact on a half-plane [mm]

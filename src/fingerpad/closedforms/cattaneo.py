@@ -15,8 +15,8 @@ from ..arrays import FloatArray
 from ..contact import Status, switch_friction
 from ..path import follow
 from .blocks import element_means, half_plane, lift, pressed
-from .comparison import Comparison, compare, refined
-from .hertz import CYLINDER, DEPTH, INCREMENTS, SPACINGS, TOLERANCE, half_width, pressure
+from .comparison import ACCURACY, Comparison, compare, refined
+from .hertz import CYLINDER, DEPTH, INCREMENTS, SPACINGS, half_width, pressure
 
 POISSON = 0.3
 FRICTION = 0.5
@@ -73,6 +73,6 @@ def cattaneo_mindlin(spacing: float) -> list[Comparison]:
     _, exact = element_means(block, traction(load, width, stick, block.problem.position[:, 0]))
     case = "Cattaneo-Mindlin"
     return [
-        compare(case, "stick zone", mesh, found, stick, TOLERANCE),
-        compare(case, "element shear", mesh, shear[inner], exact[inner], TOLERANCE),
+        compare(case, "stick zone", mesh, found, stick, ACCURACY),
+        compare(case, "element shear", mesh, shear[inner], exact[inner], ACCURACY),
     ]

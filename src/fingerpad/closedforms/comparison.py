@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 
+ACCURACY = 0.005  # error [1]; source: what scores are to have
 ORDER_OF = "order, "  # before the name of a quantity whose error falls with it
 
 

@@ -5,19 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact import ContactState, Status
+from ..contact import Status
 from ..device import ActuatorRow
-from .blocks import HALF_WIDTH, Block, element_means, half_plane, pressed
-from .comparison import Comparison, compare, refined
+from ..indentation import front
+from .blocks import HALF_WIDTH, TISSUE, element_means, half_plane, pressed
+from .comparison import ACCURACY, Comparison, compare, refined
 
 RADIUS = 5000.0 * HALF_WIDTH  # mm; Hertz neglects what is of the order of half-width over radius
 CYLINDER = ActuatorRow((0.0,), 2.0 * RADIUS, RADIUS)
 DEPTH = 7.5e-4  # mm; brings the contact's edge near HALF_WIDTH, where the mesh is fine
 INCREMENTS = 4  # of pressing [1]; source: without friction the path does not matter, but Newton's start does
 SPACINGS = (1 / 16, 1 / 32, 1 / 64)  # mm
-TOLERANCE = 0.005  # [1]; source: the accuracy that scores are to have
 INNER = 0.9  # of the half-width [1]; source: beyond, the pressure's slope grows without bound
-TISSUE = 0.48  # Poisson's ratio of the skin (config/config.yaml)
 
 
 def half_width(load: float, poisson: float) -> float:
@@ -28,17 +27,6 @@ def half_width(load: float, poisson: float) -> float:
 def pressure(load: float, width: float, x: FloatArray) -> FloatArray:
     """Exact pressure (n,) [MPa] at x (n,) [mm] under a load [N/mm] on a half-width [mm]."""
     return np.asarray(2.0 * load / (np.pi * width) * np.sqrt(np.maximum(1.0 - (x / width) ** 2, 0.0)))
-
-
-def front(block: Block, state: ContactState) -> float:
-    """Half-width of contact [mm] between nodes, from the first two nodes that are open on the right.
-
-    Beyond the contact the gap opens with the distance to the power 3/2, so gap^(2/3) is linear.
-    """
-    x = block.problem.position[:, 0]
-    near = int(np.flatnonzero(state.status != Status.OPEN)[-1]) + np.array([1, 2])
-    opening = state.gap[near] ** (2.0 / 3.0)
-    return float(x[near[0]] - opening[0] * (x[near[1]] - x[near[0]]) / (opening[1] - opening[0]))
 
 
 def rows() -> list[Comparison]:
@@ -59,7 +47,7 @@ def hertz(spacing: float, poisson: float = TISSUE) -> list[Comparison]:
     inner, within = np.abs(x) < INNER * width, np.abs(middle) < INNER * width
     case = f"Hertz, nu = {poisson:g}"
     return [
-        compare(case, "half-width", mesh, front(block, state), width, TOLERANCE),
-        compare(case, "nodal pressure", mesh, nodal[inner], exact[inner], TOLERANCE),
-        compare(case, "element pressure", mesh, mean[within], exact_mean[within], TOLERANCE),
+        compare(case, "half-width", mesh, front(x, state.gap, state.status != Status.OPEN), width, ACCURACY),
+        compare(case, "nodal pressure", mesh, nodal[inner], exact[inner], ACCURACY),
+        compare(case, "element pressure", mesh, mean[within], exact_mean[within], ACCURACY),
     ]

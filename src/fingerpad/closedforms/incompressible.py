@@ -13,25 +13,25 @@ from functools import partial
 from ..finger import Layer
 from ..scene import Model
 from . import hertz, layers, punch
+from .blocks import NEAR_LIMIT
 from .comparison import Comparison, refined
 
-POISSON = 0.4999
 DISPLACEMENT = "displacement"
 
 
 def rows(model: Model) -> list[Comparison]:
     """Flat punch, Hertz, and the pad's layers with their Poisson ratios replaced."""
-    soft = [replace(la, material=replace(la.material, poisson=POISSON)) for la in model.finger.pad]
+    soft = [replace(la, material=replace(la.material, poisson=NEAR_LIMIT)) for la in model.finger.pad]
     return [
-        *refined(partial(punch.flat_punch, poisson=POISSON), punch.SPACINGS),
-        *refined(partial(hertz.hertz, poisson=POISSON), hertz.SPACINGS),
+        *refined(partial(punch.flat_punch, poisson=NEAR_LIMIT), punch.SPACINGS),
+        *refined(partial(hertz.hertz, poisson=NEAR_LIMIT), hertz.SPACINGS),
         *(row for load in layers.Load for row in _layered(soft, model.layers_above, load)),
     ]
 
 
 def _layered(soft: Sequence[Layer], above: int, load: layers.Load) -> list[Comparison]:
     """The layers under one load; only displacement has a tolerance."""
-    case = partial(layers.layered, f"layers, nu = {POISSON:g}", soft, above, load)
+    case = partial(layers.layered, f"layers, nu = {NEAR_LIMIT:g}", soft, above, load)
     found = refined(case, layers.SPACINGS)
     return _without(found, {row.quantity for row in found} - {DISPLACEMENT})
 

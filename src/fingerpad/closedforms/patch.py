@@ -8,19 +8,19 @@ from skfem import MeshTri, MeshTri2
 from ..device import ActuatorRow
 from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
 from ..finger import Material
-from .blocks import block_contact, block_mesh, pressed
+from .blocks import NEAR_LIMIT, TISSUE, block_contact, block_mesh, pressed
 from .comparison import Comparison, compare
 from .equilibrium import linear_equilibrium
 
 ROUNDING = 1e-10  # relative [1]; source: rounding, 1e-16, times the condition of the stiffness, 1e6 at nu = 0.4999
 GRADIENT = np.array([[0.01, -0.003], [0.02, 0.005]])  # of the uniform displacement [1]: stretch, shear and rotation
 DIVISIONS = 5  # of the bulk patch, each way [1]
-SOFT = Material(0.08, 0.48)  # the dermis (config/config.yaml)
+SOFT = Material(0.08, TISSUE)  # the dermis (config/config.yaml)
 
 
 def rows() -> list[Comparison]:
     """Both patch tests, the first for the tissue and near incompressibility."""
-    return [*bulk(SOFT.poisson), *bulk(0.4999), *contact()]
+    return [*bulk(SOFT.poisson), *bulk(NEAR_LIMIT), *contact()]
 
 
 def bulk(poisson: float) -> list[Comparison]:

@@ -19,23 +19,22 @@ from ..elasticity import displacement_basis, lame, node_dofs, stiffness
 from ..finger import Material
 from ..mean_stress import element_means, recover_linear
 from ..recovery import gradient_at
-from .comparison import Comparison, compare, on_two_meshes
+from .bending import SHORTFALL
+from .blocks import NEAR_LIMIT, TISSUE
+from .comparison import ACCURACY, Comparison, compare, on_two_meshes
 from .equilibrium import linear_equilibrium
-from .punch import TOLERANCE
+from .manufactured import EXACT_ORDER
 
 SIDE = 1.0  # of the square block, half a period [mm]
 NUMBER = np.pi / SIDE  # k [1/mm]
-RATIOS = (0.48, 0.4999)  # Poisson's [1]; source: the tissue's, and towards incompressibility
 DIVISIONS = (8, 32)  # of the side [1]; source: the finer as the bent block's
 ORDERS = {"mean stress": 2.0}  # of linear fields [1]; source: what they miss is a field's curvature
-SHORTFALL = 0.05  # of an order [1]; source: as the bent block's
-EXACT_ORDER = 8  # of quadrature; source: as the bent block's
 
 
 def rows() -> list[Comparison]:
     """Errors at every Poisson's ratio, and the orders with which they fall."""
-    cases = (partial(wave, poisson) for poisson in RATIOS)
-    return [row for case in cases for row in on_two_meshes(case, DIVISIONS, TOLERANCE, ORDERS, SHORTFALL)]
+    cases = (partial(wave, poisson) for poisson in (TISSUE, NEAR_LIMIT))
+    return [row for case in cases for row in on_two_meshes(case, DIVISIONS, ACCURACY, ORDERS, SHORTFALL)]
 
 
 def wave(poisson: float, divisions: int) -> list[Comparison]:
