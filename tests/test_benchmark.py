@@ -42,7 +42,8 @@ def coarse() -> Scene:
 @pytest.fixture(scope="module")
 def stated(coarse: Scene) -> list[dict[str, Any]]:
     """Score rows of the coarse scene with their errors, as text like those of a file."""
-    rows = with_errors(rows_at(coarse, 1.0, edge_intervals(coarse)), rows_at(coarse, 1.5, edge_intervals(coarse)))
+    coarser = [row | {"coarsest": None} for row in rows_at(coarse, 1.5, edge_intervals(coarse))]
+    rows = with_errors(rows_at(coarse, 1.0, edge_intervals(coarse)), coarser)
     nothing = {"condition": at_rest(coarse).name, "readout": "change_of_strain", "score": 0.0, "score_error": 0.0}
     return [{key: str(value) for key, value in row.items()} for row in [*rows, rows[0] | nothing]]
 

@@ -53,7 +53,8 @@ def expected() -> dict[tuple[str, str, str], dict[str, Any]]:
     """Rows of the workflow's table, with errors, by condition, interface and read-out."""
     base = scene(DEVICE)
     scored = predicted_rows(base, condense_scene(base, edge_intervals(base)))
-    rows = with_errors(scored, rows_at(base, COARSENING, edge_intervals(base)))
+    coarser = [row | {"coarsest": None} for row in rows_at(base, COARSENING, edge_intervals(base))]
+    rows = with_errors(scored, coarser)
     return {(row["condition"], row["interface"], row["readout"]): row for row in rows}
 
 

@@ -1,11 +1,12 @@
-"""Discretisation error of scores, estimated from a second, coarser solution.
+"""Discretisation error of scores, estimated from a second, coarser solution, and a third.
 
-Elements and load increments of the second solution are COARSENING times as large. With an order p of convergence the
-error of the first is |difference| / (COARSENING^p - 1). Contact fronts converge with the first order, strains with the
-second, increments with the second; the first is assumed of all (ORDER). A single difference may vanish by chance, so no
-relative estimate is below the lower median of those for the same device and read-out, in which conditions that share a
-stimulus, and so a score on either mesh, count once; nor, for a change of strain, below that for strain, which it is a
-difference of; nor, as a device may have a single condition, below LEAST.
+Elements and load increments of the second solution are COARSENING times as large, those of the third COARSEST times.
+With an order p of convergence the error of the first is |difference| / (times^p - 1). Contact fronts converge with the
+first order, strains with the second, increments with the second; the first is assumed of all (ORDER). A single
+difference may vanish by chance, so no relative estimate is below the lower median of those for the same device and
+read-out, in which conditions that share a stimulus, and so a score on either mesh, count once. A change of strain does
+not converge evenly: in that median stands the larger of what both coarser solutions say of it; nor is it known better
+than strain, of which it is a difference. And as a device may have a single condition, none is below LEAST.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from typing import Any
 from .readout import Readout
 
 COARSENING = 2.0  # [1]; source: sizes go by halves, and 1.5 understated five scores of 54 by more than 2 (decision 23)
+COARSEST = 3.0  # [1]; source: shows where scores on twice the sizes agree by chance; 4 overstates (decision 25)
 ORDER = 1.0  # of convergence [1]; source: that of contact fronts, the lowest
 LEAST = 1e-3  # of a score [1]; source: median of 66 errors against references (decision 25)
 # of a reference [1]: at least 20 times the unknowns, errors a thirtieth at second order; source: 4 times hid bands of
@@ -30,7 +32,8 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
     """Rows of the score table with `score_error` behind `score`, in the same unit; None where there is no score, or
     none of the coarser solution, whose note then says why.
 
-    coarser: rows of the coarser solution. Raises KeyError if it lacks one.
+    coarser: rows of the coarser solution, with the score of the coarsest as `coarsest`, None without one. Raises
+    KeyError if it lacks one.
     """
     second = {_of(row, CASE): row for row in coarser}
     estimate: dict[tuple[str, ...], float] = {}
@@ -39,10 +42,12 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
         case, score = _of(row, CASE), float(row["score"])
         if not _is_scored(second[case]):
             continue
-        coarse = float(second[case]["score"])
-        estimate[case] = max(abs(coarse - score) / (COARSENING**ORDER - 1.0), LEAST * score)
+        coarse, coarsest = float(second[case]["score"]), second[case]["coarsest"]
+        estimate[case] = larger = max(_estimated(score, coarse, COARSENING), LEAST * score)
+        if row["readout"] == Readout.CHANGE_OF_STRAIN and coarsest not in {None, ""}:
+            larger = max(larger, _estimated(score, float(coarsest), COARSEST))
         if score > 0.0:  # a stimulus that is none changes nothing, on any mesh
-            relative.setdefault(_of(row, GROUP), {})[row["interface"], score, coarse] = estimate[case] / score
+            relative.setdefault(_of(row, GROUP), {})[row["interface"], score, coarse] = larger / score
     least = {group: median_low(values.values()) for group, values in relative.items()}
     table = []
     for row in scores:
@@ -54,6 +59,11 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
         else:
             table.append(with_error(row, None) | ({"note": _joined(row, second[case])} if _is_scored(row) else {}))
     return table
+
+
+def _estimated(score: float, coarser: float, times: float) -> float:
+    """Error of a score, from that of a solution whose elements are so many times as large [1]."""
+    return abs(coarser - score) / (float(times**ORDER) - 1.0)
 
 
 def with_error(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:

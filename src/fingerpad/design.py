@@ -116,7 +116,8 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
         unknown = coarse
     else:
         try:
-            return replace(found, rows=with_errors(found.rows, _moved(coarse, condition).rows))
+            coarser = [row | {"coarsest": None} for row in _moved(coarse, condition).rows]
+            return replace(found, rows=with_errors(found.rows, coarser))
         except ContactError as error:
             unknown = str(error)
     return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=unknown)

@@ -20,7 +20,7 @@ from .scene import Scene
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
 
-    What cannot be solved has no score, and a note that says why. error: whether to solve a second time, more coarsely,
+    What cannot be solved has no score, and a note that says why. error: whether to solve twice more, more coarsely,
     for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called after each
     of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
 
@@ -42,7 +42,7 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
 
 def steps(scene: Scene, error: bool = True) -> int:
     """How often `forecast` calls its `step`: after condensation and after every condition of every solution."""
-    return (2 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
+    return (3 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
 
 
 def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
-from .accuracy import COARSENING
+from .accuracy import CASE, COARSENING, COARSEST
 from .actuator_body import body_of
 from .arrays import FloatArray
 from .caveats import solution_caveats
@@ -93,11 +93,25 @@ def rows_at(scene: Scene, coarsening: float, edges: FloatArray) -> list[dict[str
 
 
 def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
-    """Rows of the score table on sizes and increments COARSENING times as large, for the errors of scores; edges:
-    (k, 2) [mm]. If a coarser solution cannot be had, rows without scores, whose note says why. step: called after
-    condensation and after every condition of every solution.
+    """Rows of the score table on sizes and increments COARSENING times as large, for the errors of scores, and behind
+    them as `coarsest` the score on those COARSEST times as large; edges: (k, 2) [mm]. If the coarser solution cannot be
+    had, rows without scores, whose note says why; without the coarsest, None. step: called after condensation and after
+    every condition of every solution, of both.
     """
-    other, rows, unknown = scene.coarsened(COARSENING), list[dict[str, Any]](), f"{ERROR_UNKNOWN}: {COARSER}"
+    coarser = _rows_if_any(scene, COARSENING, edges, step)
+    coarsest = {_case(row): row["score"] for row in _rows_if_any(scene, COARSEST, edges, step)}
+    return [row | {"coarsest": coarsest[_case(row)]} for row in coarser]
+
+
+def _case(row: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(row[column] for column in CASE)
+
+
+def _rows_if_any(
+    scene: Scene, coarsening: float, edges: FloatArray, step: Callable[[], object]
+) -> list[dict[str, Any]]:
+    """`rows_at`, without scores where they cannot be had."""
+    other, rows, unknown = scene.coarsened(coarsening), list[dict[str, Any]](), f"{ERROR_UNKNOWN}: {COARSER}"
     try:
         condensed = prepared(other, edges)
         step()

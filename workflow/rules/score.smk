@@ -1,4 +1,4 @@
-# Roughness scores: of one device, condition and interface, the same from a coarser mesh, and the tidy table of all.
+# Roughness scores: of one device, condition and interface, the same from coarser meshes, and the tidy table of all.
 # REQUIRED INPUTS: results/{kinematics}/{device}/edges.csv, solution.npz and filtered.npz in results/{kinematics}/{device}/{condition}/{interface}.
 # OUTPUTS: score.csv beside it, results/{kinematics}/{device}/check.csv, results/scores.csv
 

@@ -1,4 +1,4 @@
-"""Scores of one device from a coarser mesh and larger load increments, if they can be had."""
+"""Scores of one device from two coarser meshes and larger load increments, if they can be had."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, kinematics: str, edges: Path, scores: Path) -> None:
-    """Read the scene and its edges, solve all its conditions coarsely, write their scores."""
+    """Read the scene and its edges, solve all its conditions coarsely, twice, write their scores."""
     scene = load_scene(config, device, Kinematics(kinematics))
     write_rows(scores, coarser_rows(scene, load_edges(edges)))
 
