@@ -24,7 +24,7 @@ from fingerpad import prediction
 from fingerpad.api import predict
 from fingerpad.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
-from fingerpad.cli import COMMANDS, FAILED, UNSOLVED, main
+from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
@@ -374,6 +374,41 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
     assert float(rise) == pytest.approx(high - low, abs=0.005 + 1e-3)  # two digits, and hats between nodes
 
 
+@pytest.mark.parametrize(
+    ("key", "changed", "said"),
+    [
+        ("pitch: {value: 2.5", "pitch: {value: 4.2", "The row is wide for this finger"),
+        ("direction: {value: lateral", "direction: {value: normal", None),
+        (
+            "amplitude: {value: 0.020",
+            "amplitude: {value: 9.0",
+            "deeper than the pad is thick: are displacements in mm?",
+        ),
+    ],
+)
+def test_check_says_what_will_hardly_go_well(
+    checkout: Path, capsys: pytest.CaptureFixture[str], key: str, changed: str, said: str | None
+) -> None:
+    path = checkout / "config/devices/device1.yaml" if "amplitude" in key else checkout / "config/devices/device2.yaml"
+    text = path.read_text(encoding="utf-8")
+    assert key in text
+    path.write_text(text.replace(key, changed), encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    warned = capsys.readouterr().out.splitlines()[6:]
+    assert said in warned[0] if said else not warned
+
+
+def test_an_interrupted_command_ends_in_a_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("fingerpad.commands.check.checked_scene", interrupt)
+    assert main(["check", "config/devices/device2.yaml"]) == INTERRUPTED
+    assert capsys.readouterr().err == "fingerpad: interrupted\n"
+
+
 def test_a_closed_pipe_is_no_mistake() -> None:
     """`fingerpad check FILE | head -0`: whoever reads has read enough."""
     command = [sys.executable, "-m", "fingerpad.cli", "check", str(ROOT / "config" / "devices" / "device2.yaml")]
@@ -392,7 +427,16 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
     for interface in Interface:
         solution = solve("device2", away, interface)
         assert not solution.pressure.any()
-        assert not [caveat for caveat in solution_caveats(scene("device2"), solution) if "certificate" in caveat]
+        caveats = solution_caveats(scene("device2"), solution)
+        assert not [caveat for caveat in caveats if "certificate" in caveat]
+        assert "actuators that leave the skin, counted from the left: 1, 2, 3, 4; positive normal is into it" in caveats
+
+
+def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
+    normal = np.array([[0.0, -3.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]])
+    back = Condition("back", "test", 0.0, np.array([1.0, 2.0]), normal, np.zeros_like(normal))
+    (caveat,) = solution_caveats(scene("device2"), solve("device2", back, Interface.FRICTIONLESS))
+    assert caveat.startswith("actuators that leave the skin, counted from the left: 2;")
 
 
 @pytest.fixture

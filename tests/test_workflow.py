@@ -430,3 +430,22 @@ def test_bad_scene_file_is_refused(
 ) -> None:
     changeable.edit(file, change)
     assert_refused(changeable, "all", f"{file}: ", *said)
+
+
+@pytest.mark.parametrize("left_out", [["device1"], ["device2"], ["device3"], ["device1", "device2"]], ids="+".join)
+def test_a_shipped_device_may_be_left_out(project: Project, tmp_path: Path, left_out: list[str]) -> None:
+    """What data/ says of it is left out, too, and all else is planned as before."""
+    smaller = Project(shutil.copytree(project.folder, tmp_path / "smaller"))
+    for name in left_out:
+        (smaller.folder / f"config/devices/{name}.yaml").unlink()
+    run = smaller.snakemake("-n", "all")
+    assert run.status == 0, run.text
+    assert {job.device for job in run.jobs} == {None, "device1", "device2", "device3"} - set(left_out)
+
+
+def test_a_folder_without_devices_is_named(project: Project, tmp_path: Path) -> None:
+    (tmp_path / "devices").mkdir()
+    shutil.copy(project.folder / "config/config.yaml", tmp_path)
+    run = project.snakemake("-n", "all", "--config", f"scenes={tmp_path}")
+    assert run.status != 0
+    assert f"{tmp_path / 'devices'}: found no device file" in run.text

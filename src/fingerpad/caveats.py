@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from .readout import CONSTANT
 from .roughness import KEY
 from .scene import Scene
@@ -23,11 +25,14 @@ FEW = 5.0
 
 
 def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
-    """Actuators too deep for small strain or too narrow for the mesh, many increments that were cut or did not settle
-    at once, and figures of the certificate near their limits.
+    """Actuators too deep for small strain, too narrow for the mesh or off the skin, many increments that were cut or
+    did not settle at once, and figures of the certificate near their limits.
     """
     certificate = solution.certificate
     found = depth_caveats(scene, solution.depth)
+    if left := _off_the_skin(scene, solution):
+        numbers = ", ".join(map(str, left))
+        found.append(f"actuators that leave the skin, counted from the left: {numbers}; positive normal is into it")
     elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
     if elements < FEW:
         found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
@@ -42,6 +47,14 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     }
     found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
     return found
+
+
+def _off_the_skin(scene: Scene, solution: Solution) -> list[int]:
+    """Numbers, from 1, of the actuators that are pressed onto the skin and touch it no more at some time."""
+    places = np.asarray(scene.device.actuators.positions)
+    nearest = np.abs(solution.position[:, [0]] - places).argmin(axis=1)
+    pressing = np.array([np.bincount(nearest, each[:, 1], minlength=places.size) for each in solution.forces])
+    return [int(number) + 1 for number in np.flatnonzero((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0))]
 
 
 def depth_caveats(scene: Scene, depth: float) -> list[str]:

@@ -128,8 +128,11 @@ def _require_within_reach(
     overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
     beyond = np.flatnonzero(active & (first | last) | overlapping)
     if beyond.size:
+        node = beyond[0]
+        aside = abs(state.place[node] + centre[own[node], 0] - x[node])
         moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
+        advice = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
         raise ReachError(
-            f"certificate: contact at the actuator at x = {problem.row.positions[own[beyond[0]]]:g} mm reaches the last"
-            f" skin node that was considered{'; the stimulus moves it too far sideways' if moved else ''}"
+            f"certificate: contact at the actuator at x = {problem.row.positions[own[node]]:g} mm reaches the last skin"
+            f" node that was considered; skin there has moved {aside:.2g} mm sideways{advice}"
         )

@@ -11,6 +11,7 @@ from importlib import import_module
 from .errors import CondensationError, ContactError, FingerpadError, MeshError
 
 FAILED = 2  # exit code [1] of anything that a user can mend; argparse has the same
+INTERRUPTED = 130  # exit code [1] after Ctrl-C, as shells have it
 UNSOLVED = 3  # exit code [1] where a valid scene has no certified solution
 REFUSALS = (MeshError, CondensationError, ContactError)
 
@@ -26,7 +27,7 @@ DESCRIPTION = """\
 Predicts how rough a distributed haptic device feels. `fingerpad COMMAND --help` has examples.
 
 exit codes: 0 done; 1 unexpected, with a traceback; 2 wrong input, or wrong use; 3 the scene is valid, but could not be
-solved to a certified solution.
+solved to a certified solution; 130 interrupted.
 """
 
 
@@ -39,6 +40,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
     except BrokenPipeError:  # whoever reads what is printed has read enough, as `head` has
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nothing is left to flush at exit
+    except KeyboardInterrupt:
+        print("fingerpad: interrupted", file=sys.stderr)
+        return INTERRUPTED
     except FingerpadError as error:
         print(f"fingerpad: {error}", file=sys.stderr)
         return UNSOLVED if isinstance(error, REFUSALS) else FAILED

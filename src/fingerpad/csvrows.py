@@ -17,14 +17,16 @@ LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, t
 COMMA = "a decimal comma? a number has a point; or text with a comma, which needs quotes"
 
 
-def checked_rows(path: Path, columns: Sequence[str], error: type[FingerpadError]) -> list[tuple[int, dict[str, str]]]:
+def checked_rows(
+    path: Path, columns: Sequence[str], error: type[FingerpadError], least: int = 1
+) -> list[tuple[int, dict[str, str]]]:
     """The rows of a CSV with exactly these columns, in any order; each with its line number.
 
     Empty lines are left out, and blanks around cells. Raises `error` if the file cannot be read, is no CSV, has other
-    columns or no rows.
+    columns or fewer than `least` rows.
     """
     lines = _cells(path, error)
-    if len(lines) < 2:
+    if len(lines) < 1 + least:
         found = "a header without rows" if lines else "an empty file"
         raise error(f"{path}: found {found}; allowed: rows with the columns {listed(columns)}")
     line, header = lines[0]

@@ -16,6 +16,8 @@ from .readout import CONSTANT
 from .roughness import KEY, unpredicted_rows
 from .scene import Scene
 
+SILENT = "the device controls forces: without friction its displacements would be others, and none are known"
+
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
@@ -33,7 +35,7 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
     table = with_errors(found, coarser) if error else [with_error(row, None) for row in found]
-    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[] for _ in silent]
+    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[SILENT] for _ in silent]
     return [
         row | {"rank": rank, "caveats": own + close}
         for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)

@@ -67,7 +67,8 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
 
     path: CSV with the columns device, condition, rating (a number >= 0, any unit: R² does not see it), kind
     (surrogate, digitised or measured; one kind a device) and source. conditions_by_device: the condition names of
-    every known device. A device may be without ratings, but not with some only.
+    every known device; one without any has been left out, and so are its rows. A device may be without ratings, but not
+    with some only.
 
     Returns those columns, `rating` as float. Raises RatingError, which names file, line, column, what was found
     and what is allowed.
@@ -83,6 +84,8 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
     for line, row in _read_rows(path, RATING_COLUMNS):
         device, condition, kind = row["device"], row["condition"], row["kind"]
         _check_name(path, line, "device", device, conditions_by_device)
+        if not conditions_by_device[device]:
+            continue
         _check_name(path, line, "condition", condition, conditions_by_device[device])
         _check_name(path, line, "kind", kind, [*RatingKind])
         rating = number(row["rating"])
@@ -110,12 +113,14 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
     """What is stated about the order of ratings, checked against the devices.
 
     path: CSV with the columns device, lower, relation (`<` or `=`), higher and source, a row for each pair of
-    conditions. Returns those columns. Raises RatingError as `read_ratings` does, and if the rows contradict
-    each other.
+    conditions. Rows of devices without conditions are left out. Returns those columns. Raises RatingError as
+    `read_ratings` does, and if the rows contradict each other.
     """
     rows: list[dict[str, Any]] = []
     for line, row in _read_rows(path, ORDER_COLUMNS):
         _check_name(path, line, "device", row["device"], conditions_by_device)
+        if not conditions_by_device[row["device"]]:
+            continue
         for column in ("lower", "higher"):
             _check_name(path, line, column, row[column], conditions_by_device[row["device"]])
         _check_name(path, line, "relation", row["relation"], [*Relation])
@@ -178,7 +183,7 @@ def order_matrix(conditions: Sequence[str], order: pd.DataFrame) -> NDArray[np.b
 
 def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, str]]]:
     """The rows of a CSV with exactly these columns, none without a source; each with its line number."""
-    rows = checked_rows(path, columns, RatingError)
+    rows = checked_rows(path, columns, RatingError, least=0)
     for line, row in rows:
         if not row["source"]:
             raise _error(path, line, "source", "", "where the row comes from")

@@ -38,6 +38,7 @@ def read_recording(path: Path, count: int) -> Recording:
     """
     found: dict[tuple[float, int], tuple[float, float]] = {}
     lines: dict[tuple[float, int], int] = {}
+    first: dict[float, tuple[str, int]] = {}  # how the file writes a time, and on which line it first does
     for line, row in checked_rows(path, COLUMNS, SceneError):
         time = _within(path, line, "time", row["time"], (0.0, LATEST), "s")
         at = time, _actuator(path, line, row["actuator"], count)
@@ -45,19 +46,21 @@ def read_recording(path: Path, count: int) -> Recording:
             allowed = f"one row a time and actuator; {row['time']} s has it on line {lines[at]}"
             raise SceneError(told(path, line, "actuator", row["actuator"], allowed))
         lines[at] = line
+        first.setdefault(time, (row["time"], line))
         normal, tangential = (
             _within(path, line, name, row[name], (-FARTHEST, FARTHEST), "mm") for name in ("normal", "tangential")
         )
         found[at] = normal, tangential
-    times = sorted({time for time, _ in found})
+    times = sorted(first)
     if len(times) > MOST_TIMES:
         raise SceneError(f"{path}, column time: found {len(times)} times; allowed: at most {MOST_TIMES}")
     for time in times:
         for actuator in range(1, count + 1):
             if (time, actuator) not in found:
+                text, line = first[time]
                 raise SceneError(
-                    f"{path}, column actuator: found no row of actuator {actuator} at {time:g} s;"
-                    f" allowed: at every time a row of each of the {count} actuators"
+                    f"{path}, column actuator: found no row of actuator {actuator} at '{text}' s, where line {line} has"
+                    f" others; allowed: at every time a row of each of the {count} actuators"
                 )
     values = np.array([[found[time, actuator] for actuator in range(1, count + 1)] for time in times])
     return Recording(np.array(times), values[..., 0], values[..., 1])

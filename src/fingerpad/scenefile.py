@@ -28,6 +28,7 @@ from .vibration_rule import Relaxation, VibrationRule
 MERGE = "tag:yaml.org,2002:merge"
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
 KINEMATICS = {"both": tuple(Kinematics), "small": (Kinematics.SMALL,)}  # what files call them
+QUOTES = "; text with a colon or a comma needs quotes"  # what is wrong most often where a flow mapping is not one
 REMEMBERED = 16  # texts of files [1]; source: config, two schemas and some devices
 LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema allows takes as much
 
@@ -80,13 +81,16 @@ def read_yaml(path: Path) -> dict[str, Any]:
     except OSError as error:
         raise SceneError(f"{path}: cannot be read as a YAML file: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: must be UTF-8 text, found byte 0x{error.object[error.start]:02x}") from error
+        line = 1 + error.object.count(b"\n", 0, error.start)
+        found = f"found byte 0x{error.object[error.start]:02x}"
+        raise SceneError(f"{path}: line {line}: must be UTF-8 text, {found}; save it as UTF-8") from error
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         where = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         begun = error.context_mark
         context = f" ({error.context} that began in line {begun.line + 1})" if begun else ""
-        raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}{context}") from error
+        hint = QUOTES if "flow mapping" in str(error.context) else ""
+        raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}{context}{hint}") from error
     except RecursionError as error:
         raise SceneError(f"{path}: is nested too deeply; allowed: the few levels of the shipped files") from error
     except (yaml.YAMLError, ValueError) as error:

@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from fingerpad.contact_law import Interface
 from fingerpad.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
-from fingerpad.ratings import read_ratings, read_stated_order
+from fingerpad.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scenefile import recordings
 from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_config, check_device, known_devices
@@ -24,7 +24,10 @@ ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for
 
 try:
     check_config(CONFIG, SCHEMAS)
-    DEVICES = known_devices(SCENES / "devices")
+    if not (DEVICES := known_devices(SCENES / "devices")):
+        raise FingerpadError(
+            f"{SCENES / 'devices'}: found no device file; `fingerpad new NAME --from device2` begins one"
+        )
     DEVICE_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEVICES]
     SCENE = {path.stem: check_device(path, SCHEMAS, CONFIG) for path in DEVICE_FILES}
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
@@ -33,7 +36,8 @@ try:
         path.stem: check_device(path, SCHEMAS, BASE / "config" / "config.yaml")
         for path in sorted((BASE / "config" / "devices").glob("*.yaml"))
     }
-    KNOWN = {
+    # a device of the paper that has no file any more has no conditions: what data/ says of it is left out
+    KNOWN = {name: [] for name in sorted(set(read_published(DATA / "published_r2.csv")["device"]))} | {
         name: [condition.name for condition in scene.device.conditions] for name, scene in (SHIPPED | SCENE).items()
     }
     read_ratings(DATA / "ratings.csv", KNOWN)

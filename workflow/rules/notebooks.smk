@@ -40,6 +40,6 @@ rule notebook:
     params:
         code=lambda w: [code("notebook.py"), code_of(BASE / "notebooks" / f"{w.notebook}.ipynb")],
         # results are of SCENE; what notebooks design themselves begins with the shipped device
-        scene=support.fingerprint(SCENE.get("device2"), SHIPPED["device2"]),
+        scene=support.fingerprint(SCENE.get("device2"), SHIPPED.get("device2")),
     script:
         "../scripts/notebook.py"

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
+from ..caveats import DEEP
+from ..contact_law import Criterion
 from ..errors import UsageError
 from ..figures.section import section_figure
 from ..figures.style import save_as
@@ -24,6 +26,11 @@ examples:
   fingerpad check config/devices/device2.yaml
   fingerpad check config/devices/device2.yaml -o device2.png
 """
+TOO_WIDE = (
+    "The row is wide for this finger: until all faces are covered it is pressed deeper than half of the pad, which"
+    " takes minutes and may have no solution. A narrower row, or contact.criterion: touch, goes less deep."
+)
+TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 STEPS = 3  # of the progress: mesh, figure, picture
 PICTURES = (".png", ".pdf", ".svg")
 
@@ -65,14 +72,17 @@ def described(scene: Scene) -> str:
     distinct = ", ".join(condition.name for condition in device.distinct_conditions)
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
+    rise, pad = _rise(scene), scene.model.finger.pad_thickness
+    deep = scene.model.contact.criterion is Criterion.FULL and rise > DEEP * pad
     return (
         f"{device.title} ({device.name})\n"
         f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
         f"{len(device.conditions)} conditions: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
-        f"skin over the outermost faces lies {_rise(scene):.2g} mm above that touched first, on a pad of"
-        f" {scene.model.finger.pad_thickness:g} mm"
+        f"skin over the outermost faces lies {rise:.2g} mm above that touched first, on a pad of {pad:g} mm"
+        + (f"\n{TOO_WIDE}" if deep else "")
+        + (f"\n{TOO_FAR}" if rise + normal > pad else "")
     )
 
 

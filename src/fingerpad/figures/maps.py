@@ -170,8 +170,9 @@ class _Shown:
 def _in_view(fields: Fields, window: Window) -> _Shown:
     """The elements that a window shows under any loading, at whose corners alone fields are drawn."""
     (left, right), (bottom, top) = window
-    x, y = (fields.corner + fields.displacement).transpose(1, 0, 2)
-    seen = ((x > left) & (x < right) & (y > bottom) & (y < top)).any(axis=0).reshape(-1, 3).any(axis=1)
+    x, y = (fields.corner + fields.displacement).reshape(len(fields.displacement), 2, -1, 3).transpose(1, 0, 2, 3)
+    across = (x.max(axis=2) > left) & (x.min(axis=2) < right)
+    seen = (across & (y.max(axis=2) > bottom) & (y.min(axis=2) < top)).any(axis=0)
     elements = np.arange(fields.corner.shape[1]).reshape(-1, 3)[seen]
     return _Shown(fields, elements, fields.strain[:, elements.ravel()], fields.change[:, elements.ravel()])
 

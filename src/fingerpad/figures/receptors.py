@@ -28,7 +28,6 @@ from .style import (
     as_title,
     condition_styles,
     conditions_of,
-    counted,
     face_handle,
     legend_below,
     letter,
@@ -41,7 +40,7 @@ ROW_HEIGHT, LEGEND_HEIGHT = 38.0, 18.0  # mm
 MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces of all devices
 MARKER_SPACING = 2.0  # mm between markers on a curve
 
-CAPTION = "With shear, {kinematics}. In a row, conditions with one and the same stimulus are drawn once."
+CAPTION = "With shear, {kinematics}. n: conditions; in a row, those with one and the same stimulus are drawn once."
 
 
 @dataclass(frozen=True)
@@ -97,7 +96,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         several = len(own) < len(entry.device.conditions)
-        named = f"{entry.device.title}{f', {plain(dispersion)} dispersion' if several else ''} ({counted(own)})"
+        named = f"{entry.device.title}{f', {plain(dispersion)} dispersion' if several else ''} (n = {len(own)})"
         row[0].set_title(as_title(figure, named, len(Readout)), loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)

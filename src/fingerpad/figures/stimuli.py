@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
 
+from ..arrays import FloatArray
 from ..device import Condition, Device
 from .style import (
     BLUE,
@@ -30,48 +31,50 @@ from .style import (
 COLUMNS = 3  # panels beside each other
 ROW_HEIGHT, TITLE_HEIGHT, LEGEND_HEIGHT = 19.0, 6.0, 16.0  # mm
 MICRO = 1e3  # micrometres in a mm
-BAR = 0.36  # width of a bar, of the distance between actuators [1]
+BARS = 0.6  # width of an actuator's bars together, of the distance between actuators [1]
 HEADROOM = 1.1  # of the axes beyond the largest displacement [1]
 MOST_NUMBERS = 16  # actuators up to which each has its number
 CAPTION = (
     "Displacements from the pre-indented position; of a stimulus with several times, where actuators have moved"
     " farthest."
 )
+NORMAL, LATERAL = "normal", "lateral"
+LABELS = {NORMAL: "normal, into the skin", LATERAL: "lateral, to the right"}  # in the order of a device's strokes
+LOOKS: dict[str, dict[str, Any]] = {
+    NORMAL: {"color": BLUE},
+    LATERAL: {"facecolor": "white", "edgecolor": VERMILLION, "hatch": "////", "linewidth": THIN},
+}
 
 
 @styled
 def stimuli_figure(devices: Sequence[Device]) -> Figure:
     """Displacement of every actuator in every condition: a block of panels a device, a row a dispersion."""
-    rows = [list(_rows(device)) for device in devices]
-    heights = [len(own) * ROW_HEIGHT + TITLE_HEIGHT for own in rows]
+    rows = [(device, list(_rows(device))) for device in devices]
+    heights = [len(own) * ROW_HEIGHT + TITLE_HEIGHT for _, own in rows]
     figure = new_figure(WIDE, sum(heights) + LEGEND_HEIGHT)
     styles = condition_styles(conditions_of(devices))
-    grid = figure.subplots(sum(map(len, rows)), COLUMNS, squeeze=False)
-    unused = iter(grid)
-    for device, own in zip(devices, rows, strict=True):
-        limit = HEADROOM * (MICRO * device.stroke or 1.0)
+    unused = iter(figure.subplots(sum(len(own) for _, own in rows), COLUMNS, squeeze=False))
+    for device, own in rows:
+        named = as_title(figure, f"{device.title} ({counted(device.conditions)})")
+        room = "\n" * (named.count("\n") + 1)
         for number, conditions in enumerate(own):
             panels = next(unused)
             for axes, condition in zip(panels, conditions, strict=False):
-                _draw(axes, _farthest(condition))
-                axes.set_ylim(-limit, limit)
-                axes.set_title(styles.series[device.name, condition.name].label, loc="left", fontweight="normal")
+                _draw(axes, device, condition)
+                label = styles.series[device.name, condition.name].label
+                axes.set_title(f"{room if number == 0 else ''}{label}", loc="left", fontweight="normal")
+                if number == len(own) - 1:
+                    axes.set_xlabel("Actuator")
             for axes in panels[len(conditions) :]:
                 axes.remove()
             panels[0].set_ylabel("Displacement\n(µm)")
             if number == 0:
-                named = f"{device.title} ({counted(device.conditions)})"
-                panels[0].annotate(
-                    as_title(figure, named), (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 16.0),
-                    textcoords="offset points", fontweight="bold", fontsize="large", va="bottom",
+                title = panels[0].annotate(
+                    named, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 16.0), textcoords="offset points",
+                    fontweight="bold", fontsize="large", va="bottom",
                 )  # fmt: skip
-            if number == len(own) - 1:
-                for axes in panels[: len(conditions)]:
-                    axes.set_xlabel("Actuator")
-    handles = [
-        Patch(color=BLUE, label="normal, into the skin"),
-        Patch(facecolor="white", edgecolor=VERMILLION, hatch="////", label="lateral, to the right"),
-    ]
+                title.set_in_layout(False)  # its room is that of the panels' titles, whose first lines are empty
+    handles = [Patch(label=label, **LOOKS[kind]) for kind, label in LABELS.items()]
     legend_below(figure, handles, CAPTION)
     return figure
 
@@ -84,20 +87,25 @@ def _rows(device: Device) -> Iterator[Sequence[Condition]]:
             yield own[COLUMNS * number : COLUMNS * (number + 1)]
 
 
-def _farthest(condition: Condition) -> np.ndarray:
-    """Sideways and normal displacements (n_actuators, 2) [µm] at the time at which an actuator has moved farthest."""
+def _farthest(condition: Condition) -> dict[str, FloatArray]:
+    """Displacements (n_actuators,) [µm] by direction at the time at which an actuator has moved farthest."""
     moves = MICRO * condition.moves
-    return np.asarray(moves[np.abs(moves).max(axis=(1, 2)).argmax()])
+    lateral, normal = moves[np.abs(moves).max(axis=(1, 2)).argmax()].T
+    return {NORMAL: normal, LATERAL: lateral}
 
 
-def _draw(axes: Axes, moved: np.ndarray) -> None:
-    """A pair of bars an actuator: normal, and lateral."""
-    number = np.arange(1, len(moved) + 1)
-    lateral, normal = moved.T
-    axes.bar(number - BAR / 2.0, normal, BAR, color=BLUE)
-    axes.bar(number + BAR / 2.0, lateral, BAR, facecolor="white", edgecolor=VERMILLION, hatch="////", linewidth=THIN)
+def _draw(axes: Axes, device: Device, condition: Condition) -> None:
+    """A bar an actuator, or two where the device moves in both directions."""
+    stroke, count = MICRO * device.stroke, len(device.actuators.positions)
+    number = np.arange(1, count + 1)
+    directions = [kind for kind, farthest in zip(LABELS, device.strokes, strict=True) if farthest > 0.0]
+    for place, kind in enumerate(directions):
+        width = BARS / len(directions)
+        axes.bar(number + (place + 0.5) * width - BARS / 2.0, _farthest(condition)[kind], width, **LOOKS[kind])
     axes.axhline(0.0, color=GREY, linewidth=THIN)
-    axes.set_xlim(0.5, len(moved) + 0.5)
-    if len(moved) <= MOST_NUMBERS:
+    axes.set_xlim(0.5, count + 0.5)
+    if count <= MOST_NUMBERS:
         axes.set_xticks(number)
-    axes.yaxis.set_major_locator(MaxNLocator(3, symmetric=True))
+    if stroke > 0.0:
+        axes.set_ylim(-HEADROOM * stroke, HEADROOM * stroke)
+        axes.set_yticks([-stroke, 0.0, stroke], [f"\N{MINUS SIGN}{stroke:.3g}", "0", f"{stroke:.3g}"])
