@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from fingerpad import edges
+from fingerpad.contact_law import Interface
 from fingerpad.device import ActuatorRow
 from fingerpad.edges import REACH, edge_intervals, mesh_device
 from fingerpad.elasticity import displacement_basis, node_dofs
-from fingerpad.errors import MeshError, SceneError
+from fingerpad.errors import ContactError, ConvergenceError, CriterionError, MeshError, SceneError
 from fingerpad.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
 from fingerpad.reach import contact_tractions
 from fingerpad.receptors import receptor_strain
@@ -177,6 +180,31 @@ def test_a_mesh_too_large_is_a_named_error() -> None:
     fine = replace(base, model=replace(base.model, numerics=numerics))
     with pytest.raises(MeshError, match="more than 500000 elements"):
         mesh_section(fine, nominal_edges(fine.device.actuators))
+
+
+def test_edges_are_where_those_interfaces_have_them_that_can_be_pressed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that cannot be leaves the other's as they are; where the criterion is out of reach nobody looks widely."""
+    base = scene("device2")
+    nominal = nominal_edges(base.device.actuators)
+    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    both, press = edge_intervals(base), edges._pressed_state
+
+    def refusing(error: type[ContactError], *refused: Interface) -> np.ndarray:
+        def pressed(*given: Any) -> Any:
+            if given[-1] in refused:
+                raise error("refused")
+            return press(*given)
+
+        monkeypatch.setattr(edges, "_pressed_state", pressed)
+        return edge_intervals(base)
+
+    for interface in Interface:
+        (start, stop), (first, last) = refusing(ConvergenceError, interface).T, both.T
+        assert (start >= first).all()
+        assert (stop <= last).all()
+        assert (stop - start).sum() < (last - first).sum()
+    assert np.array_equal(refusing(CriterionError, *Interface), nominal)
+    assert np.array_equal(refusing(ConvergenceError, *Interface), wide)
 
 
 def test_without_a_coarse_mesh_edges_are_sought_widely() -> None:

@@ -14,9 +14,11 @@ import numpy as np
 
 from .actuator_body import body_of
 from .arrays import FloatArray
+from .compliance import CondensedBody, CondensedSection
 from .condensation import condense_section
 from .contact import ContactProblem, ContactState
-from .errors import CondensationError, ContactError, MeshError
+from .contact_law import Interface
+from .errors import CondensationError, ContactError, CriterionError, MeshError
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
 from .scene import Scene
@@ -48,44 +50,63 @@ def load_edges(path: Path) -> FloatArray:
 def edge_intervals(scene: Scene) -> FloatArray:
     """Intervals (k, 2) of |x| [mm] on the undeformed skin over which rounded edges lie in any condition.
 
-    If there is no coarse mesh, or no solution on it, the nominal intervals and REACH around them.
+    If there is no coarse mesh, or no solution on it, the nominal intervals and REACH around them; the nominal ones
+    alone where the criterion of pre-indentation is out of reach, as that is so on any mesh.
     """
     nominal = nominal_edges(scene.device.actuators)
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    failures = list[ContactError]()
     try:
-        found = [_under_edges(*each) for each in _states(scene, wide)]
-    except (MeshError, CondensationError, ContactError):
+        found = [_under_edges(*each) for each in _states(scene, wide, failures)]
+    except (MeshError, CondensationError):
         return wide
+    if not found:
+        return nominal if all(isinstance(failure, CriterionError) for failure in failures) else wide
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
     both = np.stack([start, stop], axis=1)
     return _joined(np.concatenate([both, -both[:, ::-1]]))
 
 
-def _states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState]]:
-    """States of all conditions on a coarse mesh. Raises ContactError."""
+def _states(
+    scene: Scene, edges: FloatArray, failures: list[ContactError]
+) -> Iterator[tuple[ContactProblem, ContactState]]:
+    """States of all conditions on a coarse mesh, as far as they can be followed; what cannot is added to `failures`.
+    Raises MeshError, CondensationError.
+    """
     coarse = scene.coarsened(COARSER)
-    for problem, before in _pressed_states(coarse, mesh_section(coarse, edges)):
+    section, body = mesh_section(coarse, edges), body_of(coarse)
+    condensed = condense_section(section, coarse) if coarse.kinematics is Kinematics.SMALL else None
+    for interface in scene.device.interfaces():
+        try:
+            problem, before = _pressed_state(coarse, section, condensed, body, interface)
+        except ContactError as failure:
+            failures.append(failure)
+            continue
         yield problem, before
         for condition in scene.device.distinct_conditions:
-            for state in follow_condition(coarse, problem, before, condition):
-                yield problem, state
+            try:
+                for state in follow_condition(coarse, problem, before, condition):
+                    yield problem, state
+            except ContactError as failure:
+                failures.append(failure)
 
 
-def _pressed_states(scene: Scene, section: SectionMesh) -> Iterator[tuple[ContactProblem, ContactState]]:
-    """The pre-indented state at each interface, and the problem for stimuli from there: with finite kinematics on
-    tissue linearised about that state, as they move it little. Raises ContactError.
+def _pressed_state(
+    scene: Scene,
+    section: SectionMesh,
+    condensed: CondensedSection | None,
+    body: CondensedBody | None,
+    interface: Interface,
+) -> tuple[ContactProblem, ContactState]:
+    """The pre-indented state, and the problem for stimuli from there: without a condensed section, with finite
+    kinematics, on tissue linearised about that state, as they move it little. Raises ContactError.
     """
-    body = body_of(scene)
-    if scene.kinematics is Kinematics.SMALL:
-        condensed = condense_section(section, scene)
-        for interface in scene.device.interfaces():
-            problem = contact_problem(scene, condensed, body, interface)
-            yield problem, indented_state(scene, problem)
-    else:
-        for interface in scene.device.interfaces():
-            pressed = press(scene, section, body, interface)
-            problem = contact_problem(scene, pressed.section, body, interface)
-            yield replace(problem, free=pressed.free), pressed.state
+    if condensed is not None:
+        problem = contact_problem(scene, condensed, body, interface)
+        return problem, indented_state(scene, problem)
+    pressed = press(scene, section, body, interface)
+    problem = contact_problem(scene, pressed.section, body, interface)
+    return replace(problem, free=pressed.free), pressed.state
 
 
 def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:

@@ -31,10 +31,11 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
         rows = _solved_rows(scene, edges, step)
-        coarser = coarser_rows(scene, edges, step) if error else []
+        sought = error and any(row["score"] is not None for row in rows)
+        coarser = coarser_rows(scene, edges, step) if sought else []
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
-    table = with_errors(found, coarser) if error else [with_error(row, None) for row in found]
+    table = with_errors(found, coarser) if sought else [with_error(row, None) for row in found]
     caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[SILENT] for _ in silent]
     return [
         row | {"rank": rank, "caveats": own + close}
