@@ -31,6 +31,7 @@ from .tissue_law import Kinematics
 COARSER = f"on a mesh of {COARSENING:g} times the sizes, "  # where a score's error is sought
 
 Result = TypeVar("Result")
+Unsolved = ContactError | CondensationError  # why there is no solution, though there is a mesh
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Solved:
 
     condition: Condition
     interface: Interface
-    solution: Solution | ContactError
+    solution: Solution | Unsolved
 
 
 def prepared(scene: Scene, edges: FloatArray) -> Condensed | Meshed:
@@ -124,10 +125,10 @@ def _rows_if_any(
 
 
 def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:
-    """Rows of the score table for all conditions and interfaces. Raises ContactError."""
+    """Rows of the score table for all conditions and interfaces. Raises ContactError, CondensationError."""
     rows: list[dict[str, Any]] = []
     for solved in solve_scene(scene, condensed):
-        if isinstance(solved.solution, ContactError):
+        if isinstance(solved.solution, Unsolved):
             raise solved.solution
         rows += rows_of(scene, condensed, solved)
     return rows
@@ -136,29 +137,31 @@ def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str
 def solve_scene(scene: Scene, condensed: Condensed | Meshed) -> Iterator[Solved]:
     """All conditions and interfaces, solved in turn as far as they can be; equal stimuli share a solution."""
     for interface in scene.device.interfaces():
-        found: dict[str, Solution | ContactError] = {}
-        pressed: Callable[[Condition], Solution] | ContactError | None = None
+        found: dict[str, Solution | Unsolved] = {}
+        pressed: Callable[[Condition], Solution] | Unsolved | None = None
         for condition in scene.device.conditions:
             solved_as = scene.solved_as(condition.name).name
             if solved_as not in found:
                 if pressed is None or not scene.model.skips.shared_indentation:
                     pressed = _attempt(pressed_device, scene, condensed, interface)
-                found[solved_as] = pressed if isinstance(pressed, ContactError) else _attempt(pressed, condition)
+                found[solved_as] = pressed if isinstance(pressed, Unsolved) else _attempt(pressed, condition)
             yield Solved(condition, interface, found[solved_as])
 
 
-def _attempt(solve: Callable[..., Result], *given: object) -> Result | ContactError:
+def _attempt(solve: Callable[..., Result], *given: object) -> Result | Unsolved:
     """What is found, or why it cannot be."""
     try:
         return solve(*given)
-    except ContactError as error:
+    except (ContactError, CondensationError) as error:
         return error
 
 
 def pressed_device(
     scene: Scene, condensed: Condensed | Meshed, interface: Interface
 ) -> Callable[[Condition], Solution]:
-    """Press the device onto the finger: what solves the stimulus of a condition from there. Raises ContactError."""
+    """Press the device onto the finger: what solves the stimulus of a condition from there. Raises ContactError,
+    CondensationError.
+    """
     if isinstance(condensed, Meshed):
         pressed = press(scene, condensed.section, condensed.body, interface)
         finger = pressed_finger(scene, condensed.section, condensed.body, pressed, interface)
@@ -174,7 +177,7 @@ def rows_of(
     """Rows of the score table for one solution, with its caveats as their note; without one, rows without scores, whose
     note is `unsolved` and why.
     """
-    if isinstance(solved.solution, ContactError):
+    if isinstance(solved.solution, Unsolved):
         return unscored_rows(scene, solved.condition, solved.interface, f"{unsolved}{solved.solution}")
     read, note = read_out(scene, condensed, solved.solution), "; ".join(solution_caveats(scene, solved.solution))
     return score_rows(scene, solved.condition, solved.interface, read, note)
