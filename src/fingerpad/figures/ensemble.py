@@ -15,8 +15,8 @@ from ..claims import Holds, Kind
 from ..tissue_law import Kinematics
 from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
-ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.0, 12.0, 52.0  # mm
-CLAIM_WIDTH = 44  # characters in a line of a statement
+ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.6, 12.0, 52.0  # mm
+CLAIM_WIDTH = 52  # characters in a line of a statement
 ASIDE = {FIRST: -0.22, SECOND: 0.22}  # of a member's place [1], where its half-cycles are drawn
 SIZE = 3.4  # of a mark [pt]
 MARKS: dict[Holds, dict[str, Any]] = {
