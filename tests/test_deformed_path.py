@@ -7,7 +7,7 @@ import pytest
 
 from fingerpad.arrays import FloatArray
 from fingerpad.contact_law import Interface
-from fingerpad.deformed import deformed, solver_on
+from fingerpad.deformed import deformed_state, solver_on
 from fingerpad.deformed_path import EQUILIBRIUM, DeformedTissue, move
 from fingerpad.deformed_solution import PressedFinger, pressed_finger, stimulate_deformed
 from fingerpad.device import Condition
@@ -36,7 +36,7 @@ def finger(base: Scene) -> PressedFinger:
 
 
 def moved(tissue: DeformedTissue, forces: FloatArray) -> FloatArray:
-    return np.asarray(tissue.span.loads.T @ tissue.solve(tissue.span.loads @ forces))
+    return np.asarray(tissue.part.loads.T @ tissue.solve(tissue.part.loads @ forces))
 
 
 def test_a_spring_makes_the_softest_mode_as_stiff_as_the_next(finger: PressedFinger) -> None:
@@ -58,9 +58,9 @@ def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
     target = finger.start.state.actuator + np.stack([np.zeros(4), up], axis=1)
     corrected = move(finger.tissue, finger.problem, finger.start, target, 4)
     assert corrected.tangents == 0
-    span = finger.tissue.condensing()
-    begin = deformed(finger.start.state, finger.start.displacement)
-    followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(span, 1))
+    part = finger.tissue.condensing()
+    begin = deformed_state(finger.start.state, finger.start.displacement)
+    followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(part, 1))
     way = np.abs(followed.displacement - finger.start.displacement).max()
     assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * EQUILIBRIUM * way
 

@@ -19,7 +19,7 @@ import pandas as pd
 
 from .contact_law import Interface
 from .ratings import RatingKind
-from .readout import CONSTANT, Readout
+from .readout import CONSTANT, READOUT_NAME, Readout
 from .roughness import KEY, TYPESET_UNITS
 
 COLUMNS = ["kinematics", "claim", "kind", "source", "holds", "evidence"]
@@ -270,9 +270,6 @@ def _is_less(low: float, high: float, error: float) -> Holds:
 # --- correlations --------------------------------------------------------------------------------------------------
 
 
-_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
-
-
 def _slope(row: Mapping[str, Any]) -> int:
     """Sign of the slope; 0 also where there is none, as for a constant score."""
     return 0 if pd.isna(row["slope_sign"]) else int(row["slope_sign"])
@@ -318,7 +315,7 @@ def _correlates(
         row = tables.correlation(device, interface, readout)
         r = _r(row)
         ends = [_is_less(more_than, sign * end, r.error) for end in (r.lowest, r.highest)]
-        return _throughout(ends), f"{_NAME[readout]}, {_described(row)}."
+        return _throughout(ends), f"{READOUT_NAME[readout]}, {_described(row)}."
 
     return check
 
@@ -331,7 +328,7 @@ def _correlates_less(device: str, interface: Interface, readout: Readout, than: 
         r = _r(row)
         strengths = [abs(r.lowest), abs(r.highest)] if r.lowest * r.highest > 0.0 else [0.0, max(-r.lowest, r.highest)]
         ends = [_is_less(strength, than, r.error) for strength in strengths]
-        return _throughout(ends), f"{_NAME[readout]}, {_described(row)}."
+        return _throughout(ends), f"{READOUT_NAME[readout]}, {_described(row)}."
 
     return check
 

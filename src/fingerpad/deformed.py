@@ -45,7 +45,7 @@ TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; 
 
 
 @dataclass(frozen=True)
-class Span:
+class TissuePart:
     """The tissue that is solved: a section, or its right half under loads that mirror.
 
     elements. loads: (n_free, 2m) nodal forces of unit contact forces, in the order of the tangent, which has the nodes
@@ -97,13 +97,13 @@ class DeformedState(ContactState):
     changes: tuple[float, ...] = ()
 
 
-def deformed(state: ContactState, displacement: FloatArray) -> DeformedState:
+def deformed_state(state: ContactState, displacement: FloatArray) -> DeformedState:
     """A state of contact on tissue with a displacement (size,) [mm]."""
     own = {field.name: getattr(state, field.name) for field in fields(ContactState)}
     return DeformedState(**own, displacement=displacement, rate=np.zeros_like(displacement), passed=None, tangents=0)
 
 
-def undeformed(state: DeformedState) -> ContactState:
+def contact_state(state: DeformedState) -> ContactState:
     """The state of contact alone."""
     return ContactState(**{field.name: getattr(state, field.name) for field in fields(ContactState)})
 
@@ -118,13 +118,13 @@ def increments_of(count: int) -> tuple[int, int]:
     return tissue, -(-count // tissue)
 
 
-def solver_on(span: Span, increments: int) -> SolveIncrement[DeformedState]:
+def solver_on(part: TissuePart, increments: int) -> SolveIncrement[DeformedState]:
     """What solves an increment on that tissue, for a path, in so many of contact."""
-    return partial(solve_deformed_increment, span, increments)
+    return partial(solve_deformed_increment, part, increments)
 
 
 def solve_deformed_increment(
-    span: Span,
+    part: TissuePart,
     increments: int,
     problem: ContactProblem,
     start: DeformedState,
@@ -138,7 +138,7 @@ def solve_deformed_increment(
     """
     length = float(np.abs(actuator - start.actuator).max())
     scale = float(np.abs(actuator).max()) + length
-    free, displacement = span.elements.free, start.displacement + length * start.rate
+    free, displacement = part.elements.free, start.displacement + length * start.rate
     made, iterations = 0, 0
     changes: list[float] = []
     steps: list[FloatArray] = []
@@ -147,20 +147,20 @@ def solve_deformed_increment(
     try:
         while len(changes) < MAX_ITERATIONS:
             if tangent is None:
-                tangent, made = tangent_at(span, displacement), made + 1
+                tangent, made = tangent_at(part, displacement), made + 1
                 steps, ends = [], []
                 unstable = unstable or _is_unstable(problem, start, tangent)
-            back = -tangent.factors.solve(internal_force(span.elements, displacement)[free])
-            last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
-            first = (span.loads.T @ start.displacement[free]).reshape(-1, 2)
+            back = -tangent.factors.solve(internal_force(part.elements, displacement)[free])
+            last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+            first = (part.loads.T @ start.displacement[free]).reshape(-1, 2)
             found, passed, tangent = _followed(increments, problem, tangent, start, actuator, first, last)
             iterations += found.iterations - start.iterations
-            step = back + tangent.factors.solve(span.loads @ found.force.ravel())
+            step = back + tangent.factors.solve(part.loads @ found.force.ravel())
             displacement[free] += step
             changes.append(float(np.abs(step).max()) / scale)
             if changes[-1] <= LOOSER * problem.tolerance:
                 _require_near(problem, found, tangent, displacement - start.displacement, length, scale)
-                reached = deformed(replace(found, iterations=start.iterations + iterations), displacement)
+                reached = deformed_state(replace(found, iterations=start.iterations + iterations), displacement)
                 rate = (displacement - start.displacement) / length
                 made += start.tangents
                 return replace(reached, rate=rate, passed=passed, tangents=made, changes=tuple(changes)), tangent
@@ -210,11 +210,11 @@ def require_stable(problem: ContactProblem, state: ContactState, tangent: Tangen
         raise SnapError("the tissue has no stable state here: another branches off; try less indentation")
 
 
-def tangent_at(span: Span, displacement: FloatArray) -> Tangent:
+def tangent_at(part: TissuePart, displacement: FloatArray) -> Tangent:
     """Linearise about a displacement (size,) [mm]. Raises InvertedError, CondensationError."""
-    _, matrix = internal_force_and_tangent(span.elements, displacement)
+    _, matrix = internal_force_and_tangent(part.elements, displacement)
     factors = factorise(matrix)
-    return Tangent(factors, *trailing_compliance(matrix, factors, span.loads))
+    return Tangent(factors, *trailing_compliance(matrix, factors, part.loads))
 
 
 def _followed(

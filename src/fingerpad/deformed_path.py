@@ -24,7 +24,7 @@ from .acceleration import accelerated
 from .arrays import FloatArray
 from .contact import ContactProblem, ContactState
 from .deformation import internal_force, internal_force_and_tangent
-from .deformed import Span, deformed, increments_of, is_far, solver_on, undeformed
+from .deformed import TissuePart, contact_state, deformed_state, increments_of, is_far, solver_on
 from .errors import ContactError
 from .factors import factorise
 from .increment import solve_increment
@@ -41,14 +41,14 @@ EQUILIBRIUM = (
 class DeformedTissue:
     """The whole section about the pre-indented state.
 
-    factors: of its tangent K. displacement: (size,) [mm]. condensing: the same span in an order from which new tangents
+    factors: of its tangent K. displacement: (size,) [mm]. condensing: the same part in an order from which new tangents
     are condensed, for moves that need them. spring: `solve` is with K + spring, or None.
     """
 
-    span: Span
+    part: TissuePart
     factors: SuperLU
     displacement: FloatArray
-    condensing: Callable[[], Span]
+    condensing: Callable[[], TissuePart]
     spring: Spring | None
 
     def solve(self, load: FloatArray) -> FloatArray:
@@ -92,25 +92,25 @@ class Move:
 
 
 def deformed_tissue(
-    span: Span, displacement: FloatArray, condensing: Callable[[], Span], sprung: FloatArray | None
+    part: TissuePart, displacement: FloatArray, condensing: Callable[[], TissuePart], sprung: FloatArray | None
 ) -> DeformedTissue:
     """Linearise about a displacement (size,) [mm], with a spring on a given compliance's softest mode.
 
     Raises CondensationError.
     """
-    _, matrix = internal_force_and_tangent(span.elements, displacement)
+    _, matrix = internal_force_and_tangent(part.elements, displacement)
     factors = factorise(matrix)
-    spring = None if sprung is None else _spring(span, factors, sprung)
-    return DeformedTissue(span, factors, displacement, condensing, spring)
+    spring = None if sprung is None else _spring(part, factors, sprung)
+    return DeformedTissue(part, factors, displacement, condensing, spring)
 
 
-def _spring(span: Span, factors: SuperLU, compliance: FloatArray) -> Spring:
+def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> Spring:
     """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors."""
     count = compliance.shape[0]
     (next_one, softest), modes = eigh(compliance, subset_by_index=[count - 2, count - 1])
     mode = modes[:, 1]
     return Spring(
-        factors.solve(span.loads @ mode),
+        factors.solve(part.loads @ mode),
         float(softest - next_one) / float(softest) ** 2,
         compliance - (softest - next_one) * np.outer(mode, mode),
     )
@@ -138,7 +138,7 @@ def _corrected(
     tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
 ) -> Move:
     """`move` on the tissue's tangent alone. Raises _UnsettledError."""
-    span, free = tissue.span, tissue.span.elements.free
+    part, free = tissue.part, tissue.part.elements.free
     exact = tissue.spring is None and np.array_equal(start.displacement, tissue.displacement)
     power = 2 if exact else 1
     steps: list[FloatArray] = []
@@ -146,8 +146,8 @@ def _corrected(
     displacement, first, state, patch = start.displacement, None, None, None
     for correction in range(MAX_CORRECTIONS):
         try:
-            back = -tissue.solve(internal_force(span.elements, displacement)[free])
-            last = (span.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+            back = -tissue.solve(internal_force(part.elements, displacement)[free])
+            last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
             if state is None or problem.friction > 0.0:
                 state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
@@ -156,7 +156,7 @@ def _corrected(
                 state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
         except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
             raise _UnsettledError from error
-        step = back + tissue.solve(span.loads @ state.force.ravel())
+        step = back + tissue.solve(part.loads @ state.force.ravel())
         reached = displacement[free] + step
         moved = float(np.abs(reached - start.displacement[free]).max())
         # a stimulus that never touches moves nothing
@@ -180,13 +180,13 @@ def _followed_newly(
     tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
 ) -> Move:
     """`move` with a new tangent wherever an increment asks for one."""
-    span = tissue.condensing()
-    begin, (count, within) = deformed(start.state, start.displacement), increments_of(increments)
-    reached, _ = advance(problem, begin, target, count, None, solver_on(span, within))
-    moved = (span.loads.T @ reached.displacement[span.elements.free]).reshape(-1, 2)
+    part = tissue.condensing()
+    begin, (count, within) = deformed_state(start.state, start.displacement), increments_of(increments)
+    reached, _ = advance(problem, begin, target, count, None, solver_on(part, within))
+    moved = (part.loads.T @ reached.displacement[part.elements.free]).reshape(-1, 2)
     rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
     return Move(
-        undeformed(reached),
+        contact_state(reached),
         reached.displacement,
         rest,
         start.tangents + reached.tangents,

@@ -22,7 +22,7 @@ from .device import Condition
 from .elasticity import displacement_basis, node_dofs
 from .finite_strain import logarithmic_strain
 from .mesh import SectionMesh
-from .pressing import Pressed, whole_span
+from .pressing import Pressed, whole_part
 from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
@@ -58,8 +58,8 @@ def pressed_finger(
     skin = skin_of(section, dofs, halved=False)
     problem, free = contact_problem(scene, pressed.section, body, interface), pressed.free
     sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
-    condensing = partial(whole_span, scene, section, True)
-    tissue = deformed_tissue(whole_span(scene, section, False), displacement, condensing, sprung)
+    condensing = partial(whole_part, scene, section, True)
+    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, sprung)
     if tissue.spring is not None:
         borne = (problem.compliance - tissue.spring.compliance) @ pressed.state.force.ravel()
         problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)

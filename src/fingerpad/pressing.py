@@ -22,13 +22,13 @@ from .contact_law import Interface
 from .deformation import elements_of
 from .deformed import (
     DeformedState,
-    Span,
-    deformed,
+    TissuePart,
+    contact_state,
+    deformed_state,
     increments_of,
     require_stable,
     solver_on,
     tangent_at,
-    undeformed,
 )
 from .elasticity import displacement_basis
 from .ellipticity import require_elliptic
@@ -87,7 +87,7 @@ def press(
     problem = contact_problem(scene, bare, body, interface)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
     parts = right_half(section, tractions) if mirrored else whole(section, tractions)
-    spans = [_span(scene, section, parts, which) for which in range(len(parts.held))]
+    tissues = [_part(scene, section, parts, which) for which in range(len(parts.held))]
     pressing = half_of(problem) if mirrored else problem
     touch, states = touching_height(pressing), list[ContactState]()
     skin = skin_of(section, parts.dofs, mirrored)
@@ -98,21 +98,21 @@ def press(
         require_uncrossed(skin, state.displacement, when)
 
     with named_pressing(scene, interface):
-        start = deformed(rest(pressing, touch), np.zeros(parts.dofs.size))
+        start = deformed_state(rest(pressing, touch), np.zeros(parts.dofs.size))
         count, within = increments_of(increments(scene, problem)[0])
-        solve = recording(solver_on(spans[0], within), note)
+        solve = recording(solver_on(tissues[0], within), note)
         if height is None:
             criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
             reached = raise_until(pressing, criterion, count, limit, start, solve)
-            require_elliptic(spans[0].elements, reached.displacement)
+            require_elliptic(tissues[0].elements, reached.displacement)
         else:
             target = np.full_like(start.actuator, height) * [0.0, 1.0]
             reached, _ = advance(pressing, start, target, count, None, solve)
-        tangents = [tangent_at(span, reached.displacement) for span in spans]
+        tangents = [tangent_at(tissue, reached.displacement) for tissue in tissues]
         for tangent in tangents:
             require_stable(pressing, reached, tangent)
     displacement = reached.displacement[parts.dofs]
-    state = undeformed(reached)
+    state = contact_state(reached)
     compliance = tangents[0].compliance
     if mirrored:
         columns = unfolding(tractions.position.shape[0], MIRROR)
@@ -146,12 +146,12 @@ def indented_height(scene: Scene, section: SectionMesh, interface: Interface) ->
     return float(state.actuator[0, 1])
 
 
-def whole_span(scene: Scene, section: SectionMesh, condensing: bool) -> Span:
+def whole_part(scene: Scene, section: SectionMesh, condensing: bool) -> TissuePart:
     """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill."""
-    return _span(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
+    return _part(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
 
 
-def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> Span:
+def _part(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> TissuePart:
     """The tissue with one choice of what is held."""
     loads = parts.loads[which]
     basis = displacement_basis(section.mesh, parts.elements)
@@ -159,7 +159,7 @@ def _span(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensi
     order = fill_reducing_order(joined, parts.dofs, parts.held[which], loads.indices if condensing else None)
     materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
-    return Span(elements_of(basis, tissue, order), csc_matrix(loads[order]))
+    return TissuePart(elements_of(basis, tissue, order), csc_matrix(loads[order]))
 
 
 def _joined(element_dofs: np.ndarray, size: int) -> csc_matrix:

@@ -23,6 +23,7 @@ NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
 SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
 SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
+SMALLEST_P = 0.001  # below it p is given as a bound
 OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `slope_name`, in captions
 
 

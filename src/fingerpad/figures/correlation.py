@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..contact_law import Interface
-from ..ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, has_p, slope_name
+from ..ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, slope_name
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -42,7 +42,6 @@ ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
 STATISTICS_WIDTH = 22  # characters in a line beside a panel
 MOST_NAMES = 10  # conditions whose names fit a panel's height
 TICKS = 4  # along a score's axis, at most
-SMALLEST_P = 0.001  # below it p is given as a bound
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
     "{interface}n: conditions; those with one and the same stimulus coincide.{rated}"

@@ -20,7 +20,7 @@ from PIL import Image
 
 from ..arrays import FloatArray
 from ..design import Answer
-from ..readout import Readout
+from ..readout import READOUT_NAME, Readout
 from ..roughness import SCORE_UNIT, score_span
 from .receptors import face_arcs
 from .style import (
@@ -30,7 +30,6 @@ from .style import (
     LINE,
     MM,
     PERCENT,
-    READOUT_NAME,
     SCORE_SCALE,
     SHADE,
     THIN,

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from ..arrays import FloatArray
 from ..compliance import CondensedSection
 from ..device import Device
-from ..readout import Readout
+from ..readout import READOUT_NAME, Readout
 from ..solution import Solution
 from ..strain import FilteredReadouts
 from ..tissue_law import Kinematics
@@ -20,7 +20,6 @@ from .style import (
     GREY,
     KINEMATICS_NAME,
     PERCENT,
-    READOUT_NAME,
     SHADE,
     THIN,
     WIDE,

@@ -24,7 +24,7 @@ from matplotlib.patches import Patch
 from ..contact_law import Interface
 from ..device import Device
 from ..files import replacing
-from ..readout import Readout
+from ..readout import READOUT_NAME, Readout
 from ..roughness import TYPESET_UNITS
 from ..tissue_law import Kinematics
 
@@ -93,7 +93,6 @@ SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
 
 KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
-READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
 INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
 SCORE_SCALE = {
     Readout.STRAIN: (1.0, ""),

@@ -8,12 +8,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from ..readout import GaborFilter, Readout, ReadoutRule
+from ..readout import READOUT_NAME, GaborFilter, Readout, ReadoutRule
 from ..roughness import score_span
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
     PERCENT,
-    READOUT_NAME,
     SCORE_SCALE,
     WIDE,
     as_title,

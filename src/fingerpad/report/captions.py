@@ -8,9 +8,9 @@ from functools import partial
 
 from ..contact_law import Interface
 from ..device import Device
-from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, READOUT_NAME, SCORE_SCALE, counted, plain
+from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain
 from ..ratings import has_p, slope_name
-from ..readout import Readout
+from ..readout import READOUT_NAME, Readout
 from ..roughness import TYPESET_UNITS
 from ..scene import Scene
 from ..tissue_law import Kinematics

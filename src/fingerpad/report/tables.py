@@ -9,9 +9,9 @@ from statistics import median
 
 from ..accuracy import relative_error
 from ..contact_law import Interface
-from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
-from ..ratings import SLOPE_NAME, has_p, slope_name
-from ..readout import Readout
+from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
+from ..ratings import SLOPE_NAME, SMALLEST_P, has_p, slope_name
+from ..readout import READOUT_NAME, Readout
 from ..tissue_law import Kinematics
 
 Row = Mapping[str, str]
@@ -20,7 +20,6 @@ ERROR_DIGITS = 2  # significant digits of an error [1]; the value ends where its
 DIGITS = 4  # significant digits of a value without an error [1]
 NOTHING = "\N{EN DASH}"
 SLOPES = {str(sign): name for sign, name in SLOPE_NAME.items()}
-SMALLEST_P = 0.001  # below it p is given as a bound
 
 
 @dataclass(frozen=True)
