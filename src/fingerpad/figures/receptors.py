@@ -40,6 +40,8 @@ MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces
 MARKER_SPACING = 2.0  # mm between markers on a curve
 
 CAPTION = "With shear, {kinematics}. n: conditions; in a row, those with one and the same stimulus are drawn once."
+# small strains of the shipped devices have no such place, finite ones do at the mid-line
+ZERO = " Strain is zero where both strains in the plane are compressive, as the one out of it is zero."
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,8 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
         letter(axes, text)
     for axes in grid[-1]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
-    legend_below(figure, [*styles.legend, face_handle()], CAPTION.format(kinematics=KINEMATICS_NAME[kinematics]))
+    caption = CAPTION.format(kinematics=KINEMATICS_NAME[kinematics]) + (ZERO if kinematics is Kinematics.FINITE else "")
+    legend_below(figure, [*styles.legend, face_handle()], caption)
     return figure
 
 
