@@ -78,7 +78,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     """The recovered field near the receptors has the strain that the condensed map gave."""
     mesh, base = section("device2"), scene("device2")
     solution = solved("device2", "alternate_180", Interface.SHEAR)
-    fields = states_fields(base, mesh, recover_displacement(mesh, base, solution.force[-1:]))
+    fields = states_fields(base, mesh, recover_displacement(mesh, base, solution.forces))
     found, _ = condensed("device2")
     strain = maximum_principal(found.strain @ solution.force[-1].ravel())
     dermis = mesh.layer_names.index("dermis")
@@ -88,6 +88,10 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     near = inside[np.argsort(np.hypot(*(fields.corner[:, inside].T - found.receptor[middle]).T))[:6]]
     # corners of the elements at the mid-line point: their spread is the jump between second-order elements
     assert fields.strain[0, near].min() * 0.97 < strain[middle] < fields.strain[0, near].max() * 1.03
+    before = maximum_principal(found.strain @ solution.indented_force.ravel())
+    change = strain[middle] - before[middle]
+    assert change == pytest.approx(solution.change_of_strain[middle], rel=1e-9)  # but for rounding
+    assert fields.change[0, near].min() * 0.97 < change < fields.change[0, near].max() * 1.03
     for lines, facets in ((fields.interface, mesh.interfaces()), (fields.boundary, mesh.mesh.boundary_facets())):
         assert np.array_equal(fields.corner[:, lines], mesh.mesh.doflocs[:, mesh.mesh.facets[:, facets].T])
 

@@ -20,6 +20,7 @@ from fingerpad.receptors import receptor_strain
 from scenes import scene, section
 
 DEVICES = ("device1", "device2", "device3")
+MEASURED = 0.003  # mm to which edges on coarse meshes agree (edges.COARSER)
 
 
 @pytest.mark.parametrize("device", DEVICES)
@@ -182,8 +183,8 @@ def test_a_mesh_too_large_is_a_named_error() -> None:
         mesh_section(fine, nominal_edges(fine.device.actuators))
 
 
-def test_edges_are_where_those_interfaces_have_them_that_can_be_pressed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One that cannot be leaves the other's as they are; where the criterion is out of reach nobody looks widely."""
+def test_an_interface_that_is_out_of_reach_has_no_say_where_edges_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The other's are as they are, and without another nobody looks widely. Where a path is lost, all may be."""
     base = scene("device2")
     nominal = nominal_edges(base.device.actuators)
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
@@ -199,12 +200,12 @@ def test_edges_are_where_those_interfaces_have_them_that_can_be_pressed(monkeypa
         return edge_intervals(base)
 
     for interface in Interface:
-        (start, stop), (first, last) = refusing(ConvergenceError, interface).T, both.T
-        assert (start >= first).all()
-        assert (stop <= last).all()
+        (start, stop), (first, last) = refusing(CriterionError, interface).T, both.T
+        assert (start >= first - MEASURED).all()
+        assert (stop <= last + MEASURED).all()
         assert (stop - start).sum() < (last - first).sum()
     assert np.array_equal(refusing(CriterionError, *Interface), nominal)
-    assert np.array_equal(refusing(ConvergenceError, *Interface), wide)
+    assert np.array_equal(refusing(ConvergenceError, Interface.SHEAR), wide)
 
 
 def test_without_a_coarse_mesh_edges_are_sought_widely() -> None:

@@ -105,7 +105,7 @@ def test_figures_are_complete_and_byte_stable(finished: Project) -> None:
     stems = {path.stem for path in figures.iterdir()}
     wanted = {"figure_3_workflow", *BOTH}
     maps = {f"map_device1_{dispersion}" for dispersion in ("low", "medium", "high")}
-    assert wanted | maps | {"section", "map_device2_alternate", "map_device3_alternate"} == stems
+    assert wanted | maps | {"section", "stimuli", "map_device2_alternate", "map_device3_alternate"} == stems
     assert {path.suffix for path in figures.iterdir()} == {".png", ".pdf"}
     before = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in figures.iterdir()}
     run = finished.snakemake("--force", "results/figures/figure_5_correlation.png")

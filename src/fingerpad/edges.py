@@ -50,18 +50,25 @@ def load_edges(path: Path) -> FloatArray:
 def edge_intervals(scene: Scene) -> FloatArray:
     """Intervals (k, 2) of |x| [mm] on the undeformed skin over which rounded edges lie in any condition.
 
-    If there is no coarse mesh, or no solution on it, the nominal intervals and REACH around them; the nominal ones
-    alone where the criterion of pre-indentation is out of reach, as that is so on any mesh.
+    If there is no coarse mesh, or a path is lost on it, the nominal intervals and REACH around them. An interface whose
+    criterion of pre-indentation is out of reach, on a finer coarse mesh as well, has no say; if all are such, the
+    nominal intervals alone.
     """
     nominal = nominal_edges(scene.device.actuators)
     wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
-    failures = list[ContactError]()
-    try:
-        found = [_under_edges(*each) for each in _states(scene, wide, failures)]
-    except (MeshError, CondensationError):
-        return wide
+    found, failures = list[FloatArray](), list[ContactError]()
+    for times in (COARSER, COARSER / 2.0):
+        failures.clear()
+        try:
+            found = [_under_edges(*each) for each in _states(scene.coarsened(times), wide, failures)]
+        except (MeshError, CondensationError):
+            return wide
+        if not all(isinstance(failure, CriterionError) for failure in failures):
+            return wide
+        if not failures:
+            break
     if not found:
-        return nominal if all(isinstance(failure, CriterionError) for failure in failures) else wide
+        return nominal
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
     both = np.stack([start, stop], axis=1)
     return _joined(np.concatenate([both, -both[:, ::-1]]))
@@ -70,22 +77,21 @@ def edge_intervals(scene: Scene) -> FloatArray:
 def _states(
     scene: Scene, edges: FloatArray, failures: list[ContactError]
 ) -> Iterator[tuple[ContactProblem, ContactState]]:
-    """States of all conditions on a coarse mesh, as far as they can be followed; what cannot is added to `failures`.
-    Raises MeshError, CondensationError.
+    """States of all conditions of a scene, as far as they can be followed; what cannot is added to `failures`. Raises
+    MeshError, CondensationError.
     """
-    coarse = scene.coarsened(COARSER)
-    section, body = mesh_section(coarse, edges), body_of(coarse)
-    condensed = condense_section(section, coarse) if coarse.kinematics is Kinematics.SMALL else None
+    section, body = mesh_section(scene, edges), body_of(scene)
+    condensed = condense_section(section, scene) if scene.kinematics is Kinematics.SMALL else None
     for interface in scene.device.interfaces():
         try:
-            problem, before = _pressed_state(coarse, section, condensed, body, interface)
+            problem, before = _pressed_state(scene, section, condensed, body, interface)
         except ContactError as failure:
             failures.append(failure)
             continue
         yield problem, before
         for condition in scene.device.distinct_conditions:
             try:
-                for state in follow_condition(coarse, problem, before, condition):
+                for state in follow_condition(scene, problem, before, condition):
                     yield problem, state
             except ContactError as failure:
                 failures.append(failure)

@@ -76,7 +76,7 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     condition = scene.device.conditions[-1]
     solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
     _, recovering = fewest(
-        repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.force[-1:]))
+        repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.forces))
     )
     forces, finger = solution.forces, condensed.section
     _, reading_both = fewest(repeats, lambda: receptor_readouts(finger.receptor_strain(forces), finger.arc))
