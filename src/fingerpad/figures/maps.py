@@ -56,7 +56,9 @@ CAPTION = (
 )
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
-COVERED = 99.5  # per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar
+# Per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar. Strain changes most
+# at the bone, where no receptors are
+COVERED, CHANGE_COVERED = 99.5, 90.0
 STEP, CHANGE_STEP = 5.0, 0.5  # per cent of strain, and of its change, to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 KILO = 1e3  # kPa in a MPa
@@ -90,8 +92,8 @@ def strain_map_figure(
     reach = max(reach, (top - bottom) * NARROWEST / 2.0)
     window = ((-reach, reach), (bottom, top))
     shown = _in_view(fields, window)
-    name, end = STRAIN_NAME[scene.kinematics], colour_end(shown, shown.strain, STEP)
-    change_end = colour_end(shown, np.abs(shown.change), CHANGE_STEP)
+    name, end = STRAIN_NAME[scene.kinematics], colour_end(shown, shown.strain, COVERED, STEP)
+    change_end = colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP)
 
     columns = min(len(conditions), len(WIDTHS))
     blocks = math.ceil(len(conditions) / columns)
@@ -177,10 +179,10 @@ def _in_view(fields: Fields, window: Window) -> _Shown:
     return _Shown(fields, elements, fields.strain[:, elements.ravel()], fields.change[:, elements.ravel()])
 
 
-def colour_end(shown: _Shown, values: FloatArray, step: float) -> float:
-    """Value [%] at which colours end: COVERED per cent of the area in view, over all loadings, have less.
+def colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) -> float:
+    """Value [%] at which colours end: so many per cent of the area in view, over all loadings, have less.
 
-    values: (n_loadings, 3k) [1], none below zero. step: [%] to which it is rounded up.
+    values: (n_loadings, 3k) [1], none below zero. covered: share [%]. step: [%] to which it is rounded up.
     """
     corners = shown.fields.corner.T[shown.elements]
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -188,8 +190,8 @@ def colour_end(shown: _Shown, values: FloatArray, step: float) -> float:
     means = values.reshape(len(values), -1, 3).mean(axis=2)
     order = np.argsort(means, axis=None)
     share = np.cumsum(np.tile(area, len(means))[order])
-    covered = means.ravel()[order][np.searchsorted(share, COVERED / PERCENT * share[-1])]
-    return step * max(math.ceil(PERCENT * float(covered) / step), 1)
+    value = means.ravel()[order][np.searchsorted(share, covered / PERCENT * share[-1])]
+    return step * max(math.ceil(PERCENT * float(value) / step), 1)
 
 
 def _draw_map(

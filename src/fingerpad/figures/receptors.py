@@ -97,8 +97,9 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         several = len(own) < len(entry.device.conditions)
-        named = f"{entry.device.title}{f', {plain(dispersion)} dispersion' if several else ''} (n = {len(own)})"
+        named = f"{entry.device.title}{f', {plain(dispersion)} dispersion' if several else ''}"
         row[0].set_title(as_title(figure, named, len(Readout)), loc="left")
+        row[1].set_title(f"n = {len(own)}", loc="right", fontweight="normal")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     for axes in grid[-1]:
