@@ -35,11 +35,11 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
     coarser: rows of the coarser solution, with the score of the coarsest as `coarsest`, None without one. Raises
     KeyError if it lacks one.
     """
-    second = {_of(row, CASE): row for row in coarser}
+    second = {case_of(row): row for row in coarser}
     estimate: dict[tuple[str, ...], float] = {}
     relative: dict[tuple[str, ...], dict[tuple[str, float, float], float]] = {}
     for row in filter(_is_scored, scores):
-        case, score = _of(row, CASE), float(row["score"])
+        case, score = case_of(row), float(row["score"])
         if not _is_scored(second[case]):
             continue
         coarse, coarsest = float(second[case]["score"]), second[case]["coarsest"]
@@ -51,7 +51,7 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
     least = {group: median_low(values.values()) for group, values in relative.items()}
     table = []
     for row in scores:
-        case = _of(row, CASE)
+        case = case_of(row)
         if case in estimate:
             groups = _of(row, GROUP), _of({**row, "readout": Readout.STRAIN}, GROUP)
             share = max(least.get(group, 0.0) for group in groups)
@@ -82,13 +82,13 @@ def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping
     times the unknowns the reference has [1]. Raises KeyError if the reference lacks a score.
     """
     known = {(row["kinematics"], row["device"]): float(row["times_unknowns"]) for row in reference}
-    finer = {_of(row, CASE): float(row["score"]) for row in reference}
+    finer = {case_of(row): float(row["score"]) for row in reference}
     table = []
     for row in scores:
         if has_error(row) and float(row["score"]) > 0.0 and (row["kinematics"], row["device"]) in known:
             score, stated = float(row["score"]), float(row["score_error"])
-            error = score - finer[_of(row, CASE)]
-            case = dict(zip(CASE, _of(row, CASE), strict=True))
+            error = score - finer[case_of(row)]
+            case = dict(zip(CASE, case_of(row), strict=True))
             ratio = abs(error) / stated
             errors = {"stated": stated / score, "error": error / score, "error_over_stated": ratio}
             table.append(case | errors | {"times_unknowns": known[row["kinematics"], row["device"]]})
@@ -109,6 +109,11 @@ def relative_error(row: Mapping[str, Any]) -> float:
 def has_error(row: Mapping[str, Any]) -> bool:
     """Whether a row of the score table, also as text, has a score whose error is known."""
     return _is_scored(row) and row["score_error"] not in {None, ""}
+
+
+def case_of(row: Mapping[str, Any]) -> tuple[str, ...]:
+    """What tells a row of the score table from all others: its columns CASE."""
+    return _of(row, CASE)
 
 
 def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:

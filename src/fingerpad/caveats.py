@@ -51,9 +51,9 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
 
 def _off_the_skin(scene: Scene, solution: Solution) -> list[int]:
     """Numbers, from 1, of the actuators that are pressed onto the skin and touch it no more at some time."""
-    places = np.asarray(scene.device.actuators.positions)
-    nearest = np.abs(solution.position[:, [0]] - places).argmin(axis=1)
-    pressing = np.array([np.bincount(nearest, each[:, 1], minlength=places.size) for each in solution.forces])
+    row = scene.device.actuators
+    nearest, count = row.nearest(solution.position[:, 0]), len(row.positions)
+    pressing = np.array([np.bincount(nearest, each[:, 1], minlength=count) for each in solution.forces])
     return [int(number) + 1 for number in np.flatnonzero((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0))]
 
 

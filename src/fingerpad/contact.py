@@ -73,7 +73,7 @@ class ContactProblem:
     @cached_property
     def actuator_of(self) -> np.ndarray:
         """Index (n,) of the actuator nearest to each undeformed node: the only one that it can touch."""
-        return np.asarray(np.argmin(np.abs(self.position[:, [0]] - np.asarray(self.row.positions)), axis=1))
+        return self.row.nearest(self.position[:, 0])
 
     @cached_property
     def spans(self) -> tuple[slice, ...]:

@@ -87,6 +87,10 @@ class ActuatorRow:
         """Radius of the edges as they are modelled [mm]: that of sharp ones is SHARP_RADIUS."""
         return max(self.edge_radius, SHARP_RADIUS)
 
+    def nearest(self, x: FloatArray) -> np.ndarray:
+        """Index (n,) of the actuator whose centre is nearest to each place (n,) [mm]."""
+        return np.asarray(np.argmin(np.abs(x[:, None] - np.asarray(self.positions)), axis=1))
+
     @property
     def half_face(self) -> float:
         """Half width of the flat part of the face, between the edges as they are modelled [mm]."""
@@ -231,6 +235,14 @@ class Device:
         """The first condition with the same stimulus."""
         wanted = self.condition(name)
         return next(c for c in self.conditions if c.same_stimulus(wanted))
+
+    @property
+    def by_dispersion(self) -> dict[str, list[Condition]]:
+        """The conditions of every dispersion, in the order of the file."""
+        found: dict[str, list[Condition]] = {}
+        for condition in self.conditions:
+            found.setdefault(condition.dispersion, []).append(condition)
+        return found
 
     @property
     def distinct_conditions(self) -> tuple[Condition, ...]:

@@ -228,9 +228,8 @@ def _finger(scene: Scene, section: SectionMesh) -> list[str]:
         *_set("NSET", READ_NODES, read_nodes(scene, section) + 1),
     ]
     near = contact_tractions(section, scene).nodes
-    positions = np.asarray(scene.device.actuators.positions)
-    nearest = np.argmin(np.abs(section.mesh.doflocs[0, near, None] - positions), axis=1)
-    for number in range(positions.size):
+    nearest = scene.device.actuators.nearest(section.mesh.doflocs[0, near])
+    for number in range(len(scene.device.actuators.positions)):
         lines.append(f"** skin that actuator {number + 1} may touch")
         lines += _surface(_skin_name(number), boundary_sides(section.mesh, near[nearest == number]), 0)
     return lines

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
-from .accuracy import CASE, COARSENING, COARSEST
+from .accuracy import COARSENING, COARSEST, case_of
 from .actuator_body import body_of
 from .arrays import FloatArray
 from .caveats import solution_caveats
@@ -27,8 +27,6 @@ from .scene import Scene
 from .solution import Solution, indent_device, stimulate
 from .strain import FilteredReadouts, Resampling
 from .tissue_law import Kinematics
-
-COARSER = f"on a mesh of {COARSENING:g} times the sizes, "  # where a score's error is sought
 
 Result = TypeVar("Result")
 Unsolved = ContactError | CondensationError  # why there is no solution, though there is a mesh
@@ -100,19 +98,16 @@ def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = l
     every condition of every solution, of both.
     """
     coarser = _rows_if_any(scene, COARSENING, edges, step)
-    coarsest = {_case(row): row["score"] for row in _rows_if_any(scene, COARSEST, edges, step)}
-    return [row | {"coarsest": coarsest[_case(row)]} for row in coarser]
-
-
-def _case(row: Mapping[str, Any]) -> tuple[str, ...]:
-    return tuple(row[column] for column in CASE)
+    coarsest = {case_of(row): row["score"] for row in _rows_if_any(scene, COARSEST, edges, step)}
+    return [row | {"coarsest": coarsest[case_of(row)]} for row in coarser]
 
 
 def _rows_if_any(
     scene: Scene, coarsening: float, edges: FloatArray, step: Callable[[], object]
 ) -> list[dict[str, Any]]:
     """`rows_at`, without scores where they cannot be had."""
-    other, rows, unknown = scene.coarsened(coarsening), list[dict[str, Any]](), f"{ERROR_UNKNOWN}: {COARSER}"
+    other, rows = scene.coarsened(coarsening), list[dict[str, Any]]()
+    unknown = f"{ERROR_UNKNOWN}: on a mesh of {coarsening:g} times the sizes, "
     try:
         condensed = prepared(other, edges)
         step()

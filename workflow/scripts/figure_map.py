@@ -22,7 +22,7 @@ def main(
 ) -> None:
     """Read fields and solutions (in the order of the dispersion's conditions), draw, write PNG and PDF."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    names = [condition.name for condition in scene.device.conditions if condition.dispersion == dispersion]
+    names = [condition.name for condition in scene.device.by_dispersion[dispersion]]
     save(
         strain_map_figure(
             scene,

@@ -195,10 +195,10 @@ def _set(artists: _Design, place: float, answer: Answer) -> None:
 
 def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Where the skin in contact now is [mm], pressure and shear there [kPa]; a gap of NaN between pins."""
-    solution, positions = answer.solution, np.asarray(answer.scene.device.actuators.positions)
+    solution, row = answer.solution, answer.scene.device.actuators
     (condition,) = answer.scene.device.conditions
-    nearest = np.argmin(np.abs(answer.section.position[:, [0]] - positions), axis=1)
-    x = (positions + condition.tangential[-1])[nearest] + solution.place
+    nearest = row.nearest(solution.position[:, 0])
+    x = (np.asarray(row.positions) + condition.tangential[-1])[nearest] + solution.place
     touched = np.flatnonzero(solution.pressure > 0.0)
     found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
     return tuple(np.insert(found, np.flatnonzero(np.diff(nearest[touched])) + 1, np.nan, axis=1))

@@ -84,7 +84,7 @@ def strain_map_figure(
     """
     device, pad = scene.device, scene.model.finger.pad_thickness
     row = device.actuators
-    conditions = [condition for condition in device.conditions if condition.dispersion == dispersion]
+    conditions = device.by_dispersion[dispersion]
     distinct = [condition.name for condition in device.distinct_conditions]
     face = max(solution.indentation for solution in solutions.values())
     bottom, top = face - BELOW, pad + ABOVE
@@ -145,7 +145,7 @@ def strain_map_figure(
         figure.colorbar(
             drawn[extend], ax=list(kind[:columns]), extend=extend, aspect=14, pad=0.01, label=scale[3],
         )  # fmt: skip
-    several = len({condition.dispersion for condition in device.conditions}) > 1
+    several = len(device.by_dispersion) > 1
     named = f", {plain(dispersion)} dispersion" if several else ""
     figure.suptitle(as_title(figure, f"{device.title}{named}, with shear"), fontweight="bold")
     legend_below(
@@ -212,7 +212,7 @@ def _draw_map(
 
 def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
     """Pressure and shear of the nodes in contact, one line an actuator."""
-    nearest = np.argmin(np.abs(solution.position[:, [0]] - np.asarray(row.positions)), axis=1)
+    nearest = row.nearest(solution.position[:, 0])
     centre = np.asarray(row.positions) + condition.tangential[-1]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear

@@ -61,7 +61,7 @@ def face_arcs(device: Device, section: CondensedSection, solution: Solution) -> 
     line [mm]: at the receptors nearest to its ends in the undeformed section. NaN for an actuator that touches none.
     """
     skin = solution.position[solution.indented_force[:, 1] > 0.0]
-    actuator = np.abs(skin[:, [0]] - np.asarray(device.actuators.positions)).argmin(axis=1)
+    actuator = device.actuators.nearest(skin[:, 0])
     ends = np.full((len(device.actuators.positions), 2), np.nan)
     for number in np.unique(actuator):
         own = skin[actuator == number]
@@ -74,18 +74,13 @@ def face_arcs(device: Device, section: CondensedSection, solution: Solution) -> 
 @styled
 def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = Kinematics.SMALL) -> Figure:
     """Strain (A) and change of strain (B) along the receptor line for all conditions of all devices, with shear."""
-    rows = [
-        (entry, dispersion)
-        for entry in devices
-        for dispersion in dict.fromkeys(condition.dispersion for condition in entry.device.conditions)
-    ]
+    rows = [(entry, *each) for entry in devices for each in entry.device.by_dispersion.items()]
     figure = new_figure(WIDE, ROW_HEIGHT * len(rows) + LEGEND_HEIGHT)
     styles = condition_styles(conditions_of(entry.device for entry in devices))
     grid = figure.subplots(len(rows), len(Readout), squeeze=False)
     faces = np.concatenate([entry.faces for entry in devices])
     shown = np.nanmin(faces) - MARGIN, np.nanmax(faces) + MARGIN
-    for row, (entry, dispersion) in zip(grid, rows, strict=True):
-        own = [condition for condition in entry.device.conditions if condition.dispersion == dispersion]
+    for row, (entry, dispersion, own) in zip(grid, rows, strict=True):
         distinct = {entry.device.first_with_stimulus_of(condition.name).name: condition for condition in own[::-1]}
         for axes, readout in zip(row, Readout, strict=True):
             draw_faces(axes, entry.faces)

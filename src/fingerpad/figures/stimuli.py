@@ -81,8 +81,7 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
 
 def _rows(device: Device) -> Iterator[Sequence[Condition]]:
     """The conditions that stand beside each other: those of a dispersion, as many as fit."""
-    for dispersion in dict.fromkeys(condition.dispersion for condition in device.conditions):
-        own = [condition for condition in device.conditions if condition.dispersion == dispersion]
+    for own in device.by_dispersion.values():
         for number in range(math.ceil(len(own) / COLUMNS)):
             yield own[COLUMNS * number : COLUMNS * (number + 1)]
 

@@ -197,7 +197,7 @@ def _kinematics(results: Results) -> Words:
 
 
 def _map(results: Results, device: Device, dispersion: str) -> Words:
-    chosen = [condition for condition in device.conditions if condition.dispersion == dispersion]
+    chosen = device.by_dispersion[dispersion]
     shown = _scores(results, device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN, [one.name for one in chosen])
     return Words(
         f"Strain in the section: {device.title}, {plain(dispersion)} dispersion",
