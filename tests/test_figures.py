@@ -570,6 +570,8 @@ def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd
 def test_neither_figures_nor_solver_load_what_they_do_not_need() -> None:
     code = (
         "import sys, fingerpad.solution, fingerpad.gabor, fingerpad.roughness; assert 'matplotlib' not in sys.modules;"
-        "import fingerpad.figures.workflow, fingerpad.figures.maps; assert 'matplotlib.pyplot' not in sys.modules"
+        "import fingerpad.figures.maps, fingerpad.figures.receptors, fingerpad.figures.stimuli;"
+        "assert 'matplotlib' in sys.modules and 'pandas' not in sys.modules and 'scipy' not in sys.modules;"
+        "import fingerpad.figures.workflow; assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})

@@ -150,13 +150,14 @@ def _of_calculix(calculix: pd.DataFrame) -> str:
 
 
 def _of_graph(graph: pd.DataFrame) -> dict[str, object]:
+    kinematics = graph.groupby("kinematics", sort=False)
+    median = kinematics[["real_s", "empty_s", "ratio", "again_s"]].median().map("{:.1f}".format)
+    real = graph.pivot(index="repeat", columns="kinematics", values="real_s")
     return {
-        "graph_ratio": f"{graph['ratio'].median():.1f}",
-        "graph_real": f"{graph['real_s'].median():.0f}",
-        "graph_empty": f"{graph['empty_s'].median():.0f}",
-        "graph_again": f"{graph['again_s'].median():.1f}",
+        "graph": table(median.reset_index().set_axis(["kinematics", "all", "empty scripts", "ratio", "again"], axis=1)),
+        "graph_both": f"{(real['both'] / real['small']).median():.1f}",
         "graph_cores": graph["cores"].iloc[0],
-        "graph_n": len(graph),
+        "graph_n": len(real),
     }
 
 

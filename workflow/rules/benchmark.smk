@@ -55,6 +55,7 @@ rule benchmark_graph:
         mem_mb=6000,
         runtime=60,
     params:
+        kinematics=["small", "both"],
         repeats=3,
     script:
         "../scripts/benchmark_graph.py"

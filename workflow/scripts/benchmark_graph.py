@@ -1,11 +1,13 @@
 """Time `snakemake all` from nothing, and the same graph of jobs with empty scripts, one after the other."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import time
+from itertools import product
 from pathlib import Path
 
 from fingerpad.store import write_rows
@@ -29,36 +31,48 @@ def seconds_of_all(project: Path, cores: int) -> float:
     return time.perf_counter() - start
 
 
-def main(base: Path, cores: int, repeats: int, table: Path) -> None:
-    """Copy the project twice, empty the scripts of one copy, time both in turns, and the real one again; write all."""
+def copied(base: Path, folder: str, kinematics: str, empty: bool) -> Path:
+    """A copy of the project in a folder, for those kinematics ("small" or "both"), with its scripts or empty ones."""
+    project = Path(folder) / "project"
+    project.mkdir()
+    for name in COPIED:
+        copy = shutil.copytree if (base / name).is_dir() else shutil.copy2
+        copy(base / name, project / name)
+    config = project / "config" / "config.yaml"
+    text, count = re.subn(
+        r"(?m)^(  kinematics: {value: )\w+", rf"\g<1>{kinematics}", config.read_text(encoding="utf-8")
+    )
+    if count != 1:
+        raise ValueError(f"{config}: found {count} lines that say which kinematics are computed, expected 1")
+    config.write_text(text, encoding="utf-8")
+    if empty:
+        for script in (project / "workflow" / "scripts").glob("*.py"):
+            script.write_text(EMPTY_SCRIPT, encoding="utf-8")
+    return project
+
+
+def main(base: Path, cores: int, kinematics: list[str], repeats: int, table: Path) -> None:
+    """Copy the project, empty the scripts of every second copy, time all in turns, the real ones again; write all."""
     rows = []
-    for repeat in range(1, repeats + 1):
+    for repeat, each in product(range(1, repeats + 1), kinematics):
         found = {}
-        for kind in ("empty scripts", "real"):
+        for kind in ("empty", "real"):
             with tempfile.TemporaryDirectory() as folder:
-                project = Path(folder) / "project"
-                project.mkdir()
-                for name in COPIED:
-                    copy = shutil.copytree if (base / name).is_dir() else shutil.copy2
-                    copy(base / name, project / name)
-                if kind == "empty scripts":
-                    for script in (project / "workflow" / "scripts").glob("*.py"):
-                        script.write_text(EMPTY_SCRIPT, encoding="utf-8")
+                project = copied(base, folder, each, empty=kind == "empty")
                 found[kind] = seconds_of_all(project, cores)
                 found["again"] = seconds_of_all(project, cores)
-        rows.append(
-            {
-                "repeat": repeat,
-                "cores": cores,
-                "empty_s": round(found["empty scripts"], 1),
-                "real_s": round(found["real"], 1),
-                "again_s": round(found["again"], 1),
-                "ratio": round(found["real"] / found["empty scripts"], 2),
-            }
-        )
+        seconds = {f"{kind}_s": round(value, 1) for kind, value in found.items()}
+        ratio = round(found["real"] / found["empty"], 2)
+        rows.append({"repeat": repeat, "cores": cores, "kinematics": each, **seconds, "ratio": ratio})
     write_rows(table, rows)
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.snakefile).parent, job.threads, job.params.repeats, Path(job.output.graph))
+    main(
+        Path(job.input.snakefile).parent,
+        job.threads,
+        job.params.kinematics,
+        job.params.repeats,
+        Path(job.output.graph),
+    )

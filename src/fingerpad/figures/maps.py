@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, TriMesh
+from matplotlib.collections import TriMesh
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -206,7 +206,9 @@ def _draw_map(
         shading="gouraud", cmap=colours, norm=norm, rasterized=True,
     )  # fmt: skip
     for facets, colour in ((fields.interface, lines), (fields.boundary, "black")):
-        axes.add_collection(LineCollection(list(moved.T[facets]), colors=colour, linewidths=THIN, capstyle="round"))
+        ends = moved[:, facets[np.isin(facets, shown.elements).any(axis=1)]]
+        x, y = np.pad(ends, ((0, 0), (0, 0), (0, 1)), constant_values=np.nan).reshape(2, -1)  # a gap after each facet
+        axes.plot(x, y, color=colour, linewidth=THIN, solid_capstyle="round")
     return drawn
 
 

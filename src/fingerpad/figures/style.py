@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -27,6 +26,9 @@ from ..files import replacing
 from ..readout import READOUT_NAME, Readout
 from ..roughness import TYPESET_UNITS
 from ..tissue_law import Kinematics
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
