@@ -204,7 +204,16 @@ def _at(increment: PatchProblem, moved: FloatArray, states: _States, reference: 
     force = (moved - increment.bias) @ increment.patch.response
     pressing, shearing = resolved(increment.problem, force.reshape(2, -1).T, slope)
     largest = max(largest_of(force), increment.force_floor, SMALLEST)
-    return Trial(moved, force, place, height - touching, slope, pressing, shearing, largest)
+    return Trial(
+        moved=moved,
+        force=force,
+        place=place,
+        gap=height - touching,
+        slope=slope,
+        pressing=pressing,
+        shearing=shearing,
+        largest=largest,
+    )
 
 
 def _newton_equations(increment: PatchProblem, trial: Trial, states: _States) -> tuple[FloatArray, FloatArray]:

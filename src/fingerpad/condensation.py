@@ -76,7 +76,15 @@ def condense_parts(
     else:
         compliance, strain_map, residual = condense(matrix, parts.dofs, parts.held[0], parts.loads[0], strain)
     arc = arc_length(points)
-    return CondensedSection(tractions.position, tractions.weight, compliance, points, arc, strain_map, residual)
+    return CondensedSection(
+        position=tractions.position,
+        weight=tractions.weight,
+        compliance=compliance,
+        receptor=points,
+        arc=arc,
+        strain=strain_map,
+        residual=residual,
+    )
 
 
 def _condensed_halves(

@@ -150,7 +150,21 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
     status = np.full(count, int(Status.OPEN))
     gap = y + profile(problem.row, x)[0]
     return ContactState(
-        actuator, nothing, status, x, gap, 0.0, np.zeros((actuators, 2)), nothing, nothing, 0.0, 0.0, 0.0, 0, 0, 0
+        actuator=actuator,
+        force=nothing,
+        status=status,
+        place=x,
+        gap=gap,
+        length=0.0,
+        heading=np.zeros((actuators, 2)),
+        drift=nothing,
+        trend=nothing,
+        largest_force=0.0,
+        dissipation=0.0,
+        residual=0.0,
+        iterations=0,
+        cuts=0,
+        searches=0,
     )
 
 

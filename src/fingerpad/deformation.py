@@ -54,16 +54,16 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
     place[free] = np.arange(free.size)
     rows, starts, entry = _tangent_pattern(place[unknowns], free.size)
     return Elements(
-        basis.global_coordinates().mean(axis=-1).T,
-        np.ascontiguousarray(gradient.transpose(2, 3, 0, 1)),
-        np.asarray(basis.dx),
-        unknowns,
-        tissue,
-        basis.N,
-        free,
-        rows,
-        starts,
-        entry,
+        centre=basis.global_coordinates().mean(axis=-1).T,
+        gradient=np.ascontiguousarray(gradient.transpose(2, 3, 0, 1)),
+        weight=np.asarray(basis.dx),
+        unknowns=unknowns,
+        tissue=tissue,
+        size=basis.N,
+        free=free,
+        rows=rows,
+        starts=starts,
+        entry=entry,
     )
 
 

@@ -65,7 +65,16 @@ def pressed_finger(
         problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
     start = Move(pressed.state, displacement, free, 0, 0.0)
     gradient = receptor_gradient(section, scene)[1]
-    return PressedFinger(interface, pressed, replace(problem, free=free), tissue, start, gradient, dofs, skin)
+    return PressedFinger(
+        interface=interface,
+        pressed=pressed,
+        problem=replace(problem, free=free),
+        tissue=tissue,
+        start=start,
+        gradient=gradient,
+        dofs=dofs,
+        skin=skin,
+    )
 
 
 def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:

@@ -143,7 +143,14 @@ def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) ->
     path = np.where(np.arange(count) % 2 == 0, amplitude, amplitude * np.cos(np.deg2rad(phase_deg)))[None, :]
     still = np.zeros_like(path)
     normal, tangential = (still, path) if lateral else (path, still)
-    return Condition(NAME, "alternate", phase_deg, np.array([1.0]), normal, tangential)
+    return Condition(
+        name=NAME,
+        dispersion="alternate",
+        phase_deg=phase_deg,
+        time=np.array([1.0]),
+        normal=normal,
+        tangential=tangential,
+    )
 
 
 def _moved(row: PressedRow, condition: Condition) -> Answer:

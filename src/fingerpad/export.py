@@ -155,7 +155,15 @@ def _rigid(name: str, row: ActuatorRow, centre: float) -> _Part:
     )
     node = np.hstack([top, bottom, middle]).T + np.array([centre, 0.0])
     touching = [(k, 3) for k in range(element.size)]  # side 3 of a CPE8 joins its corners 3 and 4
-    return _Part(name, "CPE8", node, connectivity, touching, np.arange(node.shape[0]), RIGID)
+    return _Part(
+        name=name,
+        kind="CPE8",
+        node=node,
+        element=connectivity,
+        touching=touching,
+        driven=np.arange(node.shape[0]),
+        material=RIGID,
+    )
 
 
 def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, material: Material) -> _Part:
@@ -169,13 +177,13 @@ def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, mater
     node = np.stack([x + centre, lowered], axis=1)
     outer = (y == y.max()) | (np.abs(x) == x.max())
     return _Part(
-        name,
-        "CPE6",
-        node,
-        element_nodes(mesh),
-        boundary_sides(mesh, np.flatnonzero(outer)),
-        np.flatnonzero(y == y.min()),
-        material,
+        name=name,
+        kind="CPE6",
+        node=node,
+        element=element_nodes(mesh),
+        touching=boundary_sides(mesh, np.flatnonzero(outer)),
+        driven=np.flatnonzero(y == y.min()),
+        material=material,
     )
 
 

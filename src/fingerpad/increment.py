@@ -136,7 +136,9 @@ def _everywhere(
     moved = displacement(increment.problem, force, there)
     place, height = (origin + moved).T
     drop, slope = profile(increment.problem.row, place)
-    return _Everywhere(force, shearing, states, moved, place, height + drop, slope)
+    return _Everywhere(
+        force=force, shearing=shearing, status=states, moved=moved, place=place, gap=height + drop, slope=slope
+    )
 
 
 def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: FloatArray | None, gap_scale: float) -> bool:

@@ -170,12 +170,12 @@ def load_section(path: Path) -> SectionMesh:
     """Read a section's mesh. Raises ResultError."""
     with reading(path) as archive:
         return SectionMesh(
-            MeshTri2(archive["nodes"], archive["triangles"]),
-            archive["layer"],
-            tuple(archive["layer_names"].tolist()),
-            archive["skin"],
-            archive["receptor_facets"],
-            archive["fixed"],
+            mesh=MeshTri2(archive["nodes"], archive["triangles"]),
+            layer=archive["layer"],
+            layer_names=tuple(archive["layer_names"].tolist()),
+            skin=archive["skin"],
+            receptor_facets=archive["receptor_facets"],
+            fixed=archive["fixed"],
         )
 
 
@@ -288,12 +288,12 @@ def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
     receptor_facets = np.flatnonzero(level)
     skin = np.flatnonzero((zeta == 0.0) & on_pad)
     section = SectionMesh(
-        mesh,
-        layer,
-        names,
-        skin[np.argsort(s[skin])],
-        receptor_facets[np.argsort(s[facet_nodes[receptor_facets]])],
-        np.flatnonzero(zeta == zeta.max()),
+        mesh=mesh,
+        layer=layer,
+        layer_names=names,
+        skin=skin[np.argsort(s[skin])],
+        receptor_facets=receptor_facets[np.argsort(s[facet_nodes[receptor_facets]])],
+        fixed=np.flatnonzero(zeta == zeta.max()),
     )
     _require_valid(mesh, "section mesh")
     return section

@@ -147,12 +147,12 @@ def _surface(row: ActuatorRow, position: FloatArray) -> _Surface:
     distance = np.where(on_edge, np.hypot(beyond, y + radius), 1.0)  # from an edge's centre, where there is one
     normal = np.stack([side * beyond / distance, np.where(on_edge, (y + radius) / distance, 1.0)], axis=1)
     return _Surface(
-        np.where(on_edge, distance - radius, y),
-        np.where(on_edge, side * (flat + radius * np.arctan2(beyond, y + radius)), x),
-        normal,
-        np.stack([normal[:, 1], -normal[:, 0]], axis=1),
-        np.where(on_edge, 1.0 / distance, 0.0),
-        np.where(on_edge, radius / distance, 1.0),
+        gap=np.where(on_edge, distance - radius, y),
+        arc=np.where(on_edge, side * (flat + radius * np.arctan2(beyond, y + radius)), x),
+        normal=normal,
+        tangent=np.stack([normal[:, 1], -normal[:, 0]], axis=1),
+        turning=np.where(on_edge, 1.0 / distance, 0.0),
+        rate=np.where(on_edge, radius / distance, 1.0),
     )
 
 

@@ -8,7 +8,7 @@ so that all conditions run on a compliance that is condensed once, as on linear 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csc_matrix
@@ -83,7 +83,15 @@ def press(
     """
     tractions = contact_tractions(section, scene)
     receptor, _ = receptor_strain(section, scene)
-    bare = CondensedSection(tractions.position, tractions.weight, NONE, receptor, arc_length(receptor), NONE, 0.0)
+    bare = CondensedSection(
+        position=tractions.position,
+        weight=tractions.weight,
+        compliance=NONE,
+        receptor=receptor,
+        arc=arc_length(receptor),
+        strain=NONE,
+        residual=0.0,
+    )
     problem = contact_problem(scene, bare, body, interface)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
     parts = right_half(section, tractions) if mirrored else whole(section, tractions)
@@ -120,17 +128,10 @@ def press(
         displacement, state = _mirrored(section, displacement), unfolded(state)
     moved = tractions.loads.T @ displacement[:, tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
-    condensed = CondensedSection(
-        bare.position,
-        bare.weight,
-        compliance,
-        bare.receptor,
-        bare.arc,
-        np.empty((0, 2 * free.size)),
-        max((*reached.changes[-1:], *(each.residual for each in tangents))),
-    )
+    residual = max((*reached.changes[-1:], *(each.residual for each in tangents)))
+    condensed = replace(bare, compliance=compliance, strain=np.empty((0, 2 * free.size)), residual=residual)
     curve = curve_of(states, touch, reached) * np.array([1.0, 2.0 if mirrored else 1.0])
-    return Pressed(condensed, free, state, displacement, curve)
+    return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
 
 
 def indented_height(scene: Scene, section: SectionMesh, interface: Interface) -> float:

@@ -131,7 +131,14 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     pad = tuple(_layer(rng, f"pad_{i}", THICKNESS) for i in range(count - 1))
     deep = width * DEPTH[0], width * DEPTH[1]
     pad, dorsal = (*pad, _layer(rng, "pad", deep)), (_layer(rng, "dorsal", deep),)
-    finger = Finger(width, height, width * rng.uniform(0.3, 0.6), width * 0.5, pad, dorsal)
+    finger = Finger(
+        width=width,
+        height=height,
+        bone_width=width * rng.uniform(0.3, 0.6),
+        nail_width=width * 0.5,
+        pad=pad,
+        dorsal=dorsal,
+    )
     row = _row(rng, width * _decades(rng, SPAN))
     span = row.positions[-1] - row.positions[0] + row.width
     spacing = span / _whole(rng, ELEMENTS)
@@ -152,17 +159,31 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     )
     above = pad[int(rng.integers(count - 1))].name
     model = Model(
-        finger,
-        TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
-        ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH),
-        GaborFilter(2.8, 1.15, 1.12, 0.02),
-        ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
-        STILL,
-        numerics,
-        Skips(True, True, True, bool(rng.random() < 0.5), bool(rng.random() < 0.5), inactive_nodes=True),
+        finger=finger,
+        tissue=TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
+        contact=ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH),
+        gabor=GaborFilter(2.8, 1.15, 1.12, 0.02),
+        readout=ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
+        vibration=STILL,
+        numerics=numerics,
+        skips=Skips(
+            halved_condensation=True,
+            equal_stimuli=True,
+            shared_indentation=True,
+            mirrored_half=bool(rng.random() < 0.5),
+            frictionless_path=bool(rng.random() < 0.5),
+            inactive_nodes=True,
+        ),
     )
     stroke = np.full((1, len(row.positions)), _decades(rng, AMPLITUDE))
-    farthest = Condition("farthest", "random", 0.0, np.array([1.0]), np.zeros_like(stroke), stroke)
+    farthest = Condition(
+        name="farthest",
+        dispersion="random",
+        phase_deg=0.0,
+        time=np.array([1.0]),
+        normal=np.zeros_like(stroke),
+        tangential=stroke,
+    )
     return Scene(model, Device(f"group_{number:03d}", "random", Control.DISPLACEMENT, row, (farthest,)))
 
 
@@ -215,7 +236,14 @@ def _condition(rng: np.random.Generator, count: int, stroke: float) -> Condition
         amplitude = np.maximum(amplitude, AMPLITUDE[0])
     history: FloatArray = moves * amplitude
     time = np.arange(1.0, len(history) + 1.0)
-    return Condition(str(kind), "random", 0.0, time, history[:, :, 1], history[:, :, 0])
+    return Condition(
+        name=str(kind),
+        dispersion="random",
+        phase_deg=0.0,
+        time=time,
+        normal=history[:, :, 1],
+        tangential=history[:, :, 0],
+    )
 
 
 def _apart(row: ActuatorRow, condition: Condition) -> Condition:

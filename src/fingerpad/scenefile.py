@@ -140,26 +140,35 @@ def build_model(config: dict[str, Any]) -> Model:
         _values(config[key]) for key in ("finger", "tissue", "contact", "readout", "vibration")
     )
     return Model(
-        Finger(
-            finger["width"],
-            finger["height"],
-            finger["bone_width"],
-            finger["nail_width"],
-            tuple(_layer(entry) for entry in finger["pad"]),
-            tuple(_layer(entry) for entry in finger["dorsal"]),
+        finger=Finger(
+            width=finger["width"],
+            height=finger["height"],
+            bone_width=finger["bone_width"],
+            nail_width=finger["nail_width"],
+            pad=tuple(_layer(entry) for entry in finger["pad"]),
+            dorsal=tuple(_layer(entry) for entry in finger["dorsal"]),
         ),
-        TissueLaw(Kinematics.SMALL, KINEMATICS[tissue["kinematics"]], Law(tissue["law"]), tissue["ogden_exponent"]),
-        ContactLaw(contact["friction"], TurningNormal(contact["turning_normal"]), Criterion(contact["criterion"])),
-        GaborFilter(**_values(config["filter"])),
-        ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
-        VibrationRule(
-            Relaxation(*(tuple(vibration[key]) for key in ("shares", "times", "layers"))),
-            vibration["density"],
-            vibration["inertia_limit"],
-            vibration["steps"],
+        tissue=TissueLaw(
+            kinematics=Kinematics.SMALL,
+            computed=KINEMATICS[tissue["kinematics"]],
+            law=Law(tissue["law"]),
+            ogden_exponent=tissue["ogden_exponent"],
         ),
-        Numerics(**_values(config["numerics"])),
-        Skips(**_values(config["skips"])),
+        contact=ContactLaw(
+            friction=contact["friction"],
+            turning_normal=TurningNormal(contact["turning_normal"]),
+            criterion=Criterion(contact["criterion"]),
+        ),
+        gabor=GaborFilter(**_values(config["filter"])),
+        readout=ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
+        vibration=VibrationRule(
+            relaxation=Relaxation(*(tuple(vibration[key]) for key in ("shares", "times", "layers"))),
+            density=vibration["density"],
+            inertia_limit=vibration["inertia_limit"],
+            steps=vibration["steps"],
+        ),
+        numerics=Numerics(**_values(config["numerics"])),
+        skips=Skips(**_values(config["skips"])),
     )
 
 
@@ -177,14 +186,14 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     frequencies = tuple(stimulus.get("frequency_hz", ()))
     cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if stimulus["kind"] in CYCLES else ()
     return Device(
-        path.stem,
-        plain["title"],
-        Control(plain["control"]),
-        actuators,
-        tuple(conditions),
-        cycles,
-        frequencies,
-        KINEMATICS[plain.get("kinematics", "both")],
+        name=path.stem,
+        title=plain["title"],
+        control=Control(plain["control"]),
+        actuators=actuators,
+        conditions=tuple(conditions),
+        cycles=cycles,
+        frequencies=frequencies,
+        kinematics=KINEMATICS[plain.get("kinematics", "both")],
     )
 
 

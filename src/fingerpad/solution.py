@@ -87,14 +87,14 @@ def contact_problem(
     """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
     numerics, law = scene.model.numerics, scene.model.contact
     problem = ContactProblem(
-        section.position,
-        section.compliance,
-        scene.device.actuators,
-        body,
-        law.coefficient(interface),
-        numerics.newton_tolerance,
-        numerics.max_cuts,
-        scene.model.skips.inactive_nodes,
+        position=section.position,
+        compliance=section.compliance,
+        row=scene.device.actuators,
+        body=body,
+        friction=law.coefficient(interface),
+        tolerance=numerics.newton_tolerance,
+        max_cuts=numerics.max_cuts,
+        patches=scene.model.skips.inactive_nodes,
         turning=law.turns(scene.kinematics, interface),
     )
     centres = problem.row.positions
@@ -174,22 +174,22 @@ def solution(
     before, last = states[0], states[-1]
     pressing, shearing = pressing_and_shearing(problem, last)
     return Solution(
-        float(before.actuator[0, 1]),
-        depth(problem, np.array([state.actuator for state in states])),
-        section.position,
-        before.force,
-        np.array([state.force for state in states[1:]]),
-        pressing / section.weight,
-        shearing / section.weight,
-        last.place,
-        last.status,
-        section.arc,
-        readouts[Readout.STRAIN],
-        readouts[Readout.CHANGE_OF_STRAIN],
-        last.iterations,
-        last.cuts,
-        last.searches,
-        certificate,
+        indentation=float(before.actuator[0, 1]),
+        depth=depth(problem, np.array([state.actuator for state in states])),
+        position=section.position,
+        indented_force=before.force,
+        force=np.array([state.force for state in states[1:]]),
+        pressure=pressing / section.weight,
+        shear=shearing / section.weight,
+        place=last.place,
+        status=last.status,
+        arc=section.arc,
+        strain=readouts[Readout.STRAIN],
+        change_of_strain=readouts[Readout.CHANGE_OF_STRAIN],
+        iterations=last.iterations,
+        cuts=last.cuts,
+        searches=last.searches,
+        certificate=certificate,
     )
 
 

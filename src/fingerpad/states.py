@@ -127,10 +127,10 @@ def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) 
     )
     strain = np.array(strains)
     return Fields(
-        section.mesh.doflocs[:, corners],
-        interface,
-        boundary,
-        displacement[1:, :, corners],
-        strain,
-        strain - before,
+        corner=section.mesh.doflocs[:, corners],
+        interface=interface,
+        boundary=boundary,
+        displacement=displacement[1:, :, corners],
+        strain=strain,
+        change=strain - before,
     )

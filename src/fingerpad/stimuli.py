@@ -131,12 +131,12 @@ def measured(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Cond
             raise SceneError(f"stimulus.recordings.{name}.file: {error}") from error
         conditions.append(
             Condition(
-                name,
-                given["dispersion"],
-                float(given["phase"]),
-                recording.time,
-                recording.normal,
-                recording.tangential,
+                name=name,
+                dispersion=given["dispersion"],
+                phase_deg=float(given["phase"]),
+                time=recording.time,
+                normal=recording.normal,
+                tangential=recording.tangential,
             )
         )
     return conditions

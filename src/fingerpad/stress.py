@@ -185,20 +185,20 @@ def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:
 def _outcome(number: int, scene: Scene, contact_nodes: int, result: Solution | FingerpadError) -> Outcome:
     found = isinstance(result, Solution)
     return Outcome(
-        str(scene.kinematics),
-        number,
-        scene.model.contact.friction,
-        len(scene.device.actuators.positions),
-        scene.device.actuators.body is not None,
-        str(scene.model.contact.criterion),
-        scene.device.conditions[0].name,
-        contact_nodes,
-        SOLVED if found else type(result).__name__,
-        "" if found else str(result),
-        result.iterations if isinstance(result, Solution) else 0,
-        result.cuts if isinstance(result, Solution) else 0,
-        result.searches if isinstance(result, Solution) else 0,
-        float(result.strain.max()) if isinstance(result, Solution) else 0.0,
+        kinematics=str(scene.kinematics),
+        number=number,
+        friction=scene.model.contact.friction,
+        actuators=len(scene.device.actuators.positions),
+        deformable=scene.device.actuators.body is not None,
+        criterion=str(scene.model.contact.criterion),
+        stimulus=scene.device.conditions[0].name,
+        contact_nodes=contact_nodes,
+        outcome=SOLVED if found else type(result).__name__,
+        message="" if found else str(result),
+        iterations=result.iterations if isinstance(result, Solution) else 0,
+        cuts=result.cuts if isinstance(result, Solution) else 0,
+        searches=result.searches if isinstance(result, Solution) else 0,
+        largest_strain=float(result.strain.max()) if isinstance(result, Solution) else 0.0,
     )
 
 

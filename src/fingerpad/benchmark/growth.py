@@ -79,7 +79,14 @@ def row_of(scene: Scene, count: int) -> Scene:
     centred = PITCH * (np.arange(count) - (count - 1) / 2.0)
     row = ActuatorRow(tuple(float(x) for x in centred), WIDTH, EDGE_RADIUS)
     stroke = np.where(np.arange(count)[None, :] % 2 == 0, 0.0, STROKE)
-    condition = Condition("up", "alternate", 0.0, np.array([1.0]), stroke, np.zeros_like(stroke))
+    condition = Condition(
+        name="up",
+        dispersion="alternate",
+        phase_deg=0.0,
+        time=np.array([1.0]),
+        normal=stroke,
+        tangential=np.zeros_like(stroke),
+    )
     model = replace(scene.model, contact=replace(scene.model.contact, criterion=Criterion.TOUCH))
     device = replace(
         scene.device, name=f"row_of_{count}", actuators=row, conditions=(condition,), cycles=(), frequencies=()

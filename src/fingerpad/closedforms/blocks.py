@@ -100,7 +100,15 @@ def block_contact(
     matrix = stiffness(basis, [material], np.zeros(mesh.t.shape[1], dtype=int))
     loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
     compliance, _, _ = condense(matrix, dofs, fixed, loads, csr_matrix((0, matrix.shape[0])))
-    problem = ContactProblem(tractions.position, compliance, row, None, friction, TOLERANCE, MAX_CUTS)
+    problem = ContactProblem(
+        position=tractions.position,
+        compliance=compliance,
+        row=row,
+        body=None,
+        friction=friction,
+        tolerance=TOLERANCE,
+        max_cuts=MAX_CUTS,
+    )
     return Block(problem, tractions.weight, int(basis.N))
 
 

@@ -64,14 +64,14 @@ def run(options: argparse.Namespace) -> None:
         section = mesh_device(scene)
         bar.update()
         settings = DeckSettings(
-            indented_height(scene, section, interface),
-            indenting,
-            acting,
-            options.pressure_slope,
-            options.stick_slope,
-            options.indentation_increments,
-            options.stimulus_increments,
-            options.rest_increments,
+            indentation=indented_height(scene, section, interface),
+            friction_indenting=indenting,
+            friction_acting=acting,
+            pressure_slope=options.pressure_slope,
+            stick_slope=options.stick_slope,
+            indentation_increments=options.indentation_increments,
+            stimulus_increments=options.stimulus_increments,
+            rest_increments=options.rest_increments,
         )
         bar.update()
     write_text(options.output, input_deck(scene, section, condition, settings))

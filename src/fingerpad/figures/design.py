@@ -128,14 +128,14 @@ class DesignPicture:
         """Artists without data, in the colours of pressure, shear and read-outs; width: of lines [pt], which tells
         designs apart where colours do not.
         """
-        pressure, shear, read = colours
+        (pressure, shear, read), place = colours, PLACES[name]
         return _Design(
-            self._tractions.plot([], [], color=pressure, linewidth=width)[0],
-            self._tractions.plot([], [], color=shear, linewidth=width, linestyle=DASHED)[0],
-            {each: axes.plot([], [], color=read, linewidth=width)[0] for each, axes in self._strains.items()},
-            {each: axes.bar(PLACES[name], 0.0, color=read, width=BAR)[0] for each, axes in self._scores.items()},
-            {each: axes.plot([], [], color="black", linewidth=LINE)[0] for each, axes in self._scores.items()},
-            {each: axes.text(PLACES[name], 0.0, "", ha="center", va="bottom") for each, axes in self._scores.items()},
+            pressure=self._tractions.plot([], [], color=pressure, linewidth=width)[0],
+            shear=self._tractions.plot([], [], color=shear, linewidth=width, linestyle=DASHED)[0],
+            curves={each: axes.plot([], [], color=read, linewidth=width)[0] for each, axes in self._strains.items()},
+            bars={each: axes.bar(place, 0.0, color=read, width=BAR)[0] for each, axes in self._scores.items()},
+            errors={each: axes.plot([], [], color="black", linewidth=LINE)[0] for each, axes in self._scores.items()},
+            numbers={each: axes.text(place, 0.0, "", ha="center", va="bottom") for each, axes in self._scores.items()},
         )
 
     @styled
