@@ -21,7 +21,7 @@ from fingerpad.figures.kinematics import NO_LIMITS, kinematics_figure
 from fingerpad.finger import Finger, Layer, Material
 from fingerpad.force_curve import limit_points
 from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
-from fingerpad.pressing import Pressed, press
+from fingerpad.pressing import Pressed, press_to
 from fingerpad.randomscene import STILL
 from fingerpad.reach import contact_tractions
 from fingerpad.scene import Scene
@@ -59,7 +59,7 @@ def arch(width: float, nail: float) -> Scene:
 
 def pressed(given: Scene, height: float) -> Pressed:
     section = mesh_section(given, nominal_edges(given.device.actuators))
-    return press(given, section, None, Interface.FRICTIONLESS, height)
+    return press_to(height, given, section, None, Interface.FRICTIONLESS)
 
 
 @cache

@@ -25,7 +25,7 @@ from .device import Condition
 from .errors import ContactError
 from .export import DeckSettings
 from .mesh import SectionMesh
-from .pressing import press
+from .pressing import press_to
 from .scene import Scene
 
 
@@ -49,7 +49,7 @@ def deformed_outcome(
     indenting = _rubbing(scene, settings.friction_indenting)
     indented, *stimulus = targets(condition, settings)
     last = settings.indentation / INDENTATION_INCREMENTS
-    pressed = press(indenting, section, body, Interface.SHEAR, settings.indentation - last)
+    pressed = press_to(settings.indentation - last, indenting, section, body, Interface.SHEAR)
     finger = pressed_finger(_rubbing(scene, settings.friction_acting), section, body, pressed, Interface.SHEAR)
     # a normal that turned from the stimulus on would move what was pressed without
     turning = finger.problem.turning and settings.friction_indenting > 0.0

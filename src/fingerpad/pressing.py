@@ -8,6 +8,7 @@ so that all conditions run on a compliance that is condensed once, as on linear 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from .actuator_body import body_of
 from .arrays import FloatArray
 from .compliance import MIRROR, CondensedBody, CondensedSection
 from .condensation import condense_section
-from .contact import ContactState, rest, touching_height
+from .contact import ContactProblem, ContactState, rest, touching_height
 from .contact_law import Interface
 from .deformation import elements_of
 from .deformed import (
@@ -38,7 +39,7 @@ from .halves import Parts, right_half, unfold, unfolding, whole
 from .hyperelasticity import tissue_of
 from .indentation import raise_until
 from .mesh import SectionMesh
-from .path import advance
+from .path import SolveIncrement, advance
 from .reach import contact_tractions
 from .receptors import arc_length, receptor_strain
 from .scene import Scene
@@ -46,8 +47,9 @@ from .skin import require_uncrossed, skin_of
 from .solution import contact_problem, increments, indent_device, named_pressing
 from .symmetry import half_of, mirrors, unfolded
 from .tissue_law import Kinematics
+from .traction import Tractions
 
-NONE = np.empty((0, 0))  # the compliance that contact on undeformed tissue would have: nobody asks for it
+NONE = np.empty((0, 0))  # a map that nobody asks for
 
 
 @dataclass(frozen=True)
@@ -68,22 +70,58 @@ class Pressed:
     curve: FloatArray
 
 
-def press(
-    scene: Scene,
-    section: SectionMesh,
-    body: CondensedBody | None,
-    interface: Interface,
-    height: float | None = None,
-) -> Pressed:
-    """Raise the actuators until the criterion holds, or to a given height of their faces above the undeformed pad's
-    lowest point [mm], and condense the contact nodes about that state. At a given height nobody asks whether tissue is
-    still elliptic: programs are compared there, on one mesh.
+@dataclass(frozen=True)
+class _Start:
+    """Where pre-indentation begins: on the right half of the section where everything mirrors, on the whole otherwise.
+
+    tractions, undeformed: of all contact nodes; the section has no maps, as nobody asks for them. parts: of the section
+    that are solved. tissues: of each kind of loads. problem: of the parts' contact nodes, whatever its compliance.
+    state: at first touch. increments: of the tissue, and of contact in each.
+    """
+
+    tractions: Tractions
+    undeformed: CondensedSection
+    mirrored: bool
+    parts: Parts
+    tissues: tuple[TissuePart, ...]
+    problem: ContactProblem
+    state: DeformedState
+    increments: tuple[int, int]
+
+
+def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> Pressed:
+    """Raise the actuators until the criterion holds, and condense the contact nodes about that state.
 
     Raises MeshError, CondensationError, and ContactError, naming device and interface, if the path cannot be followed.
     """
+    start = _start(scene, section, body, interface)
+    solve, states = _recorded(section, start)
+    criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
+    with named_pressing(scene, interface):
+        reached = raise_until(start.problem, criterion, start.increments[0], limit, start.state, solve)
+        require_elliptic(start.tissues[0].elements, reached.displacement)
+        return _pressed(section, start, states, reached)
+
+
+def press_to(
+    height: float, scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface
+) -> Pressed:
+    """`press`, to a height of the faces above the undeformed pad's lowest point [mm]. Nobody asks whether tissue is
+    still elliptic there: programs are compared, on one mesh.
+    """
+    start = _start(scene, section, body, interface)
+    solve, states = _recorded(section, start)
+    target = np.full_like(start.state.actuator, height) * [0.0, 1.0]
+    with named_pressing(scene, interface):
+        reached, _ = advance(start.problem, start.state, target, start.increments[0], None, solve)
+        return _pressed(section, start, states, reached)
+
+
+def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> _Start:
+    """Raises MeshError."""
     tractions = contact_tractions(section, scene)
     receptor, _ = receptor_strain(section, scene)
-    bare = CondensedSection(
+    undeformed = CondensedSection(
         position=tractions.position,
         weight=tractions.weight,
         compliance=NONE,
@@ -92,45 +130,50 @@ def press(
         strain=NONE,
         residual=0.0,
     )
-    problem = contact_problem(scene, bare, body, interface)
+    problem = contact_problem(scene, undeformed, body, interface)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
     parts = right_half(section, tractions) if mirrored else whole(section, tractions)
-    tissues = [_part(scene, section, parts, which) for which in range(len(parts.held))]
-    pressing = half_of(problem) if mirrored else problem
-    touch, states = touching_height(pressing), list[ContactState]()
-    skin = skin_of(section, parts.dofs, mirrored)
+    solved = half_of(problem) if mirrored else problem
+    return _Start(
+        tractions=tractions,
+        undeformed=undeformed,
+        mirrored=mirrored,
+        parts=parts,
+        tissues=tuple(_part(scene, section, parts, which) for which in range(len(parts.held))),
+        problem=solved,
+        state=deformed_state(rest(solved, touching_height(solved)), np.zeros(parts.dofs.size)),
+        increments=increments_of(increments(scene, problem)[0]),
+    )
+
+
+def _recorded(section: SectionMesh, start: _Start) -> tuple[SolveIncrement[DeformedState], list[ContactState]]:
+    """What solves an increment, of skin that may not cross itself, and the states that it will have found."""
+    states: list[ContactState] = []
+    skin = skin_of(section, start.parts.dofs, start.mirrored)
 
     def note(state: DeformedState) -> None:
         states.append(state)
         when = f"in increment {len(states)} of the tissue, with the faces at {state.actuator[0, 1]:.4g} mm"
         require_uncrossed(skin, state.displacement, when)
 
-    with named_pressing(scene, interface):
-        start = deformed_state(rest(pressing, touch), np.zeros(parts.dofs.size))
-        count, within = increments_of(increments(scene, problem)[0])
-        solve = recording(solver_on(tissues[0], within), note)
-        if height is None:
-            criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
-            reached = raise_until(pressing, criterion, count, limit, start, solve)
-            require_elliptic(tissues[0].elements, reached.displacement)
-        else:
-            target = np.full_like(start.actuator, height) * [0.0, 1.0]
-            reached, _ = advance(pressing, start, target, count, None, solve)
-        tangents = [tangent_at(tissue, reached.displacement) for tissue in tissues]
-        for tangent in tangents:
-            require_stable(pressing, reached, tangent)
-    displacement = reached.displacement[parts.dofs]
-    state = contact_state(reached)
-    compliance = tangents[0].compliance
-    if mirrored:
-        columns = unfolding(tractions.position.shape[0], MIRROR)
-        compliance = unfold(tangents[0].compliance, tangents[1].compliance, columns, columns)
-        displacement, state = _mirrored(section, displacement), unfolded(state)
-    moved = tractions.loads.T @ displacement[:, tractions.nodes].T
+    return recording(solver_on(start.tissues[0], start.increments[1]), note), states
+
+
+def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState], reached: DeformedState) -> Pressed:
+    """What is pressed to a state, by way of others. Raises SnapError, InvertedError, CondensationError."""
+    tangents = [tangent_at(tissue, reached.displacement) for tissue in start.tissues]
+    for tangent in tangents:
+        require_stable(start.problem, reached, tangent)
+    displacement, state = reached.displacement[start.parts.dofs], contact_state(reached)
+    curve, compliance = curve_of(states, float(start.state.actuator[0, 1]), reached), tangents[0].compliance
+    if start.mirrored:
+        displacement, state, curve = _mirrored(section, displacement), unfolded(state), curve * [1.0, 2.0]
+        columns = unfolding(start.tractions.position.shape[0], MIRROR)
+        compliance = unfold(compliance, tangents[1].compliance, columns, columns)
+    moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
-    residual = max((*reached.changes[-1:], *(each.residual for each in tangents)))
-    condensed = replace(bare, compliance=compliance, strain=np.empty((0, 2 * free.size)), residual=residual)
-    curve = curve_of(states, touch, reached) * np.array([1.0, 2.0 if mirrored else 1.0])
+    residual = max((*reached.changes[-1:], *(tangent.residual for tangent in tangents)))
+    condensed = replace(start.undeformed, compliance=compliance, strain=np.empty((0, 2 * free.size)), residual=residual)
     return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
 
 
