@@ -7,7 +7,7 @@ tractions of the model (`traction`), whose integral is the contact force.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,23 +82,76 @@ def strain_map_figure(
     fields: a loading for each distinct stimulus of the device, in the order of its conditions. solutions: by
     condition, for all of the dispersion. The colours are common to all figures of one device.
     """
-    device, pad = scene.device, scene.model.finger.pad_thickness
-    row = device.actuators
+    device = scene.device
     conditions = device.by_dispersion[dispersion]
+    window = _window(scene, max(solution.indentation for solution in solutions.values()))
+    shown = _in_view(fields, window)
+    panels = _new_panels(window, len(conditions))
     distinct = [condition.name for condition in device.distinct_conditions]
-    face = max(solution.indentation for solution in solutions.values())
-    bottom, top = face - BELOW, pad + ABOVE
+    loadings = [distinct.index(device.first_with_stimulus_of(condition.name).name) for condition in conditions]
+    for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown))):
+        for axes, condition, loading in zip(row, conditions, loadings, strict=True):
+            drawn = _draw_map(axes, shown, mapped, loading)
+            rise = np.array([0.0, solutions[condition.name].indentation])
+            draw_actuators(axes, device.actuators, condition.moves[-1] + rise, 2.0 * BELOW)
+            axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
+            axes.text(0.0, window[1][1] - ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
+        _label_first(row, panels.columns, "y (mm)")
+        panels.figure.colorbar(
+            drawn, ax=list(row[: panels.columns]), extend=mapped.extend, aspect=14, pad=0.01, label=mapped.label
+        )
+    limits = _traction_limits(solutions)
+    for axes, condition in zip(panels.tractions, conditions, strict=True):
+        _draw_tractions(axes, device.actuators, solutions[condition.name], condition)
+        axes.tick_params(labelbottom=True)
+        axes.set_ylim(*limits)
+        axes.set_xlabel("x (mm)")
+    _label_first(panels.tractions, panels.columns, "Traction (kPa)")
+    styles = condition_styles(each for each in conditions_of([device]) if each.dispersion == dispersion)
+    for axes, condition in zip(panels.strain, conditions, strict=True):
+        axes.set_title(styles.series[device.name, condition.name].label, loc="left")
+    several = len(device.by_dispersion) > 1
+    named = f", {plain(dispersion)} dispersion" if several else ""
+    title = as_title(panels.figure, f"{device.title}{named}, with shear")
+    panels.figure.suptitle(title, fontweight="bold")
+    legend_below(
+        panels.figure,
+        [
+            Line2D([], [], color=BLUE, label="contact pressure"),
+            Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, towards +x"),
+        ],
+        CAPTION.format(counted=counted(conditions), kinematics=KINEMATICS_NAME[scene.kinematics]),
+    )
+    return panels.figure
+
+
+def _window(scene: Scene, face: float) -> Window:
+    """What maps show: the row and the pad above its faces, which are at a height [mm]."""
+    row = scene.device.actuators
+    bottom, top = face - BELOW, scene.model.finger.pad_thickness + ABOVE
     reach = max(abs(x) for x in row.positions) + row.width / 2.0 + ASIDE
     reach = max(reach, (top - bottom) * NARROWEST / 2.0)
-    window = ((-reach, reach), (bottom, top))
-    shown = _in_view(fields, window)
-    name, end = STRAIN_NAME[scene.kinematics], colour_end(shown, shown.strain, COVERED, STEP)
-    change_end = colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP)
+    return (-reach, reach), (bottom, top)
 
-    columns = min(len(conditions), len(WIDTHS))
-    blocks = math.ceil(len(conditions) / columns)
+
+@dataclass(frozen=True)
+class _Panels:
+    """A figure and its panels, for each condition one of a kind, so many columns of them beside each other."""
+
+    figure: Figure
+    columns: int
+    strain: list[Axes]
+    change: list[Axes]
+    tractions: list[Axes]
+
+
+def _new_panels(window: Window, count: int) -> _Panels:
+    """Panels of maps that show a window, for `count` conditions, in blocks of as many as fit beside each other."""
+    (left, right), (bottom, top) = window
+    columns = min(count, len(WIDTHS))
+    blocks = math.ceil(count / columns)
     width = WIDTHS[columns - 1]
-    map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (top - bottom) / (2.0 * reach)
+    map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (top - bottom) / (right - left)
     height = blocks * (2.0 * map_height + TRACTION_HEIGHT + FURNITURE) + BASE
     figure = new_figure(width, height)
     grid = figure.subplots(
@@ -108,55 +161,18 @@ def strain_map_figure(
         sharex=True,
         height_ratios=[map_height, map_height, TRACTION_HEIGHT] * blocks,
     )
-    maps, changes, tractions = (grid[number::3].ravel() for number in range(3))
-    styles = condition_styles(each for each in conditions_of([device]) if each.dispersion == dispersion)
-    drawn_tractions = KILO * np.array([traction for s in solutions.values() for traction in (s.pressure, s.shear)])
-    limits = HEADROOM * float(drawn_tractions.min()), HEADROOM * float(drawn_tractions.max())
-    scales = {
-        "max": (PowerNorm(0.5, 0.0, end), COLOURS, "white", f"Max. principal {name}\n(%, square-root scale)"),
-        "both": (Normalize(-change_end, change_end), CHANGE_COLOURS, GREY, f"Change of\n{name} (%)"),
-    }
-    drawn = {}
-    for above, below, beneath, condition in zip(maps, changes, tractions, conditions, strict=False):
-        loading = distinct.index(device.first_with_stimulus_of(condition.name).name)
-        solution = solutions[condition.name]
-        rise = np.array([0.0, solution.indentation])
-        offsets = condition.moves[-1] + rise
-        for axes, values, (extend, scale) in zip(
-            (above, below), (shown.strain, shown.change), scales.items(), strict=True
-        ):
-            drawn[extend] = _draw_map(axes, shown, loading, values, *scale[:3])
-            draw_actuators(axes, row, offsets, 2.0 * BELOW)
-            axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
-            axes.text(0.0, pad + ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
-            axes.tick_params(labelleft=False)
-        above.set_title(styles.series[device.name, condition.name].label, loc="left")
-        beneath.tick_params(labelleft=False, labelbottom=True)
-        _draw_tractions(beneath, row, solution, condition)
-        beneath.set_ylim(*limits)
-        beneath.set_xlabel("x (mm)")
-    for axes in (each for kind in (maps, changes, tractions) for each in kind[len(conditions) :]):
+    kinds = [list(grid[number::3].ravel()) for number in range(3)]
+    for axes in (each for kind in kinds for each in kind[count:]):
         axes.remove()
-    for kind, label in ((maps, "y (mm)"), (changes, "y (mm)"), (tractions, "Traction (kPa)")):
-        for axes in kind[::columns]:
-            axes.tick_params(labelleft=True)
-            axes.set_ylabel(label)
-    for kind, (extend, scale) in zip((maps, changes), scales.items(), strict=True):
-        figure.colorbar(
-            drawn[extend], ax=list(kind[:columns]), extend=extend, aspect=14, pad=0.01, label=scale[3],
-        )  # fmt: skip
-    several = len(device.by_dispersion) > 1
-    named = f", {plain(dispersion)} dispersion" if several else ""
-    figure.suptitle(as_title(figure, f"{device.title}{named}, with shear"), fontweight="bold")
-    legend_below(
-        figure,
-        [
-            Line2D([], [], color=BLUE, label="contact pressure"),
-            Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, towards +x"),
-        ],
-        CAPTION.format(counted=counted(conditions), kinematics=KINEMATICS_NAME[scene.kinematics]),
-    )
-    return figure
+    return _Panels(figure, columns, *(kind[:count] for kind in kinds))
+
+
+def _label_first(panels: Sequence[Axes], columns: int, label: str) -> None:
+    """Label the vertical axes of the first column alone: the others share it."""
+    for number, axes in enumerate(panels):
+        axes.tick_params(labelleft=number % columns == 0)
+    for axes in panels[::columns]:
+        axes.set_ylabel(label)
 
 
 @dataclass(frozen=True)
@@ -179,6 +195,43 @@ def _in_view(fields: Fields, window: Window) -> _Shown:
     return _Shown(fields, elements, fields.strain[:, elements.ravel()], fields.change[:, elements.ravel()])
 
 
+@dataclass(frozen=True)
+class _Mapped:
+    """Values (n_loadings, 3k) [1] that maps show, their colours, that of the lines between layers, and what the colour
+    bar says: its label, and which of its ends are open.
+    """
+
+    values: FloatArray
+    norm: Normalize
+    colours: str
+    lines: str
+    label: str
+    extend: str
+
+
+def _strain(scene: Scene, shown: _Shown) -> _Mapped:
+    return _Mapped(
+        values=shown.strain,
+        norm=PowerNorm(0.5, 0.0, colour_end(shown, shown.strain, COVERED, STEP)),
+        colours=COLOURS,
+        lines="white",
+        label=f"Max. principal {STRAIN_NAME[scene.kinematics]}\n(%, square-root scale)",
+        extend="max",
+    )
+
+
+def _change(scene: Scene, shown: _Shown) -> _Mapped:
+    end = colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP)
+    return _Mapped(
+        values=shown.change,
+        norm=Normalize(-end, end),
+        colours=CHANGE_COLOURS,
+        lines=GREY,
+        label=f"Change of\n{STRAIN_NAME[scene.kinematics]} (%)",
+        extend="both",
+    )
+
+
 def colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) -> float:
     """Value [%] at which colours end: so many per cent of the area in view, over all loadings, have less.
 
@@ -194,18 +247,16 @@ def colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) -
     return step * max(math.ceil(PERCENT * float(value) / step), 1)
 
 
-def _draw_map(
-    axes: Axes, shown: _Shown, loading: int, values: FloatArray, norm: Normalize, colours: str, lines: str
-) -> TriMesh:
-    """Values on the deformed elements, rasterised; the layers' interfaces, in a colour, and the boundary as lines."""
+def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMesh:
+    """Values on the deformed elements, rasterised; the layers' interfaces and the boundary as lines."""
     fields = shown.fields
     moved = fields.corner + fields.displacement[loading]
     at = moved[:, shown.elements.ravel()]
     drawn = axes.tripcolor(
-        Triangulation(at[0], at[1], np.arange(at.shape[1]).reshape(-1, 3)), PERCENT * values[loading],
-        shading="gouraud", cmap=colours, norm=norm, rasterized=True,
+        Triangulation(at[0], at[1], np.arange(at.shape[1]).reshape(-1, 3)), PERCENT * mapped.values[loading],
+        shading="gouraud", cmap=mapped.colours, norm=mapped.norm, rasterized=True,
     )  # fmt: skip
-    for facets, colour in ((fields.interface, lines), (fields.boundary, "black")):
+    for facets, colour in ((fields.interface, mapped.lines), (fields.boundary, "black")):
         ends = moved[:, facets[np.isin(facets, shown.elements).any(axis=1)]]
         x, y = np.pad(ends, ((0, 0), (0, 0), (0, 1)), constant_values=np.nan).reshape(2, -1)  # a gap after each facet
         axes.plot(x, y, color=colour, linewidth=THIN, solid_capstyle="round")
@@ -227,3 +278,9 @@ def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition:
         x = centre[number] + solution.place[shown]
         axes.plot(x, pressure[shown], color=BLUE)
         axes.plot(x, shear[shown], color=VERMILLION, linestyle=DASHED)
+
+
+def _traction_limits(solutions: Mapping[str, Solution]) -> tuple[float, float]:
+    """Ends [kPa] of the tractions' axis, common to all."""
+    found = KILO * np.array([traction for each in solutions.values() for traction in (each.pressure, each.shear)])
+    return HEADROOM * float(found.min()), HEADROOM * float(found.max())
