@@ -9,7 +9,8 @@ is held against their usual bounds.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
@@ -137,6 +138,20 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
                 continue
             rows.append((kinematics, claim.text, str(claim.kind), claim.source, str(holds), evidence))
     return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def verdict_counts(rows: Iterable[Mapping[str, Any]]) -> dict[str, Counter[str]]:
+    """How many statements as the paper makes them end in each verdict, by kinematics. rows: of `claims_table`.
+
+    >>> row = {"kinematics": "small", "kind": "stated", "holds": "yes"}
+    >>> verdict_counts([row, row, row | {"holds": "undecided"}, row | {"kind": "weaker"}])
+    {'small': Counter({'yes': 2, 'undecided': 1})}
+    """
+    counts: dict[str, Counter[str]] = {}
+    for row in rows:
+        if row["kind"] == Kind.STATED:
+            counts.setdefault(row["kinematics"], Counter())[row["holds"]] += 1
+    return counts
 
 
 def _tables(scores: pd.DataFrame, correlations: pd.DataFrame) -> _Tables:

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pandas as pd
 
-from .claims import Holds, Kind
+from .claims import Holds, verdict_counts
 from .pages import table
 
 
 def claims_values(claims: pd.DataFrame) -> dict[str, object]:
     """What `workflow/pages/claims.md` asks for, from the table of `claims.claims_table`."""
     return {
-        "counts": "\n".join(_counted(each, own) for each, own in claims.groupby("kinematics", sort=False)),
+        "counts": "\n".join(_counted(*each) for each in verdict_counts(claims.to_dict("records")).items()),
         "verdicts": table(_verdicts(claims)),
         "evidence": "\n\n".join(_evidence(claim, own) for claim, own in claims.groupby("claim", sort=False)),
     }
 
 
-def _counted(kinematics: object, claims: pd.DataFrame) -> str:
-    """How many statements as the paper makes them end in each verdict."""
-    stated = claims.loc[claims["kind"] == Kind.STATED, "holds"]
-    numbers = ", ".join(f"{(stated == each).sum()} {each}" for each in Holds)
-    return f"- With {kinematics} kinematics, of n = {stated.size}: {numbers}."
+def _counted(kinematics: str, counts: Counter[str]) -> str:
+    """How many statements end in each verdict, in words."""
+    numbers = ", ".join(f"{counts[each]} {each}" for each in Holds)
+    return f"- With {kinematics} kinematics, of n = {counts.total()}: {numbers}."
 
 
 def _verdicts(claims: pd.DataFrame) -> pd.DataFrame:

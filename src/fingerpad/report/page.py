@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import base64
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from ..claims import Kind
+from ..claims import verdict_counts
 from ..figures.style import KINEMATICS_NAME
 from ..ratings import RatingKind
 from ..sources import Origin, Quantity
@@ -72,7 +71,7 @@ def report(
         correlations=correlation_bodies(results.correlations, titles),
         surrogates=any(row["rating_kind"] == RatingKind.SURROGATE.label for row in results.correlations),
         claims=claims,
-        verdicts=_verdicts(claims),
+        verdicts={KINEMATICS_NAME[Kinematics(each)]: counts for each, counts in verdict_counts(claims).items()},
         assumptions={
             name: [each for each in listed if each.origin is Origin.ASSUMPTION] for name, listed in quantities.items()
         },
@@ -80,11 +79,3 @@ def report(
         graph=graph,
         made=made,
     )
-
-
-def _verdicts(claims: Sequence[Row]) -> dict[str, Counter[str]]:
-    """How many statements as the paper makes them end in each verdict, by the name of the kinematics."""
-    found: dict[str, Counter[str]] = {}
-    for row in (each for each in claims if each["kind"] == Kind.STATED):
-        found.setdefault(KINEMATICS_NAME[Kinematics(row["kinematics"])], Counter())[row["holds"]] += 1
-    return found
