@@ -22,9 +22,9 @@ from fingerpad.report.tables import (
     CORRELATION_COLUMNS,
     accuracy_summary,
     correlation_bodies,
-    measured,
     p_value,
     score_grid,
+    score_with_error,
 )
 from fingerpad.scenefile import load_scene, read_yaml
 from fingerpad.sources import Origin, page, quantities
@@ -276,16 +276,16 @@ def test_figure_without_a_caption_is_an_error(results: Results) -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "error", "scale", "text"),
+    ("readout", "score", "error", "text"),
     [
-        (0.324622, 0.000654, 1.0, "0.32462 ± 0.00065"),
-        (0.001977, 0.000033, 1e3, "1.977 ± 0.033"),
-        (123.4, 56.0, 1.0, "123 ± 56"),
-        (0.5, 0.0, 1.0, "0.5"),
+        ("strain", "0.324622", "0.000654", "0.3246 ± 0.0007"),
+        ("change_of_strain", "0.001977", "0.000033", "1.98 ± 0.03"),
+        ("strain", "0.5", "0.0", "0.5 ± 0"),
+        ("strain", "0.324622", "", "0.3246 ± ?"),
     ],
 )
-def test_value_ends_where_its_error_does(value: float, error: float, scale: float, text: str) -> None:
-    assert measured(value, error, scale) == text
+def test_score_ends_where_its_error_does(readout: str, score: str, error: str, text: str) -> None:
+    assert score_with_error({"readout": readout, "score": score, "score_error": error}) == text
 
 
 def test_small_p_is_a_bound() -> None:

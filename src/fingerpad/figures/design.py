@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from io import BytesIO
-from math import floor, log10
+from math import isnan, nan
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from ..arrays import FloatArray
 from ..design import Answer
 from ..readout import READOUT_NAME, Readout
 from ..roughness import SCORE_UNIT, score_span
+from ..rounding import rounded
 from .receptors import face_arcs
 from .style import (
     BLUE,
@@ -45,7 +46,6 @@ EDGES = {"left": 0.09, "right": 0.985, "bottom": 0.1, "top": 0.94, "wspace": 0.3
 WIDTHS = (3.2, 1.0)  # of the columns, relative
 KILO = 1e3  # kPa in a MPa
 HEADROOM = 1.25  # of the scores' axis beyond the larger [1]
-SCORE_DIGITS = 3  # of a score without an error [1]
 BAR = 0.7  # width of a score's bar, of the distance between both [1]
 NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]
 LOCATOR = MaxNLocator(4, steps=[1.0, 2.0, 2.5, 5.0, 10.0])  # of vertical axes: intervals at most, and their lengths [1]
@@ -185,12 +185,12 @@ def _set(artists: _Design, place: float, answer: Answer) -> None:
     artists.shear.set_data(x, shear)
     for readout, row in zip(Readout, answer.rows, strict=True):
         factor, _ = SCORE_SCALE[readout]
-        known = row["score_error"] is not None
-        score, error = factor * row["score"], factor * row["score_error"] if known else 0.0
+        score, stated = factor * row["score"], nan if row["score_error"] is None else factor * row["score_error"]
+        error = 0.0 if isnan(stated) else stated
         artists.curves[readout].set_data(answer.readouts.arc, PERCENT * answer.readouts.unfiltered(readout))
         artists.bars[readout].set_height(score)
         artists.errors[readout].set_data([place, place], [score - error, score + error])
-        artists.numbers[readout].set(position=(place, score + error), text=_number(score, error if known else None))
+        artists.numbers[readout].set(position=(place, score + error), text="\n±".join(rounded(score, stated)))
 
 
 def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -202,14 +202,6 @@ def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
     touched = np.flatnonzero(solution.pressure > 0.0)
     found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
     return tuple(np.insert(found, np.flatnonzero(np.diff(nearest[touched])) + 1, np.nan, axis=1))
-
-
-def _number(score: float, error: float | None) -> str:
-    """A score over its error, whose one digit ends those of the score; over a question mark if the error is unknown."""
-    if not error:
-        return f"{score:.{SCORE_DIGITS}g}\n±{'?' if error is None else 0}"
-    decimals = max(-floor(log10(error)), 0)
-    return f"{score:.{decimals}f}\n±{error:.{decimals}f}"
 
 
 def _hold(axes: Axes, lines: list[Line2D], headroom: float = 1.0) -> None:

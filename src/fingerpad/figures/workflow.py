@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from ..readout import READOUT_NAME, GaborFilter, Readout, ReadoutRule
 from ..roughness import score_span
+from ..rounding import rounded
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
     PERCENT,
@@ -33,7 +32,7 @@ from .style import (
 HEIGHT = 100.0  # mm
 WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
-LONG = 6  # characters of a label beyond which labels are slanted
+LONG = 6  # characters of a condition's name beyond which names are slanted
 HEADROOM = 1.45  # of the bars' axis over the tallest bar [1]
 MOST_NUMBERS, MOST_NAMES = 5, 12  # conditions whose scores fit above their bars, and whose names below
 NUMBERS = "Small strain. Above bars: scores and their stated errors of discretisation."
@@ -78,13 +77,14 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         colours = [styles.series[device.name, name].colour for name in heights.index]
         drawn = bars.bar(places, heights, color=colours, width=0.65)
         if len(heights) <= MOST_NUMBERS:
-            bars.bar_label(drawn, labels=[_labelled(*each) for each in zip(heights, errors, strict=True)], padding=1.0)
+            labels = ["\n±".join(rounded(*each)) for each in zip(heights, errors, strict=True)]
+            bars.bar_label(drawn, labels, padding=1.0)
         else:
             draw_errors(bars, places, heights.to_numpy(), errors.to_numpy(), along="y")
-        labels = [shortened(styles.series[device.name, name].label) for name in heights.index]
-        long = max(map(len, labels)) > LONG
+        names = [shortened(styles.series[device.name, name].label) for name in heights.index]
+        long = max(map(len, names)) > LONG
         named = slice(len(places) if len(places) <= MOST_NAMES else 0)
-        bars.set_xticks(places[named], labels[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
+        bars.set_xticks(places[named], names[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
         bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])).replace(" score", "\nscore"))
     for axes in grid[-1][:2]:
@@ -97,21 +97,3 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     figure.suptitle(as_title(figure, title), fontweight="bold")
     legend_below(figure, [*styles.legend, face_handle()], NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES)
     return figure
-
-
-def _labelled(score: float, error: float) -> str:
-    """A score with its error under it, to the error's first digit, or its second if the first is a one; without one if
-    it is unknown.
-
-    >>> _labelled(0.49387, 0.01868)
-    '0.494\\n±0.019'
-    >>> _labelled(0.31891, 0.00057)
-    '0.3189\\n±0.0006'
-    >>> _labelled(0.49387, math.nan)
-    '0.4939'
-    """
-    if not error > 0.0:
-        return f"{score:#.4g}"
-    first = math.floor(math.log10(error))
-    decimals = max(-first + (error < 2.0 * 10.0**first), 0)
-    return f"{score:.{decimals}f}\n±{error:.{decimals}f}"

@@ -14,7 +14,7 @@ from ..readout import READOUT_NAME, Readout
 from ..roughness import TYPESET_UNITS
 from ..scene import Scene
 from ..tissue_law import Kinematics
-from .tables import Row, error_of, measured, p_value
+from .tables import Row, p_value, score_with_error
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
@@ -221,17 +221,14 @@ def _scores(
     results: Results, device: str, interface: Interface, readout: Readout, names: Sequence[str] | None = None
 ) -> str:
     """Scores with errors of one device, interface and read-out, of all conditions or some."""
-    scale, power = SCORE_SCALE[readout]
     rows = [
         row
         for row in results.scores
-        if (row["device"], row["interface"], row["readout"]) == (device, interface, readout)
-        and (names is None or row["condition"] in names)
-        and row["score"]
+        if (row["device"], row["interface"], row["readout"]) == (device, interface, readout) and row["score"]
     ]
-    found = (f"{row['condition']} {measured(float(row['score']), error_of(row), scale)}" for row in rows)
+    found = (f"{row['condition']} {score_with_error(row)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
-    scaled = f"{power}{TYPESET_UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
+    scaled = f"{SCORE_SCALE[readout][1]}{TYPESET_UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
     return f"{', '.join(found)} {scaled}"
 
 

@@ -12,12 +12,11 @@ from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
 from ..ratings import SLOPE_NAME, SMALLEST_P, has_p, slope_name
 from ..readout import READOUT_NAME, Readout
+from ..rounding import rounded
 from ..tissue_law import Kinematics
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition
-ERROR_DIGITS = 2  # significant digits of an error [1]; the value ends where its error does
-DIGITS = 4  # significant digits of a value without an error [1]
 NOTHING = "\N{EN DASH}"
 SLOPES = {str(sign): name for sign, name in SLOPE_NAME.items()}
 
@@ -38,35 +37,16 @@ class Grid:
     bodies: tuple[Body, ...]
 
 
-def measured(value: float, error: float, scale: float = 1.0) -> str:
-    """A value with its error, both times `scale`: the error with two digits, the value as far as these reach.
-
-    >>> measured(0.324622, 0.000654)
-    '0.32462 ± 0.00065'
-
-    If the error is not known, as not a number, that is said.
-
-    >>> measured(0.324622, float("nan"))
-    '0.3246 ± ?'
-    """
-    value, error = scale * value, scale * error
-    if math.isnan(error):
-        return f"{value:.{DIGITS}g} ± ?"
-    if not (math.isfinite(error) and error > 0.0):
-        return f"{value:.{DIGITS}g}"
-    decimals = max(ERROR_DIGITS - 1 - math.floor(math.log10(error)), 0)
-    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+def score_with_error(row: Row) -> str:
+    """A row's score and its stated error, in the unit that `score_label` names."""
+    scale, _ = SCORE_SCALE[Readout(row["readout"])]
+    return " ± ".join(rounded(scale * float(row["score"]), scale * error_of(row)))
 
 
 def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
     """Every score with its error. scores: rows of scores.csv. titles: of devices by name."""
-
-    def cell(row: Row) -> str:
-        scale, _ = SCORE_SCALE[Readout(row["readout"])]
-        return measured(float(row["score"]), error_of(row), scale)
-
     unit = scores[0]["unit"]
-    return _grid(scores, titles, [score_label(readout, unit) for readout in Readout], cell)
+    return _grid(scores, titles, [score_label(readout, unit) for readout in Readout], score_with_error)
 
 
 def accuracy_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
