@@ -15,13 +15,23 @@ from fingerpad.accuracy import with_errors
 from fingerpad.benchmark.first_order import condense_first_order
 from fingerpad.benchmark.growth import exponents, growth, row_of
 from fingerpad.benchmark.increments import increment_rows
-from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
+from fingerpad.benchmark.ladder import (
+    CALCULIX_LADDER,
+    COMPARED_AT,
+    FIRST_ORDER_LADDER,
+    OWN_LADDER,
+    PLAIN_LADDER,
+    first_order_ladder,
+    own_ladder,
+    plain_ladder,
+)
 from fingerpad.benchmark.skipping import always_rows, skip_rows
 from fingerpad.benchmark.timing import exponent
 from fingerpad.condensation import condense_section
 from fingerpad.device import Condition, Control
 from fingerpad.edges import edge_intervals, mesh_device
 from fingerpad.errors import SceneError
+from fingerpad.figures.benchmark import benchmark_figure
 from fingerpad.numerics import Skips
 from fingerpad.pages import accuracy_values, filled, frequency_values, skipping_values, table
 from fingerpad.prediction import rows_at
@@ -277,3 +287,26 @@ def test_scenes_keep_their_skips(coarse: Scene) -> None:
     off = replace(coarse.model.skips, equal_stimuli=False)
     last = coarse.device.conditions[-1].name
     assert replace(coarse, model=replace(coarse.model, skips=off)).solved_as(last).name == last
+
+
+def test_benchmark_figure_shows_every_solver_and_where_they_are_compared() -> None:
+    """Two rungs a solver, of which the second has a larger error of the change of strain than of strain."""
+    solvers = (OWN_LADDER, FIRST_ORDER_LADDER, PLAIN_LADDER, CALCULIX_LADDER)
+    seconds = {"kinematics": "small", "cold_s": 3.0, "warm_s": 2.0, "stimulus_s": 1.0}
+    rungs = [
+        seconds | {"solver": solver, "error_strain": 0.01, "error_change_of_strain": error}
+        for solver in solvers
+        for error in (0.005, 0.02)
+    ]
+    size = {"unknowns": 1.0, "contact_nodes": 1.0, "increments": 1.0, "actuators": 1.0, "setup_s": 1.0}
+    sizes = [size | {"varied": varied, "condition_s": 1.0} for varied in ("mesh", "increments", "actuators")]
+    fits = [
+        {"against": against, "seconds": step, "exponent": 1.0}
+        for against in ("unknowns", "contact_nodes", "increments", "actuators")
+        for step in ("setup", "condition")
+    ]
+    left, _ = benchmark_figure(pd.DataFrame(rungs), pd.DataFrame(sizes), pd.DataFrame(fits)).axes
+    *climbed, compared = left.lines
+    assert {str(line.get_label()).partition(",")[0].partition(" for ")[0] for line in climbed} == set(solvers)
+    assert all(list(line.get_xdata()) == [0.01, 0.02] for line in climbed)
+    assert list(compared.get_xdata()) == [COMPARED_AT, COMPARED_AT]

@@ -9,14 +9,13 @@ from string import Template
 import pandas as pd
 
 from . import markdown
-from .benchmark.ladder import OWN_LADDER
+from .benchmark.ladder import COMPARED_AT, OWN_LADDER
 from .closedforms.comparison import ORDER_OF
 from .contact_law import Interface
 from .readout import Readout
 from .tissue_law import Kinematics
 
 AIM = 0.005  # error [1] that every score should keep; source: the project's aim
-COMPARED_AT = 0.01  # error [1] at which run times are compared
 BOUND = 2.0  # times the stated error [1] within which the true one should lie
 PERCENT = 100.0
 GROUP = ["kinematics", "device", "interface", "readout"]

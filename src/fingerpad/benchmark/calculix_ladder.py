@@ -11,6 +11,7 @@ from ..device import Condition
 from ..edges import mesh_device
 from ..readout import Readout
 from ..scene import Scene
+from .ladder import CALCULIX_LADDER
 
 
 def calculix_ladder(
@@ -35,7 +36,7 @@ def calculix_ladder(
         rows.append(
             {
                 "kinematics": case["kinematics"],
-                "solver": "CalculiX",
+                "solver": CALCULIX_LADDER,
                 "coarsening": factor,
                 "unknowns": section.unknowns,
                 "cold_s": round(seconds, 1),

@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
 from ..tissue_law import Kinematics
 from .style import (
     BLACK,
@@ -27,14 +28,13 @@ from .style import (
 
 HEIGHT = 86.0  # mm
 LETTER_OFFSET = (-26.0, 4.0)  # pt
-AIM = 0.01  # error [1] at which solvers are compared
 LADDERS = (  # solver, column, label, colour, marker
-    ("CalculiX", "cold_s", "CalculiX", BLACK, "D"),
-    ("factorised anew", "cold_s", "factorised anew for every increment", GREY, "^"),
-    ("first-order elements", "cold_s", "first-order elements, from scene to score", VERMILLION, "P"),
-    ("fingerpad", "cold_s", "fingerpad, from scene to score", BLUE, "o"),
-    ("fingerpad", "warm_s", "fingerpad, a further condition", ORANGE, "s"),
-    ("fingerpad", "stimulus_s", "fingerpad, a further stimulus", GREEN, "v"),
+    (CALCULIX_LADDER, "cold_s", "CalculiX", BLACK, "D"),
+    (PLAIN_LADDER, "cold_s", "factorised anew for every increment", GREY, "^"),
+    (FIRST_ORDER_LADDER, "cold_s", "first-order elements, from scene to score", VERMILLION, "P"),
+    (OWN_LADDER, "cold_s", "fingerpad, from scene to score", BLUE, "o"),
+    (OWN_LADDER, "warm_s", "fingerpad, a further condition", ORANGE, "s"),
+    (OWN_LADDER, "stimulus_s", "fingerpad, a further stimulus", GREEN, "v"),
 )
 LINES: dict[Kinematics, dict[str, Any]] = {
     Kinematics.SMALL: {},
@@ -80,7 +80,9 @@ def _draw_ladders(axes: Axes, ladder: pd.DataFrame) -> list[object]:
             error = own[["error_strain", "error_change_of_strain"]].max(axis=1)
             drawn = axes.plot(error, own[column], color=colour, marker=marker, label=label, **line)
             handles += drawn if kinematics is Kinematics.SMALL else []
-    handles.append(axes.axvline(AIM, color=GREY, linestyle=":", zorder=0, label=f"error of {PERCENT * AIM:g} %"))
+    handles.append(
+        axes.axvline(COMPARED_AT, color=GREY, linestyle=":", zorder=0, label=f"error of {PERCENT * COMPARED_AT:g} %")
+    )
     axes.set(xscale="log", yscale="log", xlabel="Error of the score (relative)", ylabel="Wall time (s)")
     axes.set_title("Time against error", loc="left")
     return handles
