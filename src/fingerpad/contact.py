@@ -27,7 +27,7 @@ import numpy as np
 from .arrays import FloatArray
 from .compliance import CondensedBody
 from .device import ActuatorRow
-from .profile import profile
+from .profile import profile, touching_heights
 
 
 class Status(IntEnum):
@@ -128,16 +128,9 @@ class ContactState:
     searches: int
 
 
-def touching_heights(problem: ContactProblem) -> FloatArray:
-    """Heights (n_actuators,) [mm] to which each actuator rises until it touches the first node of undeformed skin."""
-    x = problem.position[:, 0] - np.asarray(problem.row.positions)[problem.actuator_of]
-    height = problem.position[:, 1] + profile(problem.row, x)[0]
-    return np.array([height[own].min(initial=np.inf) for own in problem.spans])
-
-
 def touching_height(problem: ContactProblem) -> float:
-    """Height [mm] to which all actuators rise until the first touches."""
-    return float(touching_heights(problem).min())
+    """Height [mm] to which all actuators rise until the first touches undeformed skin."""
+    return float(touching_heights(problem.row, problem.position).min())
 
 
 def rest(problem: ContactProblem, height: float) -> ContactState:

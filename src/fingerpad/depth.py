@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from .arrays import FloatArray
-from .contact import ContactProblem, touching_heights
+from .contact import ContactProblem
 from .errors import DepthError
+from .profile import touching_heights
 
 
 def depth(problem: ContactProblem, actuators: FloatArray) -> float:
     """Largest height [mm] of an actuator, in any of its places (k, n_actuators, 2) [mm], above that at which it first
     touches undeformed skin.
     """
-    return float((actuators[:, :, 1] - touching_heights(problem)).max())
+    return float((actuators[:, :, 1] - touching_heights(problem.row, problem.position)).max())
 
 
 def require_tissue(problem: ContactProblem, actuators: FloatArray, thickness: float) -> None:

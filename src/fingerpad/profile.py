@@ -32,6 +32,18 @@ def profile(row: ActuatorRow, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     return drop, np.copysign(steepness, x)
 
 
+def touching_heights(row: ActuatorRow, points: FloatArray) -> FloatArray:
+    """Heights (n_actuators,) [mm] to which each actuator rises until it touches the first of the points (n, 2) [mm]
+    that are nearest to it; infinite if there are none.
+
+    >>> touching_heights(ActuatorRow((0.0, 2.0, 4.0), 1.0, 0.1), np.array([[0.1, 0.2], [0.46, 0.1], [2.0, 0.4]]))
+    array([0.12, 0.4 ,  inf])
+    """
+    nearest = row.nearest(points[:, 0])
+    height = points[:, 1] + profile(row, points[:, 0] - np.asarray(row.positions)[nearest])[0]
+    return np.array([height[nearest == number].min(initial=np.inf) for number in range(len(row.positions))])
+
+
 def bend(row: ActuatorRow, x: FloatArray) -> FloatArray:
     """Change of the slope along the face, d²d/dx² (n,) [1/mm], at x (n,) [mm]: r²(r² - b²)^(-3/2) on the circles.
 

@@ -15,7 +15,7 @@ from matplotlib.ticker import MultipleLocator
 from ..arrays import FloatArray
 from ..device import ActuatorRow, Device
 from ..mesh import SectionMesh, element_nodes
-from ..profile import profile
+from ..profile import touching_heights
 from ..scene import Model
 from .actuators import BASE, draw_actuators
 from .style import THIN, VERMILLION, WIDE, as_title, letter, new_figure, styled, subtitle
@@ -148,7 +148,7 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, size: float) 
     """
     row = device.actuators
     _draw_section(axes, section)
-    face = np.array([0.0, _touching_face(section, row)])
+    face = np.array([0.0, touching_heights(row, section.mesh.doflocs[:, section.skin].T).min()])
     draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH * size)
     for x in row.positions:
         middle = face + np.array([x, -_arrow_depth(row, size)])
@@ -171,16 +171,6 @@ def _directions(device: Device) -> list[tuple[float, float]]:
         return [(math.sqrt(0.5), math.sqrt(0.5))]
     axes = (("normal", (0.0, 1.0)), ("tangential", (1.0, 0.0)))
     return [unit for driven, unit in axes if any(getattr(each, driven).any() for each in device.conditions)]
-
-
-def _touching_face(section: SectionMesh, row: ActuatorRow) -> float:
-    """Height [mm] of the faces where the undeformed skin first touches one."""
-    skin = section.mesh.doflocs[:, section.skin]
-    heights = []
-    for centre in row.positions:
-        x, y = skin[:, np.abs(skin[0] - centre) <= row.width / 2.0]
-        heights.append(float((y + profile(row, x - centre)[0]).min()))
-    return min(heights)
 
 
 def _described(row: ActuatorRow) -> str:
