@@ -15,8 +15,8 @@ from .increment import solve_increment
 from .patch import Patch
 
 
-class Halvable(Protocol):
-    """What a path asks of a state, a dataclass: where the actuators stand, and increments halved (`ContactState`)."""
+class PathState(Protocol):
+    """What a path asks of a state, a dataclass: where the actuators stand, and increments halved so far."""
 
     __dataclass_fields__: ClassVar[dict[str, Any]]
 
@@ -26,7 +26,7 @@ class Halvable(Protocol):
     def cuts(self) -> int: ...
 
 
-State = TypeVar("State", bound=Halvable)
+State = TypeVar("State", bound=PathState)
 
 NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
 CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
