@@ -8,7 +8,7 @@ import pytest
 from fingerpad.arrays import FloatArray
 from fingerpad.contact_law import Interface
 from fingerpad.deformed import deformed_state, solver_on
-from fingerpad.deformed_path import EQUILIBRIUM, DeformedTissue, move
+from fingerpad.deformed_path import SETTLED, DeformedTissue, move
 from fingerpad.deformed_solution import PressedFinger, pressed_finger, stimulate_deformed
 from fingerpad.device import Condition
 from fingerpad.errors import ContactError
@@ -62,7 +62,7 @@ def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
     begin = deformed_state(finger.start.state, finger.start.displacement)
     followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(part, 1))
     way = np.abs(followed.displacement - finger.start.displacement).max()
-    assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * EQUILIBRIUM * way
+    assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * SETTLED * way
 
 
 def test_a_stroke_that_cannot_be_followed_says_how_the_rest_goes_on(base: Scene, finger: PressedFinger) -> None:

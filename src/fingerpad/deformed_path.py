@@ -32,9 +32,7 @@ from .patch import Patch
 from .path import advance, drifting_to
 
 MAX_CORRECTIONS = 30  # of one move [1] before new tangents are made on the way; source: usual count is 2-24 (measured)
-EQUILIBRIUM = (
-    1e-3  # change of displacement in a correction over that of the move [1]; source: scores then hold to 0.2 %
-)
+SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores then hold to 0.2 %
 
 
 @dataclass(frozen=True)
@@ -76,8 +74,8 @@ class Spring:
 
 
 @dataclass(frozen=True)
-class Move:
-    """Where a move ends.
+class Equilibrium:
+    """Contact and tissue where a move ends, or begins.
 
     state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without
     contact forces, had the tangent held all the way [mm]. tangents: made so far. defect: largest change of displacement
@@ -116,7 +114,9 @@ def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> Sprin
     )
 
 
-def move(tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int) -> Move:
+def move(
+    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+) -> Equilibrium:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm].
 
     problem: condensed about the tissue's displacement. Where corrections do not settle the move is made anew, with new
@@ -135,8 +135,8 @@ class _UnsettledError(Exception):
 
 
 def _corrected(
-    tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
-) -> Move:
+    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+) -> Equilibrium:
     """`move` on the tissue's tangent alone. Raises _UnsettledError."""
     part, free = tissue.part, tissue.part.elements.free
     exact = tissue.spring is None and np.array_equal(start.displacement, tissue.displacement)
@@ -166,31 +166,36 @@ def _corrected(
             ends.append(reached)
         displacement = displacement.copy()
         displacement[free] = reached
-        if defect <= EQUILIBRIUM:
+        if defect <= SETTLED:
             if is_far(moved, float(np.abs(target - start.state.actuator).max()), float(np.abs(target).max())):
                 raise _UnsettledError
-            defect = max(start.defect, defect)
-            return Move(state, displacement, last, start.tangents, defect)
+            return Equilibrium(
+                state=state,
+                displacement=displacement,
+                free=last,
+                tangents=start.tangents,
+                defect=max(start.defect, defect),
+            )
         if steps:
             displacement[free] = accelerated(steps, ends)
     raise _UnsettledError
 
 
 def _followed_newly(
-    tissue: DeformedTissue, problem: ContactProblem, start: Move, target: FloatArray, increments: int
-) -> Move:
+    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+) -> Equilibrium:
     """`move` with a new tangent wherever an increment asks for one."""
     part = tissue.condensing()
     begin, (count, within) = deformed_state(start.state, start.displacement), increments_of(increments)
     reached, _ = advance(problem, begin, target, count, None, solver_on(part, within))
     moved = (part.loads.T @ reached.displacement[part.elements.free]).reshape(-1, 2)
     rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
-    return Move(
-        contact_state(reached),
-        reached.displacement,
-        rest,
-        start.tangents + reached.tangents,
-        start.defect,
+    return Equilibrium(
+        state=contact_state(reached),
+        displacement=reached.displacement,
+        free=rest,
+        tangents=start.tangents + reached.tangents,
+        defect=start.defect,
     )
 
 

@@ -16,7 +16,7 @@ from .certificate import Certificate, certify, worst
 from .compliance import CondensedBody
 from .contact import ContactProblem
 from .contact_law import Interface
-from .deformed_path import DeformedTissue, Move, deformed_tissue, move
+from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move
 from .depth import require_tissue
 from .device import Condition
 from .elasticity import displacement_basis, node_dofs
@@ -42,7 +42,7 @@ class PressedFinger:
     pressed: Pressed
     problem: ContactProblem
     tissue: DeformedTissue
-    start: Move
+    start: Equilibrium
     gradient: csr_matrix
     dofs: np.ndarray
     skin: Skin
@@ -63,7 +63,7 @@ def pressed_finger(
     if tissue.spring is not None:
         borne = (problem.compliance - tissue.spring.compliance) @ pressed.state.force.ravel()
         problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
-    start = Move(pressed.state, displacement, free, 0, 0.0)
+    start = Equilibrium(state=pressed.state, displacement=displacement, free=free, tangents=0, defect=0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(
         interface=interface,
@@ -83,38 +83,40 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
     Raises ContactError, naming device, condition and interface, if the path cannot be followed, if a state's
     certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
-    moves, certificate = certified_moves(scene, finger, condition)
+    found, certificate = certified_equilibria(scene, finger, condition)
     section = finger.pressed.section
-    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in moves])
-    states = [each.state for each in moves]
+    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in found])
+    states = [each.state for each in found]
     return solution(finger.problem, section, states, receptor_readouts(strains, section.arc), certificate)
 
 
-def certified_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> tuple[list[Move], Certificate]:
-    """`deformed_moves`, and their certificate. Raises ContactError as `stimulate_deformed`."""
+def certified_equilibria(
+    scene: Scene, finger: PressedFinger, condition: Condition
+) -> tuple[list[Equilibrium], Certificate]:
+    """`equilibria`, and their certificate. Raises ContactError as `stimulate_deformed`."""
     with named_pressing(scene, finger.interface):
         pressed = _certified(finger, finger.start)
     with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}", LEAVE_OUT):
-        moves = deformed_moves(scene, finger, condition)
-        return moves, worst([pressed, *(_certified(finger, each) for each in moves[1:])])
+        found = equilibria(scene, finger, condition)
+        return found, worst([pressed, *(_certified(finger, each) for each in found[1:])])
 
 
-def _certified(finger: PressedFinger, end: Move) -> Certificate:
-    """The certificate of where a move ends. Raises CertificateError, ReachError."""
+def _certified(finger: PressedFinger, found: Equilibrium) -> Certificate:
+    """The certificate of an equilibrium. Raises CertificateError, ReachError."""
     section = finger.pressed.section
-    problem = replace(finger.problem, free=end.free)
-    return certify(problem, replace(section, residual=max(section.residual, end.defect)), end.state)
+    problem = replace(finger.problem, free=found.free)
+    return certify(problem, replace(section, residual=max(section.residual, found.defect)), found.state)
 
 
-def deformed_moves(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Move]:
-    """The pre-indented state, and the ends of all moves of a stimulus. Raises ContactError."""
+def equilibria(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Equilibrium]:
+    """The pre-indented one, and those at the ends of all moves of a stimulus. Raises ContactError."""
     before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
     require_tissue(finger.problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
-    moves = [finger.start]
+    found = [finger.start]
     for moved in condition.moves:
-        moves.append(move(finger.tissue, finger.problem, moves[-1], before.actuator + moved, count))
-        require_uncrossed(finger.skin, moves[-1].displacement, f"after move {len(moves) - 1} of the stimulus")
-    return moves
+        found.append(move(finger.tissue, finger.problem, found[-1], before.actuator + moved, count))
+        require_uncrossed(finger.skin, found[-1].displacement, f"after move {len(found) - 1} of the stimulus")
+    return found
 
 
 def receptor_logarithmic_strain(gradient: csr_matrix, displacement: FloatArray) -> FloatArray:

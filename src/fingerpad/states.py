@@ -16,7 +16,7 @@ from .arrays import FloatArray
 from .condensation import condense_section
 from .contact import pressing_and_shearing
 from .contact_law import Interface
-from .deformed_solution import PressedFinger, certified_moves, pressed_finger
+from .deformed_solution import PressedFinger, certified_equilibria, pressed_finger
 from .device import Condition
 from .elasticity import displacement_basis
 from .fields import Fields
@@ -66,10 +66,10 @@ def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -
     """States of tissue that deforms much, which follow from no forces alone: the stimulus is solved. Raises
     ContactError.
     """
-    moves, _ = certified_moves(scene, finger, condition)
-    pressed = [pressing_and_shearing(finger.problem, each.state) for each in moves]
+    found, _ = certified_equilibria(scene, finger, condition)
+    pressed = [pressing_and_shearing(finger.problem, each.state) for each in found]
     return States(
-        np.array([each.displacement[finger.dofs] for each in moves]),
+        np.array([each.displacement[finger.dofs] for each in found]),
         np.array([np.stack([shearing, pressing], axis=1) for pressing, shearing in pressed]),
     )
 
