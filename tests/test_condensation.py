@@ -42,18 +42,22 @@ def test_maps_equal_a_direct_solve_of_the_whole_section() -> None:
 
 @pytest.mark.parametrize("device", ["device1", "device2", "device3"])
 def test_compliance_is_symmetric_and_positive(device: str) -> None:
-    """Betti's reciprocity, and energy for every load."""
+    """To the last bit, as what inverts it relies on (that reciprocity holds but for rounding, before halves are made
+    equal, the direct solve tells); and energy for every load.
+    """
     found, body = condensed(device)
     for compliance in [found.compliance] + ([body.compliance] if body else []):
-        assert np.abs(compliance - compliance.T).max() < 1e-12 * np.abs(compliance).max()
+        assert np.array_equal(compliance, compliance.T)
         assert np.linalg.eigvalsh(compliance).min() > 0.0
 
 
 def test_receptor_line_is_ordered_and_spans_the_pad() -> None:
-    """Arc length ascends, is odd about the mid-line, and reaches past the widest point on both sides."""
+    """Arc length ascends, is odd about the mid-line but for the rounding of sums of some hundred segments, and reaches
+    past the widest point on both sides.
+    """
     found, _ = condensed("device1")
     assert np.all(np.diff(found.arc) > 0)
-    assert np.abs(found.arc + found.arc[::-1]).max() < 1e-9
+    assert np.abs(found.arc + found.arc[::-1]).max() < 1e-13
     assert found.arc[-1] > 10.0
 
 

@@ -27,7 +27,9 @@ def touched(radius: float, width: float, friction: float) -> ContactProblem:
 
 
 def test_large_friction_equals_tied() -> None:
-    """With more friction than any shear needs, moving the punch sideways is a linear, tied problem."""
+    """With more friction than any shear needs, moving the punch sideways is a linear, tied problem, to the tolerance of
+    contact.
+    """
     problem = touched(0.1, 1.0, 1e6)
     before = pressed(problem, 0.01, 8)
     after = follow(problem, before, before.actuator + np.array([[0.005, 0.0]]), 1)
@@ -37,7 +39,7 @@ def test_large_friction_equals_tied() -> None:
     change = (after.force - before.force)[stuck].ravel()
     held = np.flatnonzero(after.status == Status.STICK)
     assert np.array_equal(held, stuck)  # the move is so small that no node opens or closes
-    assert np.abs(change - tied).max() < 1e-6 * np.abs(tied).max()
+    assert np.abs(change - tied).max() < problem.tolerance * np.abs(tied).max()
 
 
 def test_frictionless_limit() -> None:
@@ -56,12 +58,12 @@ def test_frictionless_limit() -> None:
 
 
 def test_mirrored_motion_gives_mirrored_forces() -> None:
-    """Moving the punch left is the mirror image of moving it right."""
+    """Moving the punch left is the mirror image of moving it right, to the tolerance of contact."""
     problem = touched(0.1, 1.0, 0.5)
     before = pressed(problem, 0.02, 8)
     right, left = (follow(problem, before, before.actuator + np.array([[d, 0.0]]), 4) for d in (0.008, -0.008))
     mirrored = left.force[::-1] * np.array([-1.0, 1.0])
-    assert np.abs(right.force - mirrored).max() < 1e-7 * np.abs(right.force).max()
+    assert np.abs(right.force - mirrored).max() < problem.tolerance * np.abs(right.force).max()
 
 
 def test_energy_balance_and_dissipation() -> None:
@@ -93,25 +95,29 @@ def _elastic(problem: ContactProblem, state: ContactState) -> float:
 
 
 def test_sliding_punch_carries_contact_along() -> None:
-    """Finite sliding: without friction the pressure pattern moves with the punch, node by node."""
+    """Finite sliding: without friction the pressure pattern moves with the punch, node by node. Its force stays, but
+    for the grid of nodes, whose error falls with the square of spacing over the contact's half width.
+    """
     problem = touched(0.1, 0.8, 0.0)
     before = pressed(problem, 0.01, 8)
     after = follow(problem, before, before.actuator + np.array([[0.1, 0.0]]), 10)
     x = problem.position[:, 0]
     centre = [float(x @ state.force[:, 1] / state.force[:, 1].sum()) for state in (before, after)]
-    assert centre[0] == pytest.approx(0.0, abs=1e-6)
+    assert centre[0] == pytest.approx(0.0, abs=problem.tolerance)
     assert centre[1] == pytest.approx(0.1, abs=0.004)  # less than half a node spacing
-    assert after.force[:, 1].sum() == pytest.approx(before.force[:, 1].sum(), rel=0.01)
+    assert after.force[:, 1].sum() == pytest.approx(before.force[:, 1].sum(), rel=(SPACING / 0.4) ** 2)
 
 
 def test_separation_and_return() -> None:
-    """A punch that lets go carries nothing, and comes back to the state it left (no friction)."""
+    """A punch that lets go carries nothing, and comes back to the state it left (no friction), to the tolerance of
+    contact.
+    """
     problem = touched(0.1, 1.0, 0.0)
     down = pressed(problem, 0.01, 8)
     free = follow(problem, down, lift(problem, 0.0, -0.02), 5)
     assert not free.force.any()
     again = follow(problem, free, down.actuator, 5)
-    assert np.abs(again.force - down.force).max() < 1e-8 * np.abs(down.force).max()
+    assert np.abs(again.force - down.force).max() < problem.tolerance * np.abs(down.force).max()
 
 
 def test_a_path_that_cannot_be_followed_is_a_named_error() -> None:

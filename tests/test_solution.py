@@ -18,6 +18,8 @@ from fingerpad.edges import mesh_device
 from fingerpad.errors import CertificateError, ContactError, DepthError, ReachError
 from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
+from fingerpad.increment import GIVING
+from fingerpad.indentation import END_TOLERANCE
 from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.path import follow
 from fingerpad.readout import Readout
@@ -34,6 +36,7 @@ from fingerpad.solution import (
 )
 from scenes import condensed, scene, solve, solved
 
+ROUNDING = 1e-10  # of a share [1]: that of shares of 1e-6 of forces
 FINE = {"indentation_increments": 80, "stimulus_increments": 16}
 CASES = [
     (device, condition.name, interface)
@@ -45,14 +48,18 @@ CASES = [
 
 @pytest.mark.parametrize(("device", "condition", "interface"), CASES)
 def test_every_solution_is_certified(device: str, condition: str, interface: Interface) -> None:
-    """The laws of contact hold for every device, condition and interface, and nothing had to be cut."""
-    solution = solved(device, condition, interface)
-    certificate = solution.certificate
-    assert certificate.equilibrium < 1e-12
-    assert certificate.contact <= scene(device).model.numerics.newton_tolerance
-    assert certificate.penetration <= 1e-4 * solution.indentation
+    """The laws of contact hold for every device, condition and interface, and nothing had to be cut.
+
+    Far better than certificates ask: equilibrium but for rounding, contact to its tolerance. Faces that give way
+    may do so elsewhere than the skin touches them, by GIVING of a load that is less than twice the indentation.
+    """
+    base, solution = scene(device), solved(device, condition, interface)
+    certificate, tolerance = solution.certificate, base.model.numerics.newton_tolerance
+    assert certificate.equilibrium < 1e-15
+    assert certificate.contact <= tolerance
+    assert certificate.penetration <= (2.0 * GIVING if base.device.actuators.body else tolerance) * solution.indentation
     assert certificate.smallest_pressure > 0.0
-    assert certificate.cone_excess < 1e-9
+    assert certificate.cone_excess <= tolerance
     assert certificate.dissipation >= 0.0
     assert (certificate.dissipation > 0.0) == (interface is Interface.SHEAR)
     assert solution.cuts == 0
@@ -67,18 +74,24 @@ def lateral(name: str, tangential: list[float]) -> Condition:
 
 @pytest.mark.parametrize("interface", list(Interface))
 def test_mirrored_stimulus_gives_mirrored_strains(interface: Interface) -> None:
-    """Pins 1 and 3 to the right are the mirror image of pins 2 and 4 to the left."""
+    """Pins 1 and 3 to the right are the mirror image of pins 2 and 4 to the left.
+
+    Gaps are solved to the tolerance of contact, of the indentation; over the receptors' depth that is a strain.
+    """
     right = solve("device2", lateral("right", [0.02, 0.0, 0.02, 0.0]), interface)
     left = solve("device2", lateral("left", [0.0, -0.02, 0.0, -0.02]), interface)
-    largest = np.abs(right.change_of_strain).max()
-    assert np.abs(right.strain - left.strain[::-1]).max() < 1e-6 * right.strain.max()
-    assert np.abs(right.change_of_strain - left.change_of_strain[::-1]).max() < 1e-5 * largest
+    model = scene("device2").model
+    left_over = model.numerics.newton_tolerance * right.indentation / model.receptor_depth
+    assert np.abs(right.strain - left.strain[::-1]).max() < left_over
+    assert np.abs(right.change_of_strain - left.change_of_strain[::-1]).max() < left_over
 
 
 def test_indentation_alone_is_symmetric() -> None:
-    """All pins pressed alike: the strain mirrors."""
+    """All pins pressed alike: the strain mirrors, but for the rounding of sums over some hundred nodes, as one half is
+    solved and the other is its image.
+    """
     still = solve("device2", lateral("still", [0.0] * 4), Interface.SHEAR)
-    assert np.abs(still.strain - still.strain[::-1]).max() < 1e-7 * still.strain.max()
+    assert np.abs(still.strain - still.strain[::-1]).max() < 1e-13 * still.strain.max()
     assert not still.change_of_strain.any()
 
 
@@ -88,11 +101,18 @@ def test_full_criterion_covers_every_face_and_no_less_would(device: str) -> None
     base = scene(device)
     problem = contact_problem(base, *condensed(device), Interface.SHEAR)
     state = indented_state(base, problem)
-    over_face = np.abs(state.place) < base.device.actuators.half_face - 0.02
-    assert np.all(state.force[over_face, 1] > 0.0)
-    shallow = replace(problem, position=problem.position + np.array([0.0, 0.01 * state.actuator[0, 1]]))
-    moved = indented_state(base, shallow)
-    assert moved.actuator[0, 1] == pytest.approx(state.actuator[0, 1] * 1.01, rel=1e-6)
+    assert np.all(pressed_over_faces(state, problem))
+    lower = state.actuator * [1.0, 0.99]
+    shallow = follow(
+        problem, rest(problem, touching_height(problem)), lower, base.model.numerics.indentation_increments
+    )
+    assert not np.all(pressed_over_faces(shallow, problem))
+
+
+def pressed_over_faces(state: ContactState, problem: ContactProblem) -> np.ndarray:
+    """Whether each node presses that lies over a flat face, but for what may be missing at the criterion's end."""
+    over_face = np.abs(state.place) < problem.row.half_face - END_TOLERANCE
+    return np.asarray(state.force[over_face, 1] > 0.0)
 
 
 @pytest.mark.parametrize("interface", list(Interface))
@@ -277,10 +297,11 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
     def certified(tampered: tuple[ContactProblem, ContactState]) -> Certificate:
         return certify(tampered[0], found, tampered[1])
 
-    assert certify(problem, found, state).penetration_share < 1e-3
-    assert certified(lowered(0.5)).penetration_share == pytest.approx(0.5, rel=1e-3)
-    assert certified(pulling(0.5)).tension_share == pytest.approx(0.5, rel=1e-3)
-    assert certified(sheared(0.5)).cone_share == pytest.approx(0.5, rel=1e-3)
+    left_over = problem.tolerance / PENETRATION_LIMIT  # by the solver, of gaps, over what a certificate allows
+    assert certify(problem, found, state).penetration_share < left_over
+    assert certified(lowered(0.5)).penetration_share == pytest.approx(0.5, abs=left_over)
+    assert certified(pulling(0.5)).tension_share == pytest.approx(0.5, abs=ROUNDING)
+    assert certified(sheared(0.5)).cone_share == pytest.approx(0.5, abs=ROUNDING)
     for law, tampered in (
         ("contact residual", (problem, replace(state, residual=2.0 * problem.tolerance))),
         ("penetration", lowered(2.0)),
@@ -322,13 +343,15 @@ def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:
 
 
 def test_face_shape_functions_interpolate_quadratics() -> None:
-    """They sum to one and reproduce a quadratic anywhere on the face; beyond its ends they hold the end."""
+    """They sum to one and reproduce a quadratic anywhere on the face, but for a few roundings of numbers below one;
+    beyond its ends they hold the end.
+    """
     _, body = condensed("device3")
     assert body is not None
     at = np.linspace(body.coordinate[0], body.coordinate[-1], 37)[None]
     shape = face_shape(body, at, np.ones_like(at))
-    assert np.abs(shape.sum(axis=1) - 1.0).max() < 1e-12
-    assert np.abs(shape @ body.coordinate**2 - at**2).max() < 1e-12
+    assert np.abs(shape.sum(axis=1) - 1.0).max() < 1e-15
+    assert np.abs(shape @ body.coordinate**2 - at**2).max() < 1e-15
     (end,) = face_shape(body, np.array([[9.0]]), np.ones((1, 1)))
     assert end[-1] == 1.0
     assert not end[:-1].any()
@@ -336,7 +359,7 @@ def test_face_shape_functions_interpolate_quadratics() -> None:
 
 def test_skin_touches_faces_with_its_hats() -> None:
     """A node, whose place is the mean of the skin under its hat, feels the mean of the face there. Of a quadratic that
-    is x^2 + (a^2 + a b + b^2) / 18, with the distances a and b to its neighbours."""
+    is x^2 + (a^2 + a b + b^2) / 18, with the distances a and b to its neighbours, but for rounding."""
     base = scene("device3")
     section, body = condensed("device3")
     assert body is not None
@@ -349,7 +372,7 @@ def test_skin_touches_faces_with_its_hats() -> None:
         on_face = np.abs(x) + np.maximum(a, b) < body.coordinate[-1]
         found = (there[own] @ body.coordinate**2)[1:-1]
         expected = x**2 + (a**2 + a * b + b**2) / 18.0
-        assert np.abs(found - expected)[on_face].max() < 1e-12
+        assert np.abs(found - expected)[on_face].max() < 1e-15
         assert on_face.sum() > 10
 
 
