@@ -30,7 +30,7 @@ def test_what_is_linear_in_every_layer_is_recovered() -> None:
 
     means = element_means(basis, exact(np.asarray(basis.global_coordinates())))
     place = mesh.mapping().F(NODES)
-    assert np.abs(recover_linear(basis, layer, means, place) - exact(place)).max() < 1e-9 * np.abs(means).max()
+    assert np.abs(recover_linear(basis, layer, means, place) - exact(place)).max() < 1e-13 * np.abs(means).max()
 
 
 def test_patches_in_a_line_have_no_gradient_across_it() -> None:
@@ -41,7 +41,7 @@ def test_patches_in_a_line_have_no_gradient_across_it() -> None:
     means = np.where(layer == 1, np.cumsum(layer), 0).astype(float)
     centre = mesh.p[:, mesh.t].mean(axis=1)
     found = recover_linear(basis, layer, means, centre[:, :, None])[:, 0]
-    assert found == pytest.approx(means, abs=1e-12)
+    assert found == pytest.approx(means, abs=1e-14)  # but for rounding of numbers of about one
 
 
 @pytest.mark.parametrize("poisson", bending.RATIOS)
@@ -49,7 +49,7 @@ def test_bent_tissue_has_no_swings(poisson: float) -> None:
     """A bent block: at all corners and midpoints within 1 % of the largest mean stress, though at 0.4999 the elements'
     own points are wrong by a fifth.
 
-    Means over elements are good to 0.2 %, the linear fits add the curvature of a stress over two elements of 32.
+    Means over elements are good to 0.6 %, the linear fits add the curvature of a stress over two elements of 32.
     """
     found = bending.bend(poisson, bending.DIVISIONS[-1])
     exact = bending.Sector(found.material, bending.STRAIN)
@@ -82,10 +82,13 @@ def test_recovered_stress_does_not_know_poissons_ratio() -> None:
 def test_the_wave_is_in_equilibrium(poisson: float) -> None:
     """The closed form itself: its strain has the mean stress, the face's pressure without shear, and no force inside.
 
-    Differences over h are off by (k h)^2 / 6, of lambda times a dilatation by as much of every strain.
+    Differences over h are off by h^2 / 6 times third derivatives, which of k y exp(-k y) are 3 k^3: by (k h)^2 / 2 of
+    strains, and lambda + 2 mu times that of stress; of the gradient of a stress of one by (k h)^2 / 2 of k.
     """
     material, small, large = Material(1.0, poisson), 1e-5, 1e-2  # mm
     lam, mu = lame(material)
+    strain = 1.0 / (2.0 * mu)  # under a pressure of one
+    off = (lam + 2.0 * mu) * strain * (wave.NUMBER * small) ** 2 / 2.0
 
     def stress_at(x: float, y: float) -> FloatArray:
         along, down = slopes(lambda *at: wave.displacement(material, np.array(at)), x, y, small)
@@ -94,10 +97,10 @@ def test_the_wave_is_in_equilibrium(poisson: float) -> None:
 
     place = 0.3, 0.4  # mm
     sxx, syy, _ = stress_at(*place)
-    assert (sxx + syy) / 2.0 == pytest.approx(wave.mean_stress(np.array(place)), rel=1e-4)
-    assert stress_at(0.3, 0.0)[1:] == pytest.approx([-np.cos(wave.NUMBER * 0.3), 0.0], abs=1e-4)
+    assert (sxx + syy) / 2.0 == pytest.approx(wave.mean_stress(np.array(place)), abs=off)
+    assert stress_at(0.3, 0.0)[1:] == pytest.approx([-np.cos(wave.NUMBER * 0.3), 0.0], abs=off)
     along, down = slopes(stress_at, *place, large)
-    assert [along[0] + down[2], along[2] + down[1]] == pytest.approx([0.0, 0.0], abs=1e-3 * wave.NUMBER)
+    assert np.abs([along[0] + down[2], along[2] + down[1]]).max() < wave.NUMBER * (wave.NUMBER * large) ** 2 / 2.0
 
 
 def slopes(of: Callable[[float, float], FloatArray], x: float, y: float, step: float) -> tuple[FloatArray, FloatArray]:
