@@ -495,7 +495,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
     none = np.zeros(0)
     force = np.stack([0.0 * traction, traction], axis=1)
     return Solution(
-        1.5, 1.5, contact.position, force, none, traction, 0.5 * traction, place,
+        1.5, 1.5, contact.position, force, none, none, traction, 0.5 * traction, place,
         np.where(traction > 0.0, Status.STICK, Status.OPEN), none, none, none, 1, 0, 0, Certificate(*[0.0] * 9),
     )  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
@@ -12,11 +13,12 @@ import pytest
 from scipy.spatial import KDTree
 
 from fingerpad.arrays import FloatArray
-from fingerpad.contact_law import Interface
+from fingerpad.contact_law import Interface, TurningNormal
 from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS
 from fingerpad.measures import stress
 from fingerpad.mesh import NODES
 from fingerpad.reach import contact_tractions
+from fingerpad.solution import solve_condition
 from fingerpad.states import States, linear_states, strain_at, stress_at
 from fingerpad.strain import maximum_principal
 from fingerpad.tissue_law import Kinematics
@@ -200,6 +202,27 @@ def test_tractions_integrate_to_the_contact_forces(state: int) -> None:
     found = np.sum((ends[:, 1:] + ends[:, :-1]) / 2.0 * length, axis=1)
     assert found == pytest.approx(forces[state].sum(axis=0), rel=1e-9, abs=1e-9 * forces[state].sum())
     assert on_skin[:, 1::2] == pytest.approx((ends[:, 1:] + ends[:, :-1]) / 2.0)
+
+
+def test_tractions_are_those_across_and_along_a_normal_that_turns() -> None:
+    """With small strain, too, if it is asked to: in every state they hold Coulomb's cone, as components of forces along
+    x and y do not at rounded edges, and at the end they are the solution's.
+    """
+    model = scene(DEVICE).model
+    turning = replace(model, contact=replace(model.contact, turning_normal=TurningNormal.ALWAYS))
+    base = replace(scene(DEVICE), model=turning)
+    tissue, body = condensed(DEVICE)
+    found = solve_condition(base, tissue, body, base.device.condition(CONDITION), Interface.SHEAR)
+
+    def beyond(forces: FloatArray) -> float:
+        """The cone, over the largest force [1]."""
+        shearing, pressing = np.moveaxis(forces, -1, 0)
+        return float((np.abs(shearing) - model.contact.friction * pressing).max() / pressing.max())
+
+    contact = linear_states(base, section(DEVICE), found).contact
+    assert beyond(contact) < model.numerics.newton_tolerance
+    assert beyond(found.forces) > 1e-3
+    assert np.array_equal(contact[-1] / tissue.weight[:, None], np.stack([found.shear, found.pressure], axis=1))
 
 
 def test_skin_moves_as_the_condensed_skin_does() -> None:

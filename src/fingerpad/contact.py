@@ -17,6 +17,7 @@ A deformable actuator adds the compliance of its face, at the points where the s
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from functools import cached_property
@@ -182,6 +183,11 @@ def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> t
 def pressing_and_shearing(problem: ContactProblem, state: ContactState) -> tuple[FloatArray, FloatArray]:
     """Pressing and shearing forces (n,) [N/mm] of a state."""
     return resolved(problem, state.force, profile(problem.row, state.place)[1])
+
+
+def shearing_and_pressing(problem: ContactProblem, states: Sequence[ContactState]) -> FloatArray:
+    """Shearing and pressing forces (n_states, n, 2) [N/mm] of several states."""
+    return np.array([np.stack(pressing_and_shearing(problem, state)[::-1], axis=1) for state in states])
 
 
 def switch_friction(state: ContactState) -> ContactState:

@@ -11,7 +11,7 @@ import numpy as np
 from .arrays import FloatArray
 from .certificate import Certificate, certify, worst
 from .compliance import CondensedBody, CondensedSection
-from .contact import ContactProblem, ContactState, pressing_and_shearing
+from .contact import ContactProblem, ContactState, shearing_and_pressing
 from .contact_law import Criterion, Interface
 from .depth import depth, require_tissue
 from .device import Condition
@@ -38,9 +38,10 @@ class Solution:
     indentation: height of the faces above the lowest point of the undeformed pad [mm]. depth: largest height of an
     actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
-    the stimulus's times. pressure, shear: (n,) [MPa] at the end. place: (n,) x of the skin nodes from their actuator's
-    centre at the end [mm]. status: (n,) at the end. arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1].
-    iterations, cuts, searches: of the whole path. certificate.
+    the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
+    `forces` but where the normal turns. pressure, shear: (n,) [MPa] at the end. place: (n,) x of the skin nodes from
+    their actuator's centre at the end [mm]. status: (n,) at the end. arc: (m,) receptors [mm]. strain,
+    change_of_strain: (m,) [1]. iterations, cuts, searches: of the whole path. certificate.
     """
 
     indentation: float
@@ -48,6 +49,7 @@ class Solution:
     position: FloatArray
     indented_force: FloatArray
     force: FloatArray
+    contact: FloatArray
     pressure: FloatArray
     shear: FloatArray
     place: FloatArray
@@ -172,15 +174,16 @@ def solution(
 ) -> Solution:
     """Gather a solution from the pre-indented state and those at the stimulus's times."""
     before, last = states[0], states[-1]
-    pressing, shearing = pressing_and_shearing(problem, last)
+    contact = shearing_and_pressing(problem, states)
     return Solution(
         indentation=float(before.actuator[0, 1]),
         depth=depth(problem, np.array([state.actuator for state in states])),
         position=section.position,
         indented_force=before.force,
         force=np.array([state.force for state in states[1:]]),
-        pressure=pressing / section.weight,
-        shear=shearing / section.weight,
+        contact=contact,
+        pressure=contact[-1, :, 1] / section.weight,
+        shear=contact[-1, :, 0] / section.weight,
         place=last.place,
         status=last.status,
         arc=section.arc,

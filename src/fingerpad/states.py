@@ -14,7 +14,7 @@ from skfem import MeshTri2
 from .actuator_body import body_of
 from .arrays import FloatArray
 from .condensation import condense_section
-from .contact import pressing_and_shearing
+from .contact import shearing_and_pressing
 from .contact_law import Interface
 from .deformed_solution import PressedFinger, certified_equilibria, pressed_finger
 from .device import Condition
@@ -59,7 +59,7 @@ def solved_states(scene: Scene, section: SectionMesh, condition: Condition, inte
 
 def linear_states(scene: Scene, section: SectionMesh, solution: Solution) -> States:
     """States of linear tissue, from the contact forces of a solution."""
-    return States(recover_displacement(section, scene, solution.forces), solution.forces)
+    return States(recover_displacement(section, scene, solution.forces), solution.contact)
 
 
 def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -> States:
@@ -67,10 +67,9 @@ def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -
     ContactError.
     """
     found, _ = certified_equilibria(scene, finger, condition)
-    pressed = [pressing_and_shearing(finger.problem, each.state) for each in found]
     return States(
         np.array([each.displacement[finger.dofs] for each in found]),
-        np.array([np.stack([shearing, pressing], axis=1) for pressing, shearing in pressed]),
+        shearing_and_pressing(finger.problem, [each.state for each in found]),
     )
 
 
