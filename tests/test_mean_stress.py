@@ -30,7 +30,7 @@ def test_what_is_linear_in_every_layer_is_recovered() -> None:
 
     means = element_means(basis, exact(np.asarray(basis.global_coordinates())))
     place = mesh.mapping().F(NODES)
-    assert np.abs(recover_linear(basis, layer, means, place) - exact(place)).max() < 1e-13 * np.abs(means).max()
+    assert np.abs(recover_linear(basis, layer, means, place) - exact(place)).max() < 1e-12 * np.abs(means).max()
 
 
 def test_patches_in_a_line_have_no_gradient_across_it() -> None:
@@ -41,7 +41,7 @@ def test_patches_in_a_line_have_no_gradient_across_it() -> None:
     means = np.where(layer == 1, np.cumsum(layer), 0).astype(float)
     centre = mesh.p[:, mesh.t].mean(axis=1)
     found = recover_linear(basis, layer, means, centre[:, :, None])[:, 0]
-    assert found == pytest.approx(means, abs=1e-14)  # but for rounding of numbers of about one
+    assert found == pytest.approx(means, abs=1e-13)  # but for rounding of numbers of about one
 
 
 @pytest.mark.parametrize("poisson", bending.RATIOS)

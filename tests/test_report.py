@@ -244,6 +244,16 @@ def test_figures_come_in_reading_order(results: Results) -> None:
     assert list(words(FIGURES, results))[-1] == "map_device3_alternate"
 
 
+def test_a_map_names_the_conditions_of_its_dispersion_alone(results: Results) -> None:
+    *others, last = results.scenes
+    first, *rest = last.device.conditions
+    device = dataclasses.replace(last.device, conditions=(dataclasses.replace(first, dispersion="low"), *rest))
+    two = dataclasses.replace(results, scenes=(*others, dataclasses.replace(last, device=device)))
+    low, other = (said.caption for said in words(["map_device3_low", "map_device3_alternate"], two).values())
+    assert first.name in low and first.name not in other
+    assert all(one.name in other and one.name not in low for one in rest)
+
+
 def test_devices_without_a_lateral_one_have_captions(results: Results) -> None:
     stems = [stem for stem in FIGURES if stem not in {"figure_3_workflow", "figure_6_shear"}]
     assert set(words(stems, dataclasses.replace(results, lateral=None))) == set(stems)

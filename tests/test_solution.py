@@ -55,7 +55,7 @@ def test_every_solution_is_certified(device: str, condition: str, interface: Int
     """
     base, solution = scene(device), solved(device, condition, interface)
     certificate, tolerance = solution.certificate, base.model.numerics.newton_tolerance
-    assert certificate.equilibrium < 1e-15
+    assert certificate.equilibrium < 1e-14
     assert certificate.contact <= tolerance
     assert certificate.penetration <= (2.0 * GIVING if base.device.actuators.body else tolerance) * solution.indentation
     assert certificate.smallest_pressure > 0.0
@@ -91,7 +91,7 @@ def test_indentation_alone_is_symmetric() -> None:
     solved and the other is its image.
     """
     still = solve("device2", lateral("still", [0.0] * 4), Interface.SHEAR)
-    assert np.abs(still.strain - still.strain[::-1]).max() < 1e-13 * still.strain.max()
+    assert np.abs(still.strain - still.strain[::-1]).max() < 1e-12 * still.strain.max()
     assert not still.change_of_strain.any()
 
 
@@ -350,8 +350,8 @@ def test_face_shape_functions_interpolate_quadratics() -> None:
     assert body is not None
     at = np.linspace(body.coordinate[0], body.coordinate[-1], 37)[None]
     shape = face_shape(body, at, np.ones_like(at))
-    assert np.abs(shape.sum(axis=1) - 1.0).max() < 1e-15
-    assert np.abs(shape @ body.coordinate**2 - at**2).max() < 1e-15
+    assert np.abs(shape.sum(axis=1) - 1.0).max() < 1e-14
+    assert np.abs(shape @ body.coordinate**2 - at**2).max() < 1e-14
     (end,) = face_shape(body, np.array([[9.0]]), np.ones((1, 1)))
     assert end[-1] == 1.0
     assert not end[:-1].any()
@@ -372,7 +372,7 @@ def test_skin_touches_faces_with_its_hats() -> None:
         on_face = np.abs(x) + np.maximum(a, b) < body.coordinate[-1]
         found = (there[own] @ body.coordinate**2)[1:-1]
         expected = x**2 + (a**2 + a * b + b**2) / 18.0
-        assert np.abs(found - expected)[on_face].max() < 1e-15
+        assert np.abs(found - expected)[on_face].max() < 1e-14
         assert on_face.sum() > 10
 
 

@@ -31,7 +31,7 @@ from .increment import solve_increment
 from .patch import Patch
 from .path import advance, drifting_to
 
-MAX_CORRECTIONS = 30  # of one move [1] before new tangents are made on the way; source: usual count is 2-24 (measured)
+MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way; source: these take longer (measured)
 SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores then hold to 0.2 %
 
 

@@ -224,7 +224,9 @@ def _scores(
     rows = [
         row
         for row in results.scores
-        if (row["device"], row["interface"], row["readout"]) == (device, interface, readout) and row["score"]
+        if (row["device"], row["interface"], row["readout"]) == (device, interface, readout)
+        and (names is None or row["condition"] in names)
+        and row["score"]
     ]
     found = (f"{row['condition']} {score_with_error(row)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
