@@ -25,7 +25,7 @@ from .stimuli import CYCLES, KINDS
 from .tissue_law import Kinematics, Law, TissueLaw
 from .vibration_rule import Relaxation, VibrationRule
 
-MERGE = "tag:yaml.org,2002:merge"
+MERGE, TEXT = "tag:yaml.org,2002:merge", "tag:yaml.org,2002:str"
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
 KINEMATICS = {"both": tuple(Kinematics), "small": (Kinematics.SMALL,)}  # what files call them
 QUOTES = "; text with a colon or a comma needs quotes"  # what is wrong most often where a flow mapping is not one
@@ -62,6 +62,8 @@ class _Loader(yaml.SafeLoader):
                 problem = f"found the key {key.value!r} twice (first in line {seen[key.value]}), allowed once"
                 raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
             seen[key.value] = key.start_mark.line + 1
+            if key.value.startswith("0") and key.value.isdecimal():
+                key.tag = TEXT  # {value: 0,025} has the key 025, which is 21 to YAML
         return node
 
 

@@ -315,7 +315,8 @@ def _meant_type(kind: str, found: Any) -> str:
 
 def _decimal_comma(found: Mapping[Any, Any]) -> str:
     """The number that was meant by {value: 0,6, ...}, which is a value 0 and a key 6 without a value; or nothing."""
-    whole, parts = found.get("value"), [name for name, value in found.items() if type(name) is int and value is None]
+    whole = found.get("value")
+    parts = [name for name, value in found.items() if str(name).isdecimal() and value is None]
     return f"{whole}.{parts[0]}" if type(whole) is int and len(parts) == 1 else ""
 
 
