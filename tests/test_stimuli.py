@@ -98,6 +98,19 @@ def test_a_phase_may_have_decimals() -> None:
         assert [name.split("_", 1)[1] for name in names[:3]] == ["000", "022", "022_5"]
 
 
+@pytest.mark.parametrize("playback", ["snapshot", "cycle"])
+def test_a_snapshot_does_not_tell_where_a_wave_runs(playback: str) -> None:
+    """At phases p and 360 - p pins with lags 0, 1, 2, ... are in one place, to the last digit, at the first one's peak;
+    they are not on the way there.
+    """
+    count, phases = 64, [37.3, 60, 120, 240, 300, 322.7]
+    stimulus = {**PHASED, "direction": "normal", "half_cycle": "first", "phases": phases, "playback": playback}
+    stimulus["dispersions"] = {"wave": list(range(count))}
+    made = phased(stimulus, count, ROOT)
+    for one, other in zip(made[:3], made[:2:-1], strict=True):
+        assert one.same_stimulus(other) is (playback == "snapshot")
+
+
 def narrow(cycles: bool, tangential: list[list[float]]) -> Device:
     """Three actuators with gaps of 0.05 mm, as pins that move in time [1, 2] s or vibrate."""
     row, path = ActuatorRow((-2.05, 0.0, 2.05), 2.0, 0.3), np.array(tangential)
