@@ -378,7 +378,10 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
     ("key", "changed", "said"),
     [
         ("pitch: {value: 2.5", "pitch: {value: 4.2", "The row is wide for this finger"),
+        ("pitch: {value: 2.5", "pitch: {value: 3.5", "The row is wide for this finger"),
         ("direction: {value: lateral", "direction: {value: normal", None),
+        ("tude: {value: 0.020", "tude: {value: 0.00002", "No stroke is longer than 0.1 micrometres"),
+        ("absolute: {value: 0.188", "absolute: {value: 4.0", "A lateral stroke takes an actuator beside the finger"),
         (
             "amplitude: {value: 0.020",
             "amplitude: {value: 9.0",
@@ -389,7 +392,8 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
 def test_check_says_what_will_hardly_go_well(
     checkout: Path, capsys: pytest.CaptureFixture[str], key: str, changed: str, said: str | None
 ) -> None:
-    path = checkout / "config/devices/device1.yaml" if "amplitude" in key else checkout / "config/devices/device2.yaml"
+    device = "device1" if "amplitude" in key else "device3" if "absolute" in key else "device2"
+    path = checkout / "config" / "devices" / f"{device}.yaml"
     text = path.read_text(encoding="utf-8")
     assert key in text
     path.write_text(text.replace(key, changed), encoding="utf-8")

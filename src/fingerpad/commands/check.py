@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from ..caveats import DEEP
 from ..contact_law import Criterion
 from ..errors import UsageError
 from ..figures.section import section_figure
@@ -27,10 +26,17 @@ examples:
   fingerpad check config/devices/device2.yaml -o device2.png
 """
 TOO_WIDE = (
-    "The row is wide for this finger: until all faces are covered it is pressed deeper than half of the pad, which"
-    " takes minutes and may have no solution. A narrower row, or contact.criterion: touch, goes less deep."
+    "The row is wide for this finger: until all faces are covered it is pressed about half of the pad deep, or more,"
+    " which takes minutes and may have no solution. A narrower row, or contact.criterion: touch, goes less deep."
 )
+# Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
+# of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
+# friction
+WIDE = 0.3
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
+BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
+TOO_SHORT = "No stroke is longer than 0.1 micrometres: are displacements in mm?"
+SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 STEPS = 3  # of the progress: mesh, figure, picture
 PICTURES = (".png", ".pdf", ".svg")
 
@@ -73,7 +79,14 @@ def described(scene: Scene) -> str:
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
     rise, pad = _rise(scene), scene.model.finger.pad_thickness
-    deep = scene.model.contact.criterion is Criterion.FULL and rise > DEEP * pad
+    deep = scene.model.contact.criterion is Criterion.FULL and rise > WIDE * pad
+    farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
+    warned = {
+        TOO_WIDE: deep,
+        TOO_FAR: rise + normal > pad,
+        BESIDE: farthest > scene.model.finger.width / 2.0,
+        TOO_SHORT: max(normal, lateral) < SHORTEST,
+    }
     return (
         f"{device.title} ({device.name})\n"
         f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
@@ -81,8 +94,7 @@ def described(scene: Scene) -> str:
         f"{len(device.conditions)} conditions: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
         f"skin over the outermost faces lies {rise:.2g} mm above that touched first, on a pad of {pad:g} mm"
-        + (f"\n{TOO_WIDE}" if deep else "")
-        + (f"\n{TOO_FAR}" if rise + normal > pad else "")
+        + "".join(f"\n{warning}" for warning, holds in warned.items() if holds)
     )
 
 
