@@ -29,7 +29,7 @@ from .style import (
     subtitle,
 )
 
-HEIGHT = 100.0  # mm
+HEIGHT, SLANTED = 100.0, 34.0  # mm, and what slanted labels take besides
 WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 LONG = 6  # characters of a condition's name beyond which names are slanted
@@ -47,8 +47,10 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     strain.
     """
     device = entry.device
-    figure = new_figure(WIDE, HEIGHT)
     styles = condition_styles(conditions_of([device]))
+    called = {each.name: shortened(styles.series[device.name, each.name].label) for each in device.conditions}
+    long = max(map(len, called.values())) > LONG
+    figure = new_figure(WIDE, HEIGHT + (SLANTED if long else 0.0))
     grid = figure.subplots(len(Readout), len(WIDTHS), width_ratios=WIDTHS)
     span = score_span(device.actuators, rule.span_margin)
     for row, readout in zip(grid, Readout, strict=True):
@@ -81,8 +83,7 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
             bars.bar_label(drawn, labels, padding=1.0)
         else:
             draw_errors(bars, places, heights.to_numpy(), errors.to_numpy(), along="y")
-        names = [shortened(styles.series[device.name, name].label) for name in heights.index]
-        long = max(map(len, names)) > LONG
+        names = [called[name] for name in heights.index]
         named = slice(len(places) if len(places) <= MOST_NAMES else 0)
         bars.set_xticks(places[named], names[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
