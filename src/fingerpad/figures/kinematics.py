@@ -48,7 +48,7 @@ NO_LIMITS = "No force falls on the way: there are no limit points."
 SMALL_ALONE = " (small strain alone)"  # of a device whose file leaves the other out
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
 CAPTION = (
-    "Force: of all actuators, per mm of thickness. Marks: where all flat faces are covered, and stimuli begin."
+    "Force: of all actuators, per mm of thickness. Marks: where pre-indentation ends, and stimuli begin."
     " Bars: scores with shear, and their stated errors."
 )
 
