@@ -44,7 +44,7 @@ MOST_NAMES = 10  # conditions whose names fit a panel's height
 TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
-    "{interface}n: conditions; those with one and the same stimulus coincide.{rated}"
+    "{interface}n: conditions; those with one and the same stimulus {alike}.{rated}"
     " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
 )
 RATED = (
@@ -166,7 +166,9 @@ def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
     p = P if any(has_p(row["p"], row["rating_kind"]) for row in correlations.to_dict("records")) else ""
-    return CAPTION.format(interface=interface, rated=RATED.format(kinds=kinds, p=p) if kinds else "") + unrated
+    alike = "have one score" if unrated else "coincide"  # without ratings each has a rank of its own
+    rated = RATED.format(kinds=kinds, p=p) if kinds else ""
+    return CAPTION.format(interface=interface, alike=alike, rated=rated) + unrated
 
 
 def shown_in(scores: pd.DataFrame) -> list[Shown]:
