@@ -495,7 +495,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
     none = np.zeros(0)
     force = np.stack([0.0 * traction, traction], axis=1)
     return Solution(
-        1.5, 1.5, contact.position, force, none, none, traction, 0.5 * traction, place,
+        1.5, 1.5, contact.position, force, none, none, 0, traction, 0.5 * traction, place,
         np.where(traction > 0.0, Status.STICK, Status.OPEN), none, none, none, 1, 0, 0, Certificate(*[0.0] * 9),
     )  # fmt: skip
 
@@ -532,6 +532,27 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     assert f"n = {len(shown)} condition" in text
     tractions = next(axes for axes in figure.axes if axes.get_ylabel() == "Traction (kPa)")
     assert max(line.get_ydata().max() for line in tractions.lines if len(line.get_xdata()) > 2) == pytest.approx(30.0)
+
+
+def test_maps_show_a_history_when_it_is_read(section: SectionMesh) -> None:
+    """Pins that go 0.3 mm aside and come back are drawn, with their tractions, where they were when it was read."""
+    aside = np.array([[0.3] * 3, [0.0] * 3])
+    history = Condition("tap", "only", 0.0, np.array([1.0, 2.0]), np.zeros_like(aside), aside)
+    device = replace(PHASED, conditions=(history,))
+    corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
+    side, shape = np.array([[0, 1]]), (1, corner.shape[1])
+    fields = Fields(corner, side, side, np.zeros((1, *corner.shape)), np.full(shape, 0.2), np.full(shape, 0.001))
+    pressed = np.tile(np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0), 3)
+    found = make_solution(make_contact(device.actuators), device.actuators, pressed)
+    middle = {}
+    for read in (0, 1):
+        solutions = {"tap": replace(found, read=read)}
+        figure = strain_map_figure(Scene(MODEL, device), "only", fields, solutions)
+        tractions = next(axes for axes in figure.axes if axes.get_ylabel() == "Traction (kPa)")
+        drawn = [line.get_xdata() for line in tractions.lines if len(line.get_xdata()) > 2]
+        middle[read] = float(np.mean(np.concatenate(drawn)))
+        assert "when strain at the receptors has changed most" in words(figure).replace("\n", " ")
+    assert middle[0] - middle[1] == pytest.approx(0.3, abs=1e-9)  # but for rounding
 
 
 def test_styles_differ_wherever_conditions_do() -> None:

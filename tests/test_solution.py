@@ -157,6 +157,17 @@ def test_friction_remembers() -> None:
     assert np.abs(solution.force[-1] - solution.indented_force).max() > 1e-3 * solution.force.max()
 
 
+def test_what_is_shown_is_what_is_read() -> None:
+    """Pressure, place and status are those of the time at which receptors are read, here where pins that tap turn."""
+    row = np.array([[0.02, 0.0, 0.02, 0.0], [0.0, 0.0, 0.0, 0.0]])
+    there = Condition("there", "test", 0.0, np.array([1.0]), row[:1], np.zeros_like(row[:1]))
+    back = Condition("tap", "test", 0.0, np.array([1.0, 2.0]), row, np.zeros_like(row))
+    one, both = (solve("device2", condition, Interface.SHEAR) for condition in (there, back))
+    assert (one.read, both.read) == (0, 0)
+    for name in ("pressure", "shear", "place", "status", "strain", "change_of_strain"):
+        assert np.array_equal(getattr(one, name), getattr(both, name)), name
+
+
 def test_normal_and_lateral_histories_combine() -> None:
     """An arbitrary stimulus: each pin its own normal and tangential path; lifting one pin off unloads it alone."""
     time = np.array([1.0, 2.0, 3.0])

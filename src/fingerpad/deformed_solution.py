@@ -27,7 +27,6 @@ from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
 from .solution import LEAVE_OUT, Solution, contact_problem, increments, named, named_pressing, solution
-from .strain import receptor_readouts
 
 
 @dataclass(frozen=True)
@@ -87,7 +86,7 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
     section = finger.pressed.section
     strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in found])
     states = [each.state for each in found]
-    return solution(finger.problem, section, states, receptor_readouts(strains, section.arc), certificate)
+    return solution(finger.problem, section, states, strains, certificate)
 
 
 def certified_equilibria(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ from .indentation import indent
 from .path import advance
 from .readout import Readout
 from .scene import Scene
-from .strain import receptor_readouts
+from .strain import receptor_readouts, time_read
 from .symmetry import indent_by_halves
 from .tissue_law import Kinematics
 
@@ -39,9 +39,10 @@ class Solution:
     actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
     the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
-    `forces` but where the normal turns. pressure, shear: (n,) [MPa] at the end. place: (n,) x of the skin nodes from
-    their actuator's centre at the end [mm]. status: (n,) at the end. arc: (m,) receptors [mm]. strain,
-    change_of_strain: (m,) [1]. iterations, cuts, searches: of the whole path. certificate.
+    `forces` but where the normal turns. read: index of the time at which receptors are read (`strain.time_read`). What
+    follows is at that time. pressure, shear: (n,) [MPa]. place: (n,) x of the skin nodes from their actuator's centre
+    [mm]. status: (n,). arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts, searches: of the
+    whole path. certificate.
     """
 
     indentation: float
@@ -50,6 +51,7 @@ class Solution:
     indented_force: FloatArray
     force: FloatArray
     contact: FloatArray
+    read: int
     pressure: FloatArray
     shear: FloatArray
     place: FloatArray
@@ -162,18 +164,21 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
         states = [before, *follow_condition(scene, problem, before, condition)]
         certificate = worst([indented.certificate, *(certify(problem, section, state) for state in states[1:])])
     strains = section.receptor_strain(np.array([state.force for state in states]))
-    return solution(problem, section, states, receptor_readouts(strains, section.arc), certificate)
+    return solution(problem, section, states, strains, certificate)
 
 
 def solution(
     problem: ContactProblem,
     section: CondensedSection,
     states: Sequence[ContactState],
-    readouts: Mapping[Readout, FloatArray],
+    strains: FloatArray,
     certificate: Certificate,
 ) -> Solution:
-    """Gather a solution from the pre-indented state and those at the stimulus's times."""
-    before, last = states[0], states[-1]
+    """Gather a solution from the pre-indented state and those at the stimulus's times, and the receptors' strains
+    (1 + n_times, 3m) [1] in them.
+    """
+    read, readouts = time_read(strains, section.arc), receptor_readouts(strains, section.arc)
+    before, last, shown = states[0], states[-1], states[1 + read]
     contact = shearing_and_pressing(problem, states)
     return Solution(
         indentation=float(before.actuator[0, 1]),
@@ -182,10 +187,11 @@ def solution(
         indented_force=before.force,
         force=np.array([state.force for state in states[1:]]),
         contact=contact,
-        pressure=contact[-1, :, 1] / section.weight,
-        shear=contact[-1, :, 0] / section.weight,
-        place=last.place,
-        status=last.status,
+        read=read,
+        pressure=contact[1 + read, :, 1] / section.weight,
+        shear=contact[1 + read, :, 0] / section.weight,
+        place=shown.place,
+        status=shown.status,
         arc=section.arc,
         strain=readouts[Readout.STRAIN],
         change_of_strain=readouts[Readout.CHANGE_OF_STRAIN],

@@ -31,17 +31,33 @@ def receptor_readouts(
     """Both read-outs (m,) at the receptors, in the unit of the measure: of maximum principal strain [1].
 
     components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. arc: (m,) [mm]. Of several
-    times the one is read at which the measure has changed most (largest root mean square over arc length, so that no
-    mesh matters): the reference actuator's peak for a snapshot, the peak of the cycle otherwise. Where all values count
-    as equal the change is zero. measure: of strains (3m,).
+    times the one is read that `time_read` names. Where all values count as equal the change is zero. measure: of
+    strains (3m,).
     """
+    strains, changes = _measured(components, measure)
+    peak = time_read(components, arc, measure)
+    return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
+
+
+def time_read(
+    components: FloatArray, arc: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
+) -> int:
+    """Which of the stimulus's times is read: that at which the measure has changed most (largest root mean square over
+    arc length, so that no mesh matters), the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
+    Arguments as those of `receptor_readouts`.
+    """
+    # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
+    _, changes = _measured(components, measure)
+    return int(np.argmax(np.trapezoid(changes**2, arc, axis=1)))
+
+
+def _measured(components: FloatArray, measure: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """The measure (n_times, m) along the stimulus, and its changes."""
     # ASSUME: readout: the change of strain is that from the pre-indented state
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
-    # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
-    peak = int(np.argmax(np.trapezoid(changes**2, arc, axis=1)))
-    return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
+    return np.array(strains), changes
 
 
 @dataclass(frozen=True)

@@ -27,20 +27,21 @@ def main(
     solutions: list[Path],
     fields: Path,
 ) -> None:
-    """Read the first and last contact forces of every solution, recover the fields, write them in the same order.
+    """Recover the fields of every solution as it was pressed and when it is read, write them in the same order.
 
     pressed: with finite kinematics the pressed finger, from where every stimulus is solved, as forces are not enough.
     """
     scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
+    solved = [load(path, Solution) for path in solutions]
     if pressed:
         actuators = load(body, CondensedBody) if body else None
         finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
         names = [path.parent.parent.name for path in solutions]
         states = [deformed_states(scene, finger, scene.device.condition(name)).displacement for name in names]
-        displacement = np.array([states[0][0], *(each[-1] for each in states)])
+        read = (each[1 + one.read] for each, one in zip(states, solved, strict=True))
+        displacement = np.array([states[0][0], *read])
     else:
-        solved = [load(path, Solution) for path in solutions]
-        forces = np.array([solved[0].indented_force, *(each.force[-1] for each in solved)])
+        forces = np.array([solved[0].indented_force, *(each.force[each.read] for each in solved)])
         displacement = recover_displacement(section, scene, forces)
     save(fields, states_fields(scene, section, displacement))
 

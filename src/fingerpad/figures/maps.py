@@ -51,9 +51,10 @@ ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces 
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
-    "{counted}, {kinematics}, at the end of the stimulus; displacements to scale. Change: from the pre-indented state,"
-    " at the same tissue. Tractions: linear between nodes."
+    "{counted}, {kinematics}, {when}; displacements to scale. Change: from the pre-indented state,"
+    " at the same points of the tissue. Tractions: linear between nodes."
 )
+AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
 # Per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar. Strain changes most
@@ -76,7 +77,7 @@ def strain_map_figure(
     fields: Fields,
     solutions: Mapping[str, Solution],
 ) -> Figure:
-    """Maximum principal strain at the end of the stimulus, its change and contact tractions, with shear, a column of
+    """Maximum principal strain when receptors are read, its change and contact tractions, with shear, a column of
     panels a condition.
 
     fields: a loading for each distinct stimulus of the device, in the order of its conditions. solutions: by
@@ -92,8 +93,9 @@ def strain_map_figure(
     for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown))):
         for axes, condition, loading in zip(row, conditions, loadings, strict=True):
             drawn = _draw_map(axes, shown, mapped, loading)
-            rise = np.array([0.0, solutions[condition.name].indentation])
-            draw_actuators(axes, device.actuators, condition.moves[-1] + rise, 2.0 * BELOW)
+            solution = solutions[condition.name]
+            rise = np.array([0.0, solution.indentation])
+            draw_actuators(axes, device.actuators, condition.moves[solution.read] + rise, 2.0 * BELOW)
             axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
             axes.text(0.0, window[1][1] - ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
         _label_first(row, panels.columns, "y (mm)")
@@ -120,7 +122,11 @@ def strain_map_figure(
             Line2D([], [], color=BLUE, label="contact pressure"),
             Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, towards +x"),
         ],
-        CAPTION.format(counted=counted(conditions), kinematics=KINEMATICS_NAME[scene.kinematics]),
+        CAPTION.format(
+            counted=counted(conditions),
+            kinematics=KINEMATICS_NAME[scene.kinematics],
+            when=WHEN_READ if any(condition.time.size > 1 for condition in conditions) else AT_END,
+        ),
     )
     return panels.figure
 
@@ -266,7 +272,7 @@ def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMe
 def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
     """Pressure and shear of the nodes in contact, one line an actuator."""
     nearest = row.nearest(solution.position[:, 0])
-    centre = np.asarray(row.positions) + condition.tangential[-1]
+    centre = np.asarray(row.positions) + condition.tangential[solution.read]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear
     for number in range(len(row.positions)):

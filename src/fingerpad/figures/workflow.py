@@ -48,8 +48,8 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     """
     device = entry.device
     styles = condition_styles(conditions_of([device]))
-    called = {each.name: shortened(styles.series[device.name, each.name].label) for each in device.conditions}
-    long = max(map(len, called.values())) > LONG
+    names = [shortened(styles.series[device.name, condition.name].label) for condition in device.conditions]
+    long = max(map(len, names)) > LONG
     figure = new_figure(WIDE, HEIGHT + (SLANTED if long else 0.0))
     grid = figure.subplots(len(Readout), len(WIDTHS), width_ratios=WIDTHS)
     span = score_span(device.actuators, rule.span_margin)
@@ -69,7 +69,7 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()}\n({power}mm)")
         kernel = f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm"
         headings = HEADINGS if readout is Readout.STRAIN else ("", "", "")
-        for axes, heading, text in zip(row, headings, ("", kernel, "of |2| over the span shown"), strict=True):
+        for axes, heading, text in zip(row, headings, ("", kernel, "under |filtered|, over this span"), strict=True):
             subtitle(axes, heading, text)
 
         part = scores[scores["readout"] == readout].set_index("condition")
@@ -83,7 +83,6 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
             bars.bar_label(drawn, labels, padding=1.0)
         else:
             draw_errors(bars, places, heights.to_numpy(), errors.to_numpy(), along="y")
-        names = [called[name] for name in heights.index]
         named = slice(len(places) if len(places) <= MOST_NAMES else 0)
         bars.set_xticks(places[named], names[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
