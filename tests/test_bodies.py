@@ -161,7 +161,19 @@ def test_decks_have_strips_alone() -> None:
         SceneError, match="deck: found actuators of the kind Flared; allowed: rigid and deformable ones"
     ):
         input_deck(
-            other, section("device3"), other.device.conditions[0], DeckSettings(1.0, 0.0, 0.6, 500.0, 100.0, 10, 4, 2)
+            other,
+            section("device3"),
+            other.device.conditions[0],
+            DeckSettings(
+                indentation=1.0,
+                friction_indenting=0.0,
+                friction_acting=0.6,
+                pressure_slope=500.0,
+                stick_slope=100.0,
+                indentation_increments=10,
+                stimulus_increments=4,
+                rest_increments=2,
+            ),
         )
 
 

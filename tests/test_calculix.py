@@ -37,7 +37,16 @@ from fingerpad.tissue_law import Kinematics, Law, TissueLaw
 from scenes import CONFIG, scene
 from scripts.calculix import main
 
-SETTINGS = DeckSettings(0.4, 0.0, 0.0, 500.0, 100.0, 2, 1, 2)
+SETTINGS = DeckSettings(
+    indentation=0.4,
+    friction_indenting=0.0,
+    friction_acting=0.0,
+    pressure_slope=500.0,
+    stick_slope=100.0,
+    indentation_increments=2,
+    stimulus_increments=1,
+    rest_increments=2,
+)
 PRINTED = """
  displacements (vx,vy,vz) for set RECEPTOR_NODES and time  {time}
 

@@ -130,7 +130,15 @@ def test_a_path_that_cannot_be_followed_is_a_named_error() -> None:
 
 def test_halvings_of_earlier_increments_are_not_counted() -> None:
     """Increments of a quarter of the way are too long, and beyond three quarters any is."""
-    problem = ContactProblem(np.zeros((1, 2)), np.eye(2), ActuatorRow((0.0,), 1.0, 0.1), None, 0.0, 1e-9, 8)
+    problem = ContactProblem(
+        position=np.zeros((1, 2)),
+        compliance=np.eye(2),
+        row=ActuatorRow((0.0,), 1.0, 0.1),
+        body=None,
+        friction=0.0,
+        tolerance=1e-9,
+        max_cuts=8,
+    )
 
     def solve(
         problem: ContactProblem, start: ContactState, actuator: FloatArray, carried: None
@@ -169,7 +177,15 @@ def test_a_patch_whose_nodes_move_alike_is_inverted(reach: float) -> None:
     alike = np.exp(-(((x[:, None] - x) / reach) ** 2)) + 1e-6 * np.eye(x.size)  # condition 1e7 to 1e8
     compliance = np.kron(alike, np.eye(2))
     position = np.array([x, np.zeros(x.size)]).T
-    problem = ContactProblem(position, compliance, ActuatorRow((0.5,), 1.0, 0.0), None, 0.5, 1e-9, 10)
+    problem = ContactProblem(
+        position=position,
+        compliance=compliance,
+        row=ActuatorRow((0.5,), 1.0, 0.0),
+        body=None,
+        friction=0.5,
+        tolerance=1e-9,
+        max_cuts=10,
+    )
     order = np.concatenate([2 * np.arange(x.size), 2 * np.arange(x.size) + 1])
     patch = patch_of(problem, np.arange(x.size), None)
     unit = compliance[np.ix_(order, order)] @ patch.response.T  # which has one displacement a row

@@ -22,7 +22,16 @@ from scenes import CONFIG, scene, section
 
 SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"
 CONDITION = "alternate_180"
-SETTINGS = DeckSettings(1.25, 0.0, 0.6, 500.0, 100.0, 10, 4, 2)
+SETTINGS = DeckSettings(
+    indentation=1.25,
+    friction_indenting=0.0,
+    friction_acting=0.6,
+    pressure_slope=500.0,
+    stick_slope=100.0,
+    indentation_increments=10,
+    stimulus_increments=4,
+    rest_increments=2,
+)
 SIDES = {3: ((0, 3, 1), (1, 4, 2), (2, 5, 0)), 4: ((0, 4, 1), (1, 5, 2), (2, 6, 3), (3, 7, 0))}  # by corners
 
 Block = tuple[str, dict[str, str], list[list[str]]]  # keyword, its parameters, its data lines

@@ -47,7 +47,20 @@ from fingerpad.strain import FilteredReadouts
 from fingerpad.tissue_law import Kinematics
 
 ROOT = Path(__file__).parents[1]
-COARSE = Numerics(0.4, 0.1, 0.4, 0.1, 0.4, 0.6, 0.5, 1.5, 2, 1, 1e-9, 1)
+COARSE = Numerics(
+    edge_size=0.4,
+    edge_zone=0.1,
+    finite_edge_size=0.4,
+    finite_edge_zone=0.1,
+    face_size=0.4,
+    growth=0.6,
+    receptor_size=0.5,
+    largest_size=1.5,
+    indentation_increments=2,
+    stimulus_increments=1,
+    newton_tolerance=1e-9,
+    max_cuts=1,
+)
 MODEL = build_model(read_yaml(ROOT / "config/config.yaml"))
 PINS = ActuatorRow((-2.0, 0.0, 2.0), 1.0, 0.1)
 PUCKS = ActuatorRow((-1.5, 1.5), 1.5, 0.0, Body(Material(1.0, 0.48), 0.15))
@@ -487,7 +500,15 @@ def make_contact(row: ActuatorRow) -> CondensedSection:
     x = np.concatenate([np.linspace(centre - 0.6, centre + 0.6, 25) for centre in row.positions])
     weight = np.tile(np.concatenate([[0.1 / 6.0], np.tile([0.4 / 6.0, 0.2 / 6.0], 12)]), len(row.positions))
     none = np.zeros((0, 0))
-    return CondensedSection(np.stack([x, 0.0 * x], axis=1), weight, none, none, none, none, 0.0)
+    return CondensedSection(
+        position=np.stack([x, 0.0 * x], axis=1),
+        weight=weight,
+        compliance=none,
+        receptor=none,
+        arc=none,
+        strain=none,
+        residual=0.0,
+    )
 
 
 def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatArray) -> Solution:
@@ -495,9 +516,25 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
     none = np.zeros(0)
     force = np.stack([0.0 * traction, traction], axis=1)
     return Solution(
-        1.5, 1.5, contact.position, force, none, none, 0, traction, 0.5 * traction, place,
-        np.where(traction > 0.0, Status.STICK, Status.OPEN), none, none, none, 1, 0, 0, Certificate(*[0.0] * 9),
-    )  # fmt: skip
+        indentation=1.5,
+        depth=1.5,
+        position=contact.position,
+        indented_force=force,
+        force=none,
+        contact=none,
+        read=0,
+        pressure=traction,
+        shear=0.5 * traction,
+        place=place,
+        status=np.where(traction > 0.0, Status.STICK, Status.OPEN),
+        arc=none,
+        strain=none,
+        change_of_strain=none,
+        iterations=1,
+        cuts=0,
+        searches=0,
+        certificate=Certificate(*[0.0] * 9),
+    )
 
 
 @pytest.mark.parametrize("device", [PHASED, FORCED, UNRATED, SINGLE], ids=lambda device: str(device.name))
@@ -573,7 +610,15 @@ def test_faces_are_projected_on_the_receptor_line() -> None:
     pressed = np.where(np.abs(np.linspace(-0.6, 0.6, 25)) < 0.41, 0.03, 0.0)
     traction = np.concatenate([pressed, pressed, 0.0 * pressed])
     none = np.zeros((0, 0))
-    condensed = CondensedSection(none, none, none, np.stack([x, 0.0 * x + 0.6], axis=1), 1.1 * x, none, 0.0)
+    condensed = CondensedSection(
+        position=none,
+        weight=none,
+        compliance=none,
+        receptor=np.stack([x, 0.0 * x + 0.6], axis=1),
+        arc=1.1 * x,
+        strain=none,
+        residual=0.0,
+    )
     found = face_arcs(PHASED, condensed, make_solution(contact, PINS, traction))
     expected = 1.1 * np.array([[-2.4, -1.6], [-0.4, 0.4], [np.nan, np.nan]])
     np.testing.assert_allclose(found, expected, atol=1e-9)  # but for rounding

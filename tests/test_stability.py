@@ -97,7 +97,13 @@ def test_a_vertical_tangent_is_a_named_error() -> None:
 def springs(stiffness: FloatArray, status: list[Status]) -> int:
     """Unstable directions of two nodes on springs (4, 4)."""
     problem = ContactProblem(
-        np.array([[0.0, 0.0], [1.0, 0.0]]), np.linalg.inv(stiffness), ActuatorRow((0.5,), 3.0, 0.0), None, 0.5, 1e-9, 5
+        position=np.array([[0.0, 0.0], [1.0, 0.0]]),
+        compliance=np.linalg.inv(stiffness),
+        row=ActuatorRow((0.5,), 3.0, 0.0),
+        body=None,
+        friction=0.5,
+        tolerance=1e-9,
+        max_cuts=5,
     )
     return unstable_directions(problem, np.array(status), np.zeros(2), factorise(csc_matrix(stiffness)))
 

@@ -20,7 +20,15 @@ FACE = ActuatorRow((0.0,), 10.0, 0.0)  # flat where the node is
 
 def one_node(friction: float) -> ContactProblem:
     """A node on springs over a flat face that it just touches."""
-    return ContactProblem(np.zeros((1, 2)), np.linalg.inv(STIFFNESS), FACE, None, friction, 1e-10, 10)
+    return ContactProblem(
+        position=np.zeros((1, 2)),
+        compliance=np.linalg.inv(STIFFNESS),
+        row=FACE,
+        body=None,
+        friction=friction,
+        tolerance=1e-10,
+        max_cuts=10,
+    )
 
 
 def sliding(friction: float, sign: float, moved: np.ndarray) -> tuple[float, float]:
