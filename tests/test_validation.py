@@ -90,6 +90,11 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
             "(transverse section",
         ],
     ),
+    "too few increments to tell an error from halves of them": (
+        {"numerics.indentation_increments.value": 5},
+        "numerics.indentation_increments.value",
+        ["found 5", ">= 6, <= 10000", "(load increments"],
+    ),
     "missing section": (
         {"filter": DELETED},
         "filter",
