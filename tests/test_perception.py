@@ -357,6 +357,16 @@ def test_device1_counts_nine_conditions_and_says_that_seven_are_distinct() -> No
     assert row["r2"] == pytest.approx(expected, abs=1e-4)
 
 
+@pytest.mark.parametrize("noise", [0.0, 1e-9, -1e-9])
+def test_scores_that_only_rounding_tells_apart_are_tied(noise: float) -> None:
+    """As those of mirrored stimuli: two pairs of scores, each pair tied."""
+    scores, ratings = [1.0, 1.0 + noise, 2.0, 2.0 - noise, 3.0], [2.0, 1.0, 4.0, 3.0, 5.0]
+    measured = pd.DataFrame({"device": "own", "condition": [f"c{i}" for i in range(5)], "rating": ratings})
+    row = make_table(make_scores("own", scores), measured.assign(kind="measured", source="")).iloc[0]
+    assert row["kendall_tau"] == pytest.approx(8.0 / math.sqrt(8.0 * 10.0))
+    assert row["note"] == "3 of 5 conditions are distinct"
+
+
 def test_conditions_with_one_stimulus_count_once_whatever_is_stated() -> None:
     """Three of five share a stimulus, rated 1, 2 and 3: p is that of three conditions, the first rated 2."""
     scores, ratings = [1.0, 1.0, 1.0, 2.0, 3.0], [1.0, 2.0, 3.0, 5.0, 4.0]

@@ -45,6 +45,7 @@ PUBLISHED = [column for column in COLUMNS if column.startswith("published")]
 
 MAX_UP_SETS = 2**16  # up-sets of a stated order that are enumerated; 16 conditions without any order have as many
 CONSTANT_SCORE = "constant score"
+SAME = 1e-6  # of the largest [1] by which scores differ that count as one; source: those of mirrored stimuli, by 1e-8
 
 
 # --- the range of R² over all ratings with a stated order ----------------------------------------------------------
@@ -163,8 +164,9 @@ def correlation_table(
     empty if they are not known.
     r2_lowest, r2_highest: over all ratings that agree with the stated order (`r2_range`), whichever way the slope
     then is; empty without an order.
-    kendall_tau: tau-b. p: two-sided p of the Pearson correlation over distinct conditions: those that share a
-    stimulus have one score, and count once with the mean of their ratings (the note then says how many are distinct).
+    kendall_tau: tau-b; scores that only rounding tells apart are tied. p: two-sided p of the Pearson correlation over
+    distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count once with the
+    mean of their ratings (the note then says how many are distinct).
     published_slope: -1 or 1, empty if nothing is said of it. rating_kind: the `label` of RatingKind. note: why numbers
     are missing, or what to beware of.
 
@@ -182,6 +184,19 @@ def correlation_table(
     signs = dict.fromkeys(("slope_sign", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
+
+
+def _classes(score: FloatArray) -> np.ndarray:
+    """Rank (n,) of each score among those that differ, from 0: scores (n,) that only rounding tells apart share one.
+
+    >>> _classes(np.array([2.0, 1.0, 2.0 + 1e-9, 1.5])).tolist()
+    [2, 0, 2, 1]
+    """
+    order = np.argsort(score, kind="stable")
+    steps = np.diff(score[order]) > SAME * np.abs(score).max()
+    ranks = np.empty(score.size, dtype=np.int64)
+    ranks[order] = np.append(0, np.cumsum(steps))
+    return ranks
 
 
 def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame) -> dict[str, Any]:
@@ -206,7 +221,8 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}
     notes = []
-    distinct, which = np.unique(x, return_inverse=True)
+    which = _classes(x)
+    distinct = np.bincount(which, x) / np.bincount(which)
     if distinct.size < x.size:
         notes.append(f"{distinct.size} of {x.size} conditions are distinct")
     if len(order):
@@ -222,7 +238,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         "slope_sign": int(np.sign(r)),
         "r2": r**2,
         "r_error": float(weight @ error) / math.sqrt(float(weight @ weight) * float(spread @ spread)),
-        "kendall_tau": float(kendalltau(x, y).statistic),
+        "kendall_tau": float(kendalltau(which, y).statistic),
         "p": float(pearsonr(distinct, mean_rating).pvalue) if distinct.size > 2 and np.ptp(mean_rating) > 0.0 else None,
         "note": "; ".join(notes),
     }
