@@ -26,7 +26,7 @@ from fingerpad.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.contact_law import Interface
+from fingerpad.contact_law import Criterion, Interface
 from fingerpad.device import Condition
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import forecast, steps
@@ -441,6 +441,30 @@ def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
     back = Condition("back", "test", 0.0, np.array([1.0, 2.0]), normal, np.zeros_like(normal))
     (caveat,) = solution_caveats(scene("device2"), solve("device2", back, Interface.FRICTIONLESS))
     assert caveat.startswith("actuators that leave the skin, counted from the left: 2;")
+
+
+def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
+    """Slippery pins that slide to and almost as far fro: the first stroke is read, on half the sizes the second."""
+    tangential = np.outer([0.02, -0.01982], [1.0, -1.0, 1.0, -1.0])
+    strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential)
+    (caveat,) = solution_caveats(scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS))
+    assert caveat.startswith("at another time strain changes by 9")
+    there = replace(strokes, time=strokes.time[:1], normal=strokes.normal[:1], tangential=tangential[:1])
+    assert solution_caveats(scene("device2"), solve("device2", there, Interface.FRICTIONLESS)) == []
+
+
+def test_a_single_pin_that_touches_alone_presses_on_nothing() -> None:
+    """Where it first touches it carries nothing: a stroke sideways changes nothing, and scores are zero."""
+    base = scene("device2")
+    still = np.zeros((1, 1))
+    beside = Condition("beside", "test", 0.0, np.array([1.0]), still, still + 0.02)
+    row = replace(base.device.actuators, positions=(0.0,))
+    model = replace(base.model, contact=replace(base.model.contact, criterion=Criterion.TOUCH))
+    given = Scene(model, replace(base.device, actuators=row, conditions=(beside,), cycles=())).coarsened(4.0)
+    rows = forecast(given, error=False)
+    assert [row["score"] for row in rows] == [0.0] * 4
+    idle = "actuators that press on nothing where pre-indentation ends, counted from the left: 1"
+    assert [row["caveats"] for row in rows] == [[idle]] * 4
 
 
 @pytest.fixture

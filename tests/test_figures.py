@@ -530,6 +530,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         arc=none,
         strain=none,
         change_of_strain=none,
+        rival_peak=0.0,
         iterations=1,
         cuts=0,
         searches=0,

@@ -11,7 +11,7 @@ from fingerpad.gabor import REACH, filtered_readouts, gabor_filtered
 from fingerpad.readout import GaborFilter, Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score
-from fingerpad.strain import maximum_principal, receptor_readouts
+from fingerpad.strain import maximum_principal, receptor_readouts, rival_peak
 
 SIGMA = 1.12
 
@@ -50,6 +50,23 @@ def test_the_peak_does_not_depend_on_where_receptors_lie_close(finer: str) -> No
     exx = np.array([np.zeros(arc.size), np.where(arc < 0.0, 0.2, 0.0), np.where(arc < 0.0, 0.0, 0.3)])
     components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
     assert receptor_readouts(components, arc)[Readout.STRAIN].max() == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(
+    ("other", "rival"),
+    [
+        ([0.0, 0.0, 0.0, 0.99, 0.0], 0.0),  # but for 1 %, the mirror image of what is read
+        ([0.0, 0.99, 0.0, 0.0, 0.0], 0.0),  # as just beside the peak
+        ([0.0, 0.0, 0.99, 0.0, 0.0], 0.99),
+        ([0.0, 0.5, 0.0, 0.5, 0.0], 0.5**0.5),
+    ],
+)
+def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], rival: float) -> None:
+    """Five receptors, of which one is stretched by 1 at the time that is read."""
+    exx = np.array([np.zeros(5), np.array([0.0, 1.0, 0.0, 0.0, 0.0]), other])
+    components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
+    assert rival_peak(components, np.arange(5.0)) == pytest.approx(rival)
+    assert rival_peak(components[:2], np.arange(5.0)) == 0.0
 
 
 @pytest.mark.parametrize("wavelength", [2.8, 1.15])

@@ -21,7 +21,7 @@ from .indentation import indent
 from .path import advance
 from .readout import Readout
 from .scene import Scene
-from .strain import receptor_readouts, time_read
+from .strain import receptor_readouts, rival_peak, time_read
 from .symmetry import indent_by_halves
 from .tissue_law import Kinematics
 
@@ -41,7 +41,8 @@ class Solution:
     the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
     `forces` but where the normal turns. read: index of the time at which receptors are read (`strain.time_read`). What
     follows is at that time. pressure, shear: (n,) [MPa]. place: (n,) x of the skin nodes from their actuator's centre
-    [mm]. status: (n,). arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. iterations, cuts, searches: of the
+    [mm]. status: (n,). arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. rival_peak: change at the time
+    that comes next to being read over that which is read [1] (`strain.rival_peak`). iterations, cuts, searches: of the
     whole path. certificate.
     """
 
@@ -59,6 +60,7 @@ class Solution:
     arc: FloatArray
     strain: FloatArray
     change_of_strain: FloatArray
+    rival_peak: float
     iterations: int
     cuts: int
     searches: int
@@ -195,6 +197,7 @@ def solution(
         arc=section.arc,
         strain=readouts[Readout.STRAIN],
         change_of_strain=readouts[Readout.CHANGE_OF_STRAIN],
+        rival_peak=rival_peak(strains, section.arc),
         iterations=last.iterations,
         cuts=last.cuts,
         searches=last.searches,

@@ -11,6 +11,10 @@ from .arrays import FloatArray
 from .compliance import VOIGT
 from .readout import CONSTANT, Readout
 
+# of a change [1] by which another one differs from it at least; source: proportional ones that are nearly as large as
+# the peak's (`caveats.RIVAL`) differ by a fiftieth
+UNLIKE = 0.1
+
 
 def maximum_principal(components: FloatArray) -> FloatArray:
     """Largest of the three principal strains (m,) [1] in plane strain, from (3m,) exx, eyy, gxy point by point.
@@ -34,7 +38,7 @@ def receptor_readouts(
     times the one is read that `time_read` names. Where all values count as equal the change is zero. measure: of
     strains (3m,).
     """
-    strains, changes = _measured(components, measure)
+    strains, changes = _along(components, measure)
     peak = time_read(components, arc, measure)
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 
@@ -47,17 +51,39 @@ def time_read(
     Arguments as those of `receptor_readouts`.
     """
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
-    _, changes = _measured(components, measure)
-    return int(np.argmax(np.trapezoid(changes**2, arc, axis=1)))
+    return int(np.argmax(_size(_along(components, measure)[1], arc)))
 
 
-def _measured(components: FloatArray, measure: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """The measure (n_times, m) along the stimulus, and its changes."""
+def rival_peak(components: FloatArray, arc: FloatArray) -> float:
+    """How large maximum principal strain's change is at the time that comes next to being read, over that which is read
+    [1]: root mean squares over arc length, of components (1 + n_times, 3m) at receptors (m,) [mm] that mirror. Zero
+    without such a time.
+
+    Only times count at which the change is another, by UNLIKE, than what is read, and than its mirror image: those just
+    beside a peak would score alike, as does the other half of a cycle whose row mirrors.
+    """
+    changes = _along(components, maximum_principal)[1]
+    size = _size(changes, arc)
+    peak = time_read(components, arc)
+    images = np.array([changes[peak], changes[peak, ::-1]])
+    apart = np.min([_size(changes - image, arc) for image in images], axis=0)
+    return float((size[apart > UNLIKE * size[peak]] / size[peak]).max(initial=0.0))
+
+
+def _along(components: FloatArray, measure: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """A measure (n_times, m) along a stimulus, and its change from the pre-indented state, of components
+    (1 + n_times, 3m).
+    """
     # ASSUME: readout: the change of strain is that from the pre-indented state
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
     return np.array(strains), changes
+
+
+def _size(changes: FloatArray, arc: FloatArray) -> FloatArray:
+    """Norms (k,) of changes (k, m) over arc length (m,) [mm]."""
+    return np.asarray(np.sqrt(np.trapezoid(changes**2, arc, axis=1)))
 
 
 @dataclass(frozen=True)
