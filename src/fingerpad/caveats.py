@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import FloatArray
-from .readout import CONSTANT
-from .roughness import KEY
+from .roughness import KEY, SAME
 from .scene import Scene
 from .solution import Solution
 from .tissue_law import Kinematics
@@ -100,4 +99,4 @@ def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     if any(each.get("score_error") is None for each in (row, other)):
         return False
     difference = abs(row["score"] - other["score"])
-    return bool(CONSTANT * abs(row["score"]) < difference < max(row["score_error"], other["score_error"]))
+    return bool(SAME * abs(row["score"]) < difference < max(row["score_error"], other["score_error"]))

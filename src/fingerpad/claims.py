@@ -20,8 +20,8 @@ import pandas as pd
 
 from .contact_law import Interface
 from .ratings import RatingKind
-from .readout import CONSTANT, READOUT_NAME, Readout
-from .roughness import KEY, TYPESET_UNITS
+from .readout import READOUT_NAME, Readout
+from .roughness import KEY, SAME, TYPESET_UNITS
 
 COLUMNS = ["kinematics", "claim", "kind", "source", "holds", "evidence"]
 DISPERSIONS = ("low", "medium", "high")
@@ -175,7 +175,7 @@ def _step(low: _Score, high: _Score) -> str:
     their errors) or `>`.
     """
     difference = abs(high.value - low.value)
-    if difference <= CONSTANT * max(abs(low.value), abs(high.value)):
+    if difference <= SAME * max(abs(low.value), abs(high.value)):
         return "="
     if difference < max(low.error, high.error):
         return NEAR
@@ -279,7 +279,7 @@ def _is_less(low: float, high: float, error: float) -> Holds:
     """Whether a number is less than another, by more than an error."""
     if abs(high - low) < error:
         return Holds.UNDECIDED
-    return _held(low < high - CONSTANT * abs(high))
+    return _held(low < high - SAME * abs(high))
 
 
 # --- correlations --------------------------------------------------------------------------------------------------

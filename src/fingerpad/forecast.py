@@ -12,8 +12,7 @@ from .arrays import FloatArray
 from .caveats import score_caveats
 from .edges import edge_intervals
 from .prediction import coarser_rows, prepared, rows_of, solve_scene
-from .readout import CONSTANT
-from .roughness import KEY, unpredicted_rows
+from .roughness import KEY, SAME, unpredicted_rows
 from .scene import Scene
 
 SILENT = "the device controls forces: without friction its displacements would be others, and none are known"
@@ -62,7 +61,7 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
     return [
         None
         if row["score"] is None
-        else 1 + sum(other > row["score"] * (1.0 + CONSTANT) for other in scores[tuple(row[column] for column in KEY)])
+        else 1 + sum(other > row["score"] * (1.0 + SAME) for other in scores[tuple(row[column] for column in KEY)])
         for row in rows
     ]
 

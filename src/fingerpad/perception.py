@@ -20,7 +20,7 @@ from .csvrows import listed
 from .errors import RatingError
 from .ratings import NO_RATINGS, RatingKind, order_matrix
 from .readout import CONSTANT, is_constant
-from .roughness import KEY, NO_PREDICTION
+from .roughness import KEY, NO_PREDICTION, SAME
 
 BoolArray = NDArray[np.bool_]
 
@@ -45,7 +45,6 @@ PUBLISHED = [column for column in COLUMNS if column.startswith("published")]
 
 MAX_UP_SETS = 2**16  # up-sets of a stated order that are enumerated; 16 conditions without any order have as many
 CONSTANT_SCORE = "constant score"
-SAME = 1e-6  # of the largest [1] by which scores differ that count as one; source: those of mirrored stimuli, by 1e-8
 
 
 # --- the range of R² over all ratings with a stated order ----------------------------------------------------------
