@@ -127,6 +127,14 @@ def test_true_errors_stand_beside_stated_ones() -> None:
     assert found["error_over_stated"] == pytest.approx(1.0)
 
 
+def test_an_interface_without_a_reference_is_left_out() -> None:
+    stated = [row("a", "2.0", interface) | {"score_error": "0.1"} for interface in ("shear", "frictionless")]
+    (found,) = true_errors(stated, [row("a", "1.9") | {"times_unknowns": "20"}])
+    assert found["interface"] == "shear"
+    with pytest.raises(KeyError):
+        true_errors([stated[0], row("b", "2.0") | {"score_error": "0.1"}], [row("a", "1.9") | {"times_unknowns": "20"}])
+
+
 def test_a_missing_check_is_an_error() -> None:
     with pytest.raises(KeyError, match="'b'"):
         with_errors([row("b", "1.0")], [row("a", "1.0")])

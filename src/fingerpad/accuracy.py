@@ -26,6 +26,7 @@ LEAST = 1e-3  # of a score [1]; source: median of 66 errors against references (
 REFINEMENT = 5.6
 CASE = ("kinematics", "device", "condition", "interface", "readout")
 GROUP = ("kinematics", "device", "readout")
+REFERENCED = ("kinematics", "device", "interface")
 
 
 def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -77,21 +78,21 @@ def with_error(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:
 
 
 def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of all scores above zero with an error, of the kinematics and devices that a reference has: the error they
-    state and that against the reference, both over the score [1], the ratio of the second to the first, and how many
-    times the unknowns the reference has [1]. Raises KeyError if the reference lacks a score.
+    """Rows of all scores above zero with an error, of the kinematics, devices and interfaces that a reference has: the
+    error they state and that against the reference, both over the score [1], the ratio of the second to the first, and
+    how many times the unknowns the reference has [1]. Raises KeyError if the reference lacks a score.
     """
-    known = {(row["kinematics"], row["device"]): float(row["times_unknowns"]) for row in reference}
+    known = {_of(row, REFERENCED): float(row["times_unknowns"]) for row in reference}
     finer = {case_of(row): float(row["score"]) for row in reference}
     table = []
     for row in scores:
-        if has_error(row) and float(row["score"]) > 0.0 and (row["kinematics"], row["device"]) in known:
+        if has_error(row) and float(row["score"]) > 0.0 and _of(row, REFERENCED) in known:
             score, stated = float(row["score"]), float(row["score_error"])
             error = score - finer[case_of(row)]
             case = dict(zip(CASE, case_of(row), strict=True))
             ratio = abs(error) / stated
             errors = {"stated": stated / score, "error": error / score, "error_over_stated": ratio}
-            table.append(case | errors | {"times_unknowns": known[row["kinematics"], row["device"]]})
+            table.append(case | errors | {"times_unknowns": known[_of(row, REFERENCED)]})
     return table
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
@@ -85,10 +85,14 @@ def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:
     return Meshed(section, body_of(scene), resampling_to_grid(arc, scene.model.gabor.spacing))
 
 
-def rows_at(scene: Scene, coarsening: float, edges: FloatArray) -> list[dict[str, Any]]:
-    """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm]."""
+def rows_at(
+    scene: Scene, coarsening: float, edges: FloatArray, interfaces: Sequence[Interface] = ()
+) -> list[dict[str, Any]]:
+    """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm].
+    interfaces: those that are solved, all if none are named.
+    """
     other = scene.coarsened(coarsening)
-    return predicted_rows(other, prepared(other, edges))
+    return predicted_rows(other, prepared(other, edges), interfaces)
 
 
 def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
@@ -119,19 +123,21 @@ def _rows_if_any(
     return rows
 
 
-def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:
-    """Rows of the score table for all conditions and interfaces. Raises ContactError, CondensationError."""
+def predicted_rows(
+    scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()
+) -> list[dict[str, Any]]:
+    """Rows of the score table for all conditions at some interfaces, or all. Raises ContactError, CondensationError."""
     rows: list[dict[str, Any]] = []
-    for solved in solve_scene(scene, condensed):
+    for solved in solve_scene(scene, condensed, interfaces):
         if isinstance(solved.solution, Unsolved):
             raise solved.solution
         rows += rows_of(scene, condensed, solved)
     return rows
 
 
-def solve_scene(scene: Scene, condensed: Condensed | Meshed) -> Iterator[Solved]:
-    """All conditions and interfaces, solved in turn as far as they can be; equal stimuli share a solution."""
-    for interface in scene.device.interfaces():
+def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
+    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
+    for interface in interfaces or scene.device.interfaces():
         found: dict[str, Solution | Unsolved] = {}
         pressed: Callable[[Condition], Solution] | Unsolved | None = None
         for condition in scene.device.conditions:

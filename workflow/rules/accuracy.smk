@@ -5,12 +5,6 @@
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms{_finite}.{png,pdf},
 # results/accuracy/scores.csv
 
-# With finite kinematics Device 1's reference does not end: without friction each increment wants new tangents.
-REFERENCED = {
-    each: [name for name in DEVICES_WITH[each] if (each, name) != (Kinematics.FINITE, "device1")] for each in KINEMATICS
-}
-
-
 rule accuracy:
     input:
         "results/accuracy/closed_forms.csv",
@@ -21,7 +15,7 @@ rule accuracy:
 rule honesty:
     input:
         scores="results/scores.csv",
-        references=[f"results/{each}/{name}/reference.csv" for each in KINEMATICS for name in REFERENCED[each]],
+        references=[f"results/{each}/{name}/reference.csv" for each in KINEMATICS for name in DEVICES_WITH[each]],
     output:
         table="results/accuracy/scores.csv",
     log:
@@ -53,6 +47,7 @@ rule reference:
     params:
         code=code("reference.py"),
         scene=scored_of,
+        interfaces=interfaces_referenced,
     script:
         "../scripts/reference.py"
 

@@ -147,6 +147,13 @@ def cases(pattern, kinematics=KINEMATICS):
     ]
 
 
+def interfaces_referenced(wildcards):
+    """The interfaces of a reference: with finite kinematics Device 1's has shear alone, as without friction most of its
+    stimuli want new tangents, and hours."""
+    alone = (wildcards.kinematics, wildcards.device) == (Kinematics.FINITE, "device1")
+    return [str(each) for each in ([Interface.SHEAR] if alone else scene_of(wildcards).device.interfaces())]
+
+
 def body_of(wildcards):
     """The condensed body of a deformable actuator, or nothing."""
     return f"results/{wildcards.device}/body.npz" if scene_of(wildcards).device.actuators.body else []

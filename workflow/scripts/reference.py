@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.accuracy import REFINEMENT
+from fingerpad.contact_law import Interface
 from fingerpad.edges import edge_intervals
 from fingerpad.mesh import mesh_section
 from fingerpad.prediction import rows_at
@@ -11,15 +12,21 @@ from fingerpad.store import write_rows
 from fingerpad.tissue_law import Kinematics
 
 
-def main(config: Path, device: Path, kinematics: Kinematics, scores: Path) -> None:
-    """Read the scene, find its edges, solve all its conditions finely, write their scores."""
+def main(config: Path, device: Path, kinematics: Kinematics, interfaces: list[Interface], scores: Path) -> None:
+    """Read the scene, find its edges, solve all its conditions at these interfaces finely, write their scores."""
     scene = load_scene(config, device, kinematics)
     edges = edge_intervals(scene)
     own, finer = (mesh_section(scene.coarsened(each), edges).unknowns for each in (1.0, 1.0 / REFINEMENT))
-    rows = rows_at(scene, 1.0 / REFINEMENT, edges)
+    rows = rows_at(scene, 1.0 / REFINEMENT, edges, interfaces)
     write_rows(scores, [row | {"times_unknowns": f"{finer / own:.2f}"} for row in rows])
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.config), Path(job.input.device), Kinematics(job.wildcards.kinematics), Path(job.output.scores))
+    main(
+        Path(job.input.config),
+        Path(job.input.device),
+        Kinematics(job.wildcards.kinematics),
+        [Interface(each) for each in job.params.interfaces],
+        Path(job.output.scores),
+    )
