@@ -29,7 +29,7 @@ from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Criterion, Interface
 from fingerpad.device import Condition
 from fingerpad.errors import ContactError, UsageError
-from fingerpad.forecast import forecast, steps
+from fingerpad.forecast import LEFT_OUT, forecast, steps
 from fingerpad.prediction import Condensed, Solved, rows_of
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.scene import Scene
@@ -539,6 +539,19 @@ def test_python_gives_the_same_table(checkout: Path) -> None:
     rows = forecast(scene("device3"), error=False)
     assert list(table.columns) == list(rows[0])
     assert table["score"].dropna().tolist() == [row["score"] for row in rows if row["score"] is not None]
+
+
+def test_a_device_with_shear_alone_says_why_the_rest_is_left_out() -> None:
+    base = scene("device2").coarsened(4.0)
+    both, alone = (
+        forecast(replace(base, device=replace(base.device, frictionless=each)), error=False) for each in (True, False)
+    )
+    assert [row["score"] for row in both if row["interface"] == "shear"] == pytest.approx(
+        [row["score"] for row in alone if row["interface"] == "shear"], rel=0.05
+    )  # edges, and so meshes, are those of the interfaces that are solved
+    without = [row for row in alone if row["interface"] == "frictionless"]
+    assert len(without) == len(both) / 2
+    assert all(row["score"] is None and row["caveats"] == [LEFT_OUT] for row in without)
 
 
 # Where things are, what is loaded, and exit codes

@@ -16,6 +16,7 @@ from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.path import advance
 from fingerpad.pressing import press
 from fingerpad.scene import Scene
+from fingerpad.solution import left_out
 from fingerpad.tissue_law import Kinematics
 from scenes import scene
 
@@ -63,6 +64,14 @@ def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
     followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(part, 1))
     way = np.abs(followed.displacement - finger.start.displacement).max()
     assert np.abs(corrected.displacement - followed.displacement).max() < 10.0 * SETTLED * way
+
+
+@pytest.mark.parametrize("interface", list(Interface))
+def test_what_cannot_be_solved_says_what_a_file_may_leave_out(base: Scene, interface: Interface) -> None:
+    for given in (base, base.with_kinematics(Kinematics.SMALL)):
+        said = left_out(given, interface)
+        assert ("`kinematics: small`" in said) is (given.kinematics is Kinematics.FINITE)
+        assert ("`interfaces: shear`" in said) is (interface is Interface.FRICTIONLESS)
 
 
 def test_a_stroke_that_cannot_be_followed_says_how_the_rest_goes_on(base: Scene, finger: PressedFinger) -> None:

@@ -226,7 +226,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "misspelled section": (
         {"stimulus": DELETED, "stimuli": {}},
         "stimuli",
-        ["an unknown key", "title, control, kinematics, actuators, stimulus", "did you mean stimulus?"],
+        ["an unknown key", "title, control, interfaces, kinematics, actuators, stimulus", "did you mean stimulus?"],
     ),
     "empty title": ({"title.value": ""}, "title.value", ["found ''", "a line of 1 to 60 characters", "(what figures"]),
     "title of two lines": ({"title.value": "a\nb"}, "title.value", ["a line of 1 to 60 characters"]),

@@ -443,6 +443,18 @@ def test_a_shipped_device_may_be_left_out(project: Project, tmp_path: Path, left
     assert {job.device for job in run.jobs} == {None, "device1", "device2", "device3"} - set(left_out)
 
 
+def test_a_device_with_shear_alone_has_no_jobs_without(project: Project, tmp_path: Path) -> None:
+    """And the figure without and with shear is of another device, or of none."""
+    changed = Project(shutil.copytree(project.folder, tmp_path / "changed"))
+    alone = 'interfaces: {value: shear, unit: "1", source: "assumption: a test"}\n'
+    changed.edit(DEVICE, lambda text: f"{text}\n{alone}")
+    run = changed.snakemake("-n", "all")
+    assert run.status == 0, run.text
+    made = [output for job in run.jobs if job.device == "device2" for output in job.outputs]
+    assert any("/shear/" in output for output in made)
+    assert not any("/frictionless/" in output for output in made)
+
+
 def test_a_folder_without_devices_is_named(project: Project, tmp_path: Path) -> None:
     (tmp_path / "devices").mkdir()
     shutil.copy(project.folder / "config/config.yaml", tmp_path)

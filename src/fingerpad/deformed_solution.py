@@ -26,7 +26,7 @@ from .pressing import Pressed, whole_part
 from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
-from .solution import LEAVE_OUT, Solution, contact_problem, increments, named, named_pressing, solution
+from .solution import Solution, contact_problem, increments, left_out, named, named_pressing, solution
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,8 @@ def certified_equilibria(
     """`equilibria`, and their certificate. Raises ContactError as `stimulate_deformed`."""
     with named_pressing(scene, finger.interface):
         pressed = _certified(finger, finger.start)
-    with named(f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}", LEAVE_OUT):
+    case = f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}"
+    with named(case, left_out(scene, finger.interface)):
         found = equilibria(scene, finger, condition)
         return found, worst([pressed, *(_certified(finger, each) for each in found[1:])])
 

@@ -170,6 +170,7 @@ class Device:
 
     cycles: the conditions as vibrations, none if they are given in time. frequencies: at which they are asked for [Hz].
     kinematics: with which it may be predicted; strokes that turn elements inside out leave finite ones out.
+    frictionless: whether it may be predicted without friction; rows that only friction holds leave that out.
     """
 
     name: str
@@ -180,6 +181,7 @@ class Device:
     cycles: tuple[Cycle, ...] = ()
     frequencies: tuple[float, ...] = ()
     kinematics: tuple[Kinematics, ...] = tuple(Kinematics)
+    frictionless: bool = True
 
     def __post_init__(self) -> None:
         require(len(self.conditions) >= 1, f"{self.name}: there must be at least one condition")
@@ -251,4 +253,5 @@ class Device:
 
     def interfaces(self) -> tuple[Interface, ...]:
         """Interfaces that can be predicted: a force-controlled device moves nothing without friction."""
-        return (Interface.SHEAR,) if self.control is Control.FORCE else tuple(Interface)
+        alone = self.control is Control.FORCE or not self.frictionless
+        return (Interface.SHEAR,) if alone else tuple(Interface)

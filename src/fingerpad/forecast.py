@@ -10,12 +10,14 @@ from threadpoolctl import threadpool_limits
 from .accuracy import with_error, with_errors
 from .arrays import FloatArray
 from .caveats import score_caveats
+from .device import Control
 from .edges import edge_intervals
 from .prediction import coarser_rows, prepared, rows_of, solve_scene
 from .roughness import KEY, SAME, unpredicted_rows
 from .scene import Scene
 
 SILENT = "the device controls forces: without friction its displacements would be others, and none are known"
+LEFT_OUT = "left out by `interfaces: shear` in the device's file"
 
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
@@ -35,7 +37,8 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
     table = with_errors(found, coarser) if sought else [with_error(row, None) for row in found]
-    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[SILENT] for _ in silent]
+    why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
+    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
         row | {"rank": rank, "caveats": own + close}
         for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)

@@ -196,6 +196,7 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
         cycles=cycles,
         frequencies=frequencies,
         kinematics=KINEMATICS[plain.get("kinematics", "both")],
+        frictionless=plain.get("interfaces", "both") == "both",
     )
 
 

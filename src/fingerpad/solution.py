@@ -28,7 +28,8 @@ from .tissue_law import Kinematics
 FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
 TOUCH = ", and so does contact.criterion: touch (in config/config.yaml, where it changes every device)"
-LEAVE_OUT = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
+SMALL_ALONE = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
+SHEAR_ALONE = "; `interfaces: shear` in the device's file leaves out what is without friction"
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,8 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
     certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
     problem, before = indented.problem, indented.state
-    with named(f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"):
+    case = f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"
+    with named(case, left_out(scene, indented.interface)):
         states = [before, *follow_condition(scene, problem, before, condition)]
         certificate = worst([indented.certificate, *(certify(problem, section, state) for state in states[1:])])
     strains = section.receptor_strain(np.array([state.force for state in states]))
@@ -225,9 +227,15 @@ def named(what: str, advice: str = "") -> Iterator[None]:
         raise type(error)(f"{what}: {error}{advice}") from error
 
 
+def left_out(scene: Scene, interface: Interface) -> str:
+    """What a device's file may leave out where it cannot be solved."""
+    finite, frictionless = scene.kinematics is Kinematics.FINITE, interface is Interface.FRICTIONLESS
+    return (SMALL_ALONE if finite else "") + (SHEAR_ALONE if frictionless else "")
+
+
 def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
     """`named`, for pre-indentation, which goes the deeper the wider the row is."""
     full = scene.model.contact.criterion is Criterion.FULL
     advice = "; a narrower row needs less indentation" + (TOUCH if full else "")
-    advice += LEAVE_OUT if scene.kinematics is Kinematics.FINITE else ""
+    advice += left_out(scene, interface)
     return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)

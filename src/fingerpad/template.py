@@ -21,6 +21,8 @@ HEADER = """\
 # The file name is the device's name. Ratings of perceived roughness are optional: rows in data/ratings.csv.
 # Where finite strain cannot follow a stroke, this line leaves it out:
 #   kinematics: {{value: small, unit: "1", source: "assumption: finite strain cannot follow these strokes"}}
+# Where nothing holds the row without friction, this line predicts it with friction alone:
+#   interfaces: {{value: shear, unit: "1", source: "assumption: without friction this row cannot be held"}}
 """
 DRIVES = """\
 # How to change the drive:

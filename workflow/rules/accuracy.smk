@@ -5,6 +5,7 @@
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms{_finite}.{png,pdf},
 # results/accuracy/scores.csv
 
+
 rule accuracy:
     input:
         "results/accuracy/closed_forms.csv",

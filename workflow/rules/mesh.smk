@@ -28,7 +28,7 @@ rule mesh:
             scene_of(w).model.contact,
             scene_of(w).model.numerics,
             scene_of(w).model.skips,
-            scene_of(w).device.control,
+            scene_of(w).device.interfaces(),
             scene_of(w).device.actuators,
             [support.path_of(condition) for condition in scene_of(w).device.conditions],
         ),

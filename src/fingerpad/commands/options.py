@@ -51,7 +51,8 @@ def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interfa
     scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
     condition, interface = scene.device.condition(options.condition), Interface(options.interface)
     if interface not in scene.device.interfaces():
-        allowed = f"{listed(scene.device.interfaces())} (a device that controls force moves nothing without friction)"
+        why = "a device that controls force moves nothing without friction, `interfaces: shear` leaves that out"
+        allowed = f"{listed(scene.device.interfaces())} ({why})"
         raise UsageError(f"{scene.device.name}: found the interface '{interface}'; allowed: {allowed}")
     return scene, condition, interface
 
