@@ -149,7 +149,7 @@ def cases(pattern, kinematics=KINEMATICS):
 
 def interfaces_referenced(wildcards):
     """The interfaces of a reference: with finite kinematics Device 1's has shear alone, as without friction most of its
-    stimuli want new tangents, and hours."""
+    stimuli want new tangents, many minutes each."""
     alone = (wildcards.kinematics, wildcards.device) == (Kinematics.FINITE, "device1")
     return [str(each) for each in ([Interface.SHEAR] if alone else scene_of(wildcards).device.interfaces())]
 
