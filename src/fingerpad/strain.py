@@ -35,23 +35,20 @@ def receptor_readouts(
     """Both read-outs (m,) at the receptors, in the unit of the measure: of maximum principal strain [1].
 
     components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. arc: (m,) [mm]. Of several
-    times the one is read that `time_read` names. Where all values count as equal the change is zero. measure: of
-    strains (3m,).
+    times the one is read at which the measure has changed most, as in `time_read`. Where all values count as equal the
+    change is zero. measure: of strains (3m,).
     """
     strains, changes = _along(components, measure)
-    peak = time_read(components, arc, measure)
+    peak = _peak(changes, arc)
     return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
 
 
-def time_read(
-    components: FloatArray, arc: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
-) -> int:
-    """Which of the stimulus's times is read: that at which the measure has changed most (largest root mean square over
-    arc length, so that no mesh matters), the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
-    Arguments as those of `receptor_readouts`.
+def time_read(components: FloatArray, arc: FloatArray) -> int:
+    """Which of the stimulus's times is read: that at which maximum principal strain has changed most (largest root mean
+    square over arc length, so that no mesh matters), the reference actuator's peak for a snapshot, the peak of the
+    cycle otherwise. Arguments as those of `receptor_readouts`.
     """
-    # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
-    return int(np.argmax(_size(_along(components, measure)[1], arc)))
+    return _peak(_along(components, maximum_principal)[1], arc)
 
 
 def rival_peak(components: FloatArray, arc: FloatArray) -> float:
@@ -64,7 +61,7 @@ def rival_peak(components: FloatArray, arc: FloatArray) -> float:
     """
     changes = _along(components, maximum_principal)[1]
     size = _size(changes, arc)
-    peak = time_read(components, arc)
+    peak = _peak(changes, arc)
     images = np.array([changes[peak], changes[peak, ::-1]])
     apart = np.min([_size(changes - image, arc) for image in images], axis=0)
     return float((size[apart > UNLIKE * size[peak]] / size[peak]).max(initial=0.0))
@@ -79,6 +76,12 @@ def _along(components: FloatArray, measure: Callable[[FloatArray], FloatArray]) 
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
     return np.array(strains), changes
+
+
+def _peak(changes: FloatArray, arc: FloatArray) -> int:
+    """Index of the largest of changes (k, m) over arc length (m,) [mm]."""
+    # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
+    return int(np.argmax(_size(changes, arc)))
 
 
 def _size(changes: FloatArray, arc: FloatArray) -> FloatArray:
