@@ -10,7 +10,7 @@ import pytest
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
-from fingerpad.contact import ContactProblem, ContactState, Status, pressing_and_shearing, rest, touching_height
+from fingerpad.contact import ContactProblem, ContactState, Status, rest, shearing_and_pressing, touching_height
 from fingerpad.contact_law import ContactLaw, Criterion, Interface, TurningNormal
 from fingerpad.device import ActuatorRow
 from fingerpad.finger import Material
@@ -92,7 +92,7 @@ def test_friction_holds_its_cone_across_the_turned_normal() -> None:
     length = np.sqrt(1.0 + slope**2)
     normal, tangent = np.stack([slope, np.ones_like(slope)]) / length, np.stack([np.ones_like(slope), -slope]) / length
     across, along = np.sum(state.force.T * normal, axis=0), np.sum(state.force.T * tangent, axis=0)
-    assert np.allclose(pressing_and_shearing(problem, state), (across, along), rtol=0.0, atol=1e-15)
+    assert np.allclose(shearing_and_pressing(problem, [state])[0].T, (along, across), rtol=0.0, atol=1e-15)
     touching = state.status != Status.OPEN
     assert np.abs(slope[touching]).max() > 0.2
     assert np.all(across[touching] >= 0.0)

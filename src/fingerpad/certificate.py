@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .compliance import CondensedSection
-from .contact import ContactProblem, ContactState, Status, pressing_and_shearing, reevaluated_gap
+from .contact import ContactProblem, ContactState, Status, reevaluated_gap, shearing_and_pressing
 from .errors import CertificateError, ReachError
 from .profile import profile
 
@@ -52,7 +52,7 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     ReachError if contact comes to the last node considered.
     """
     active = state.status != Status.OPEN
-    pressing, shearing = pressing_and_shearing(problem, state)
+    shearing, pressing = shearing_and_pressing(problem, [state])[0].T
     pressure = pressing / section.weight
     largest = float(pressure.max(initial=0.0))
     excess = np.abs(shearing) - problem.friction * pressing

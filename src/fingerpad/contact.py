@@ -180,14 +180,10 @@ def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> t
     return shorter * (across + slope * along), shorter * (along - slope * across)
 
 
-def pressing_and_shearing(problem: ContactProblem, state: ContactState) -> tuple[FloatArray, FloatArray]:
-    """Pressing and shearing forces (n,) [N/mm] of a state."""
-    return resolved(problem, state.force, profile(problem.row, state.place)[1])
-
-
 def shearing_and_pressing(problem: ContactProblem, states: Sequence[ContactState]) -> FloatArray:
     """Shearing and pressing forces (n_states, n, 2) [N/mm] of several states."""
-    return np.array([np.stack(pressing_and_shearing(problem, state)[::-1], axis=1) for state in states])
+    found = [resolved(problem, state.force, profile(problem.row, state.place)[1]) for state in states]
+    return np.array([np.stack([shearing, pressing], axis=1) for pressing, shearing in found])
 
 
 def switch_friction(state: ContactState) -> ContactState:
