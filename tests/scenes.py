@@ -12,10 +12,11 @@ from fingerpad.condensation import condense_section
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.edges import mesh_device
+from fingerpad.linear_solution import solve_condition
 from fingerpad.mesh import SectionMesh
 from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution, solve_condition
+from fingerpad.solution import Solution
 
 CONFIG = Path(__file__).parents[1] / "config"
 

@@ -19,8 +19,8 @@ from fingerpad.errors import MeshError, SceneError
 from fingerpad.export import DeckSettings, input_deck
 from fingerpad.figures.actuators import draw_actuators
 from fingerpad.finger import Material
+from fingerpad.linear_solution import indent_device
 from fingerpad.scene import Scene
-from fingerpad.solution import indent_device
 from scenes import condensed, scene, section
 
 SCHEMA = Path(__file__).parents[1] / "workflow" / "schemas" / "device.schema.yaml"

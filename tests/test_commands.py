@@ -30,11 +30,12 @@ from fingerpad.contact_law import Criterion, Interface
 from fingerpad.device import Condition
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.forecast import LEFT_OUT, forecast, steps
+from fingerpad.linear_solution import Indented
 from fingerpad.prediction import Condensed, Solved, rows_of
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.scene import Scene
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import Indented, Solution
+from fingerpad.solution import Solution
 from fingerpad.template import DRIVES, device_text
 from fingerpad.tissue_law import Kinematics
 from fingerpad.validation import check_device, checked_document

@@ -15,8 +15,8 @@ from fingerpad.errors import ContactError
 from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.path import advance
 from fingerpad.pressing import press
+from fingerpad.problem import left_out
 from fingerpad.scene import Scene
-from fingerpad.solution import left_out
 from fingerpad.tissue_law import Kinematics
 from scenes import scene
 

@@ -18,7 +18,7 @@ from fingerpad.errors import ContactError
 from fingerpad.finger import Material
 from fingerpad.path import follow
 from fingerpad.penalty import PenaltyLaw, follow_penalties, untouched
-from fingerpad.solution import contact_problem
+from fingerpad.problem import contact_problem
 from scenes import condensed, scene
 
 FRICTION = 0.5

@@ -20,20 +20,15 @@ from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
 from fingerpad.increment import GIVING
 from fingerpad.indentation import END_TOLERANCE
+from fingerpad.linear_solution import follow_condition, indent_device, indented_state, solve_condition
 from fingerpad.mesh import mesh_section, nominal_edges
 from fingerpad.path import follow
+from fingerpad.problem import contact_problem
 from fingerpad.readout import Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score, score_span
 from fingerpad.scene import Scene
-from fingerpad.solution import (
-    Solution,
-    contact_problem,
-    follow_condition,
-    indent_device,
-    indented_state,
-    solve_condition,
-)
+from fingerpad.solution import Solution
 from scenes import condensed, scene, solve, solved
 
 ROUNDING = 1e-10  # of a share [1]: that of shares of 1e-6 of forces

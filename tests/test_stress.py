@@ -21,7 +21,9 @@ from fingerpad.contact_law import Criterion, Interface
 from fingerpad.device import ActuatorRow, Condition
 from fingerpad.errors import FingerpadError, MeshError
 from fingerpad.indentation import indent
+from fingerpad.linear_solution import solve_condition
 from fingerpad.mesh import mesh_section, nominal_edges
+from fingerpad.problem import contact_problem
 from fingerpad.randomscene import (
     FRICTION,
     GROUP,
@@ -36,7 +38,6 @@ from fingerpad.randomscene import (
     random_scene,
 )
 from fingerpad.reach import contact_tractions
-from fingerpad.solution import contact_problem, solve_condition
 from fingerpad.stress import (
     SOLVED,
     Outcome,

@@ -9,7 +9,8 @@ import pytest
 
 from fingerpad.compliance import MIRROR
 from fingerpad.contact_law import Interface
-from fingerpad.solution import contact_problem, indented_state
+from fingerpad.linear_solution import indented_state
+from fingerpad.problem import contact_problem
 from fingerpad.symmetry import mirrors
 from scenes import condensed, scene
 

@@ -20,12 +20,12 @@ from fingerpad.elasticity import mass
 from fingerpad.errors import CycleError, ReachError, SceneError
 from fingerpad.frequency import condense_vibrating_at, cyclic_readouts, frequency_rows, vibration_scores
 from fingerpad.inertia import condense_vibrating, inertia_effect
+from fingerpad.linear_solution import Indented, indent_device
 from fingerpad.mesh import SectionMesh
 from fingerpad.path import follow
 from fingerpad.prediction import condense_mesh
 from fingerpad.readout import Readout
 from fingerpad.scene import Scene
-from fingerpad.solution import Indented, indent_device
 from fingerpad.vibration_rule import Relaxation
 from fingerpad.viscoelasticity import retardation_times, stiffening
 from scenes import scene

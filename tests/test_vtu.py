@@ -15,10 +15,10 @@ from scipy.spatial import KDTree
 from fingerpad.arrays import FloatArray
 from fingerpad.contact_law import Interface, TurningNormal
 from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS
+from fingerpad.linear_solution import solve_condition
 from fingerpad.measures import stress
 from fingerpad.mesh import NODES
 from fingerpad.reach import contact_tractions
-from fingerpad.solution import solve_condition
 from fingerpad.states import States, linear_states, strain_at, stress_at
 from fingerpad.strain import maximum_principal
 from fingerpad.tissue_law import Kinematics

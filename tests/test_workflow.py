@@ -142,6 +142,11 @@ def test_solver_jobs_load_no_plots_no_tables_no_schemas(project: Project, name: 
     assert not {"matplotlib", "pandas", "jsonschema"} & loaded(project, RULES[name].script)
 
 
+@pytest.mark.parametrize("script", ["filter", "score", "figure_map", "figure_receptors"])
+def test_jobs_that_read_solutions_load_no_solver(project: Project, script: str) -> None:
+    assert "fingerpad.active_set" not in loaded(project, f"workflow/scripts/{script}.py")
+
+
 @pytest.mark.parametrize("script", ["check", "notebook", "report"])
 def test_jobs_compile_no_grammar_of_web_addresses(project: Project, script: str) -> None:
     assert "rfc3987_syntax" not in loaded(project, f"workflow/scripts/{script}.py")

@@ -26,12 +26,12 @@ from .mesh import SectionMesh
 from .path import follow
 from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched
 from .pressing import indented_height
+from .problem import contact_problem
 from .readout import Readout
 from .receptors import arc_length, receptor_gradient
 from .resampling import resampling_to_grid
 from .roughness import roughness_score, score_span
 from .scene import Scene
-from .solution import contact_problem
 from .strain import maximum_principal
 from .tissue_law import Kinematics, Law
 

@@ -23,10 +23,11 @@ from .elasticity import displacement_basis, node_dofs
 from .finite_strain import logarithmic_strain
 from .mesh import SectionMesh
 from .pressing import Pressed, whole_part
+from .problem import contact_problem, increments, named_pressing, named_stimulus
 from .receptors import receptor_gradient
 from .scene import Scene
 from .skin import Skin, require_uncrossed, skin_of
-from .solution import Solution, contact_problem, increments, left_out, named, named_pressing, solution
+from .solution import Solution, solution
 
 
 @dataclass(frozen=True)
@@ -95,8 +96,7 @@ def certified_equilibria(
     """`equilibria`, and their certificate. Raises ContactError as `stimulate_deformed`."""
     with named_pressing(scene, finger.interface):
         pressed = _certified(finger, finger.start)
-    case = f"device={scene.device.name}, condition={condition.name}, interface={finger.interface}"
-    with named(case, left_out(scene, finger.interface)):
+    with named_stimulus(scene, condition, finger.interface):
         found = equilibria(scene, finger, condition)
         return found, worst([pressed, *(_certified(finger, each) for each in found[1:])])
 

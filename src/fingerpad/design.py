@@ -19,12 +19,13 @@ from .condensation import condense_section
 from .contact_law import Interface
 from .device import ActuatorRow, Condition, Control, Device
 from .errors import ContactError
+from .linear_solution import Indented, indent_device, stimulate
 from .mesh import mesh_section
 from .prediction import Condensed, read_out
 from .resampling import resampling_to_grid
 from .roughness import score_rows
 from .scene import Scene
-from .solution import Indented, Solution, indent_device, stimulate
+from .solution import Solution
 from .strain import FilteredReadouts
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)

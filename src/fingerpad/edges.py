@@ -19,10 +19,11 @@ from .condensation import condense_section
 from .contact import ContactProblem, ContactState
 from .contact_law import Interface
 from .errors import CondensationError, ContactError, CriterionError, MeshError
+from .linear_solution import follow_condition, indented_state
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
+from .problem import contact_problem
 from .scene import Scene
-from .solution import contact_problem, follow_condition, indented_state
 from .store import read_rows, write_rows
 from .tissue_law import Kinematics
 

@@ -13,8 +13,8 @@ from .contact import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .indentation import raise_until
 from .path import SolveIncrement, State
+from .problem import increments
 from .scene import Scene
-from .solution import increments
 
 RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction
 

@@ -24,12 +24,13 @@ from .device import Cycle
 from .errors import ContactError, InertiaError
 from .gabor import filtered_readouts
 from .inertia import condense_vibrating, highest_frequency, inertia_effect
+from .linear_solution import Indented, indent_device
 from .mesh import SectionMesh
 from .prediction import Condensed
+from .problem import named
 from .readout import Readout
 from .roughness import NO_PREDICTION, SCORE_UNIT, roughness_score, score_span
 from .scene import Scene
-from .solution import Indented, indent_device, named
 from .strain import maximum_principal
 
 SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed

@@ -8,12 +8,12 @@ from typing import Any
 from .creep import condense_creep
 from .errors import ContactError
 from .frequency import vibration_scores
+from .linear_solution import Indented
 from .mesh import SectionMesh
 from .prediction import Condensed
 from .readout import Readout
 from .roughness import NO_PREDICTION
 from .scene import Scene
-from .solution import Indented
 
 
 def relaxation_variants(scene: Scene) -> dict[str, Scene]:

@@ -19,11 +19,11 @@ from .creep import stiffened
 from .device import Cycle
 from .elasticity import mass
 from .halves import right_half
+from .linear_solution import Indented
 from .mesh import SectionMesh
 from .reach import contact_tractions
 from .roughness import score_span
 from .scene import Scene
-from .solution import Indented
 
 
 def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float, density: float) -> CondensedSection:

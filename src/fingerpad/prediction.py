@@ -18,13 +18,14 @@ from .deformed_solution import pressed_finger, stimulate_deformed
 from .device import Condition
 from .errors import CondensationError, ContactError, MeshError
 from .gabor import filtered_readouts
+from .linear_solution import indent_device, stimulate
 from .mesh import SectionMesh, mesh_section
 from .pressing import press
 from .receptors import arc_length, receptor_strain
 from .resampling import resampling_to_grid
 from .roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows, unsolved_rows
 from .scene import Scene
-from .solution import Solution, indent_device, stimulate
+from .solution import Solution
 from .strain import FilteredReadouts, Resampling
 from .tissue_law import Kinematics
 

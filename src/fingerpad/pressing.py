@@ -38,13 +38,14 @@ from .force_curve import curve_of, recording
 from .halves import Parts, right_half, unfold, unfolding, whole
 from .hyperelasticity import tissue_of
 from .indentation import raise_until
+from .linear_solution import indent_device
 from .mesh import SectionMesh
 from .path import SolveIncrement, advance
+from .problem import contact_problem, increments, named_pressing
 from .reach import contact_tractions
 from .receptors import arc_length, receptor_strain
 from .scene import Scene
 from .skin import require_uncrossed, skin_of
-from .solution import contact_problem, increments, indent_device, named_pressing
 from .symmetry import half_of, mirrors, unfolded
 from .tissue_law import Kinematics
 from .traction import Tractions

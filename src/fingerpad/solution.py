@@ -1,35 +1,19 @@
-"""One condition solved: pre-indentation, stimulus, certificate and receptor read-outs."""
+"""A solved condition: what is kept of it, whatever tissue it was solved on."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .arrays import FloatArray
-from .certificate import Certificate, certify, worst
-from .compliance import CondensedBody, CondensedSection
+from .certificate import Certificate
+from .compliance import CondensedSection
 from .contact import ContactProblem, ContactState, shearing_and_pressing
-from .contact_law import Criterion, Interface
-from .depth import depth, require_tissue
-from .device import Condition
-from .errors import ContactError, MeshError
-from .increment import solve_increment
-from .indentation import indent
-from .path import advance
+from .depth import depth
 from .readout import Readout
-from .scene import Scene
 from .strain import receptor_readouts, rival_peak, time_read
-from .symmetry import indent_by_halves
-from .tissue_law import Kinematics
-
-FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
-
-TOUCH = ", and so does contact.criterion: touch (in config/config.yaml, where it changes every device)"
-SMALL_ALONE = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
-SHEAR_ALONE = "; `interfaces: shear` in the device's file leaves out what is without friction"
 
 
 @dataclass(frozen=True)
@@ -78,99 +62,6 @@ class Solution:
         return np.concatenate([self.indented_force[None], self.force])
 
 
-@dataclass(frozen=True)
-class Indented:
-    """A device pressed onto the finger, with the state's certificate: the same for all conditions."""
-
-    interface: Interface
-    problem: ContactProblem
-    state: ContactState
-    certificate: Certificate
-
-
-def contact_problem(
-    scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
-) -> ContactProblem:
-    """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
-    numerics, law = scene.model.numerics, scene.model.contact
-    problem = ContactProblem(
-        position=section.position,
-        compliance=section.compliance,
-        row=scene.device.actuators,
-        body=body,
-        friction=law.coefficient(interface),
-        tolerance=numerics.newton_tolerance,
-        max_cuts=numerics.max_cuts,
-        patches=scene.model.skips.inactive_nodes,
-        turning=law.turns(scene.kinematics, interface),
-    )
-    centres = problem.row.positions
-    missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
-    if missed.size:
-        raise MeshError(
-            f"{scene.device.name}: no skin node is near the actuator at x = {centres[missed[0]]:g} mm, nor near"
-            f" {missed.size - 1} others of {len(centres)}; try a smaller numerics.face_size"
-        )
-    return problem
-
-
-def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
-    """Load increments of pre-indentation and of each segment of a stimulus."""
-    numerics, share = scene.model.numerics, 1
-    linear = scene.kinematics is Kinematics.SMALL  # much less than all at once is too far for Newton's method
-    if scene.model.skips.frictionless_path and problem.friction == 0.0 and linear:
-        share = FRICTIONLESS_SHARE
-    return -(-numerics.indentation_increments // share), -(-numerics.stimulus_increments // share)
-
-
-def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
-    """State after pre-indentation: the same for all conditions of a device and interface. Raises ContactError."""
-    solve = indent_by_halves if scene.model.skips.mirrored_half else indent
-    count, _ = increments(scene, problem)
-    return solve(problem, scene.model.contact.criterion, count, scene.model.finger.pad_thickness)
-
-
-def follow_condition(
-    scene: Scene, problem: ContactProblem, before: ContactState, condition: Condition
-) -> list[ContactState]:
-    """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
-    require_tissue(problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
-    states, patch, (_, count) = [before], None, increments(scene, problem)
-    for moved in condition.moves:
-        state, patch = advance(problem, states[-1], before.actuator + moved, count, patch, solve_increment)
-        states.append(state)
-    return states[1:]
-
-
-def indent_device(
-    scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
-) -> Indented:
-    """Press the device onto the finger: where the stimuli of all conditions begin.
-
-    Raises MeshError if an actuator is nearest to no skin node, ContactError, naming device and interface, if the path
-    cannot be followed, or its end has no certificate.
-    """
-    problem = contact_problem(scene, section, body, interface)
-    with named_pressing(scene, interface):
-        state = indented_state(scene, problem)
-        return Indented(interface, problem, state, certify(problem, section, state))
-
-
-def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:
-    """Solve the stimulus of one condition on the pressed finger.
-
-    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if a state's
-    certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
-    """
-    problem, before = indented.problem, indented.state
-    case = f"device={scene.device.name}, condition={condition.name}, interface={indented.interface}"
-    with named(case, left_out(scene, indented.interface)):
-        states = [before, *follow_condition(scene, problem, before, condition)]
-        certificate = worst([indented.certificate, *(certify(problem, section, state) for state in states[1:])])
-    strains = section.receptor_strain(np.array([state.force for state in states]))
-    return solution(problem, section, states, strains, certificate)
-
-
 def solution(
     problem: ContactProblem,
     section: CondensedSection,
@@ -205,37 +96,3 @@ def solution(
         searches=last.searches,
         certificate=certificate,
     )
-
-
-def solve_condition(
-    scene: Scene,
-    section: CondensedSection,
-    body: CondensedBody | None,
-    condition: Condition,
-    interface: Interface,
-) -> Solution:
-    """The whole path of one condition: `indent_device`, then `stimulate`. Raises what they raise."""
-    return stimulate(scene, section, indent_device(scene, section, body, interface), condition)
-
-
-@contextmanager
-def named(what: str, advice: str = "") -> Iterator[None]:
-    """Name in every ContactError what was being solved, and say what else may help."""
-    try:
-        yield
-    except ContactError as error:
-        raise type(error)(f"{what}: {error}{advice}") from error
-
-
-def left_out(scene: Scene, interface: Interface) -> str:
-    """What a device's file may leave out where it cannot be solved."""
-    finite, frictionless = scene.kinematics is Kinematics.FINITE, interface is Interface.FRICTIONLESS
-    return (SMALL_ALONE if finite else "") + (SHEAR_ALONE if frictionless else "")
-
-
-def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
-    """`named`, for pre-indentation, which goes the deeper the wider the row is."""
-    full = scene.model.contact.criterion is Criterion.FULL
-    advice = "; a narrower row needs less indentation" + (TOUCH if full else "")
-    advice += left_out(scene, interface)
-    return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)

@@ -22,13 +22,14 @@ from .elasticity import displacement_basis
 from .fields import Fields
 from .finite_strain import logarithmic_strain
 from .hyperelasticity import cauchy_stress, tissue_of
+from .linear_solution import solve_condition
 from .mean_stress import element_means, recover_linear
 from .measures import stress
 from .mesh import NODES, SectionMesh
 from .pressing import press
 from .recovery import gradient_at, recover_displacement, strain_of
 from .scene import Scene
-from .solution import Solution, solve_condition
+from .solution import Solution
 from .strain import maximum_principal
 from .tissue_law import Kinematics
 

@@ -17,12 +17,13 @@ from .contact_law import Interface
 from .deformed_solution import pressed_finger, stimulate_deformed
 from .device import ActuatorRow, Condition
 from .errors import CertificateError, FingerpadError, MeshError
+from .linear_solution import solve_condition
 from .mesh import SectionMesh, mesh_section, nominal_edges
 from .pressing import press
 from .randomscene import GROUP, random_deformed_scene, random_group, random_scene
 from .reach import contact_tractions
 from .scene import Scene
-from .solution import Solution, solve_condition
+from .solution import Solution
 
 SOLVED = "solved"
 MOST_CONTACT = 400  # skin nodes that may come into contact [1]; source: a scene then takes about a second

@@ -6,10 +6,10 @@ from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
 from fingerpad.frequency_variants import variant_rows
 from fingerpad.jobs import plain_errors
+from fingerpad.linear_solution import indent_device
 from fingerpad.mesh import load_section
 from fingerpad.prediction import Condensed
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import indent_device
 from fingerpad.store import load, write_rows
 from fingerpad.strain import Resampling
 

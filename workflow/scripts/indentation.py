@@ -8,8 +8,8 @@ from fingerpad.contact_law import Interface
 from fingerpad.force_curve import limit_points, small_strain_curve
 from fingerpad.jobs import plain_errors
 from fingerpad.pressing import Pressed
+from fingerpad.problem import contact_problem
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import contact_problem
 from fingerpad.store import load, write_rows
 from fingerpad.tissue_law import Kinematics
 

@@ -5,8 +5,8 @@ from pathlib import Path
 from fingerpad.compliance import CondensedBody, CondensedSection
 from fingerpad.contact_law import Interface
 from fingerpad.jobs import plain_errors
+from fingerpad.linear_solution import solve_condition
 from fingerpad.scenefile import load_scene
-from fingerpad.solution import solve_condition
 from fingerpad.store import load, save
 
 

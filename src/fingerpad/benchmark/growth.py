@@ -12,10 +12,10 @@ import numpy as np
 from ..contact_law import Criterion, Interface
 from ..device import ActuatorRow, Condition
 from ..edges import edge_intervals
+from ..linear_solution import indent_device, stimulate
 from ..mesh import mesh_section
 from ..prediction import condense_scene
 from ..scene import Scene
-from ..solution import indent_device, stimulate
 from .timing import exponent, fewest
 
 Row = dict[str, Any]

@@ -10,13 +10,15 @@ from ..contact_law import Interface
 from ..device import Condition
 from ..edges import edge_intervals
 from ..errors import SceneError
+from ..linear_solution import indent_device
 from ..mesh import SectionMesh, mesh_section
 from ..prediction import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out
+from ..problem import increments
 from ..reach import contact_tractions
 from ..readout import Readout
 from ..roughness import score_rows
 from ..scene import Scene
-from ..solution import Solution, increments, indent_device
+from ..solution import Solution
 from ..tissue_law import Kinematics
 from .first_order import condense_first_order
 from .plain import plain_scores

@@ -21,10 +21,10 @@ from ..gabor import filtered_readouts
 from ..increment import solve_increment
 from ..mesh import SectionMesh
 from ..path import advance
+from ..problem import contact_problem
 from ..resampling import resampling_to_grid
 from ..roughness import score_rows
 from ..scene import Scene
-from ..solution import contact_problem
 from ..strain import receptor_readouts
 
 

@@ -12,12 +12,12 @@ from ..accuracy import CASE, relative_error
 from ..arrays import FloatArray
 from ..contact_law import Interface
 from ..edges import edge_intervals
+from ..linear_solution import indent_device, stimulate
 from ..mesh import SectionMesh, mesh_section
 from ..numerics import Skips
 from ..prediction import condense_scene, predicted_rows, prepared
 from ..recovery import recover_displacement
 from ..scene import Scene
-from ..solution import indent_device, stimulate
 from ..states import states_fields
 from ..strain import receptor_readouts
 from ..tissue_law import Kinematics
