@@ -86,17 +86,23 @@ def test_filter_of_a_cosine(wavelength: float, period: float) -> None:
 
 
 def test_change_filter_has_almost_no_mean() -> None:
-    """The signed area of the filtered change vanishes for every stimulus: that is why the score is rectified."""
+    """The signed area of the filtered change all but vanishes for every stimulus: that is why the score is rectified.
+    It is that of the stimulus times the kernel's, but for the tails behind REACH, which are cut off.
+    """
     grid = np.linspace(-12.0, 12.0, 2401)
     bump = np.exp(-((grid - 0.7) ** 2))
     filtered = gabor_filtered(grid, bump, 1.15, SIGMA)
-    # the kernel's transform at zero is exp(-(2 pi sigma / lambda)^2 / 2) = 7e-9 of its peak
-    assert abs(np.trapezoid(filtered, grid)) < 1e-7
+    mean = math.exp(-((2.0 * math.pi * SIGMA / 1.15) ** 2) / 2.0)  # of the kernel over its envelope's: 7e-9
+    areas = math.sqrt(math.pi) * SIGMA * math.sqrt(2.0 * math.pi)  # of the bump and of the envelope
+    tails = areas * math.erfc(REACH / math.sqrt(2.0))
+    assert np.trapezoid(filtered, grid) == pytest.approx(areas * mean, abs=tails)
     assert roughness_score(grid, filtered, (-5.0, 5.0)) > 1e-3
 
 
 def test_score_is_the_rectified_area_over_the_span() -> None:
-    """|cos| over whole periods has mean 2 / pi; spans that end between samples count their share."""
+    """|cos| over whole periods has mean 2 / pi, less (k h)^2 / 12 = 8e-5 of it by the trapezoidal rule; spans that end
+    between samples count their share.
+    """
     grid = np.linspace(-10.0, 10.0, 4001)
     assert roughness_score(grid, np.cos(2 * np.pi * grid), (-3.0, 3.0)) == pytest.approx(6 * 2 / np.pi, rel=1e-4)
     assert roughness_score(grid, np.ones_like(grid), (-0.0012, 0.0031)) == pytest.approx(0.0043, rel=1e-12)

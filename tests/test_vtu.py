@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 
 from fingerpad.arrays import FloatArray
 from fingerpad.contact_law import Interface, TurningNormal
-from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS
+from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS, lame
 from fingerpad.linear_solution import solve_condition
 from fingerpad.measures import stress
 from fingerpad.mesh import NODES
@@ -96,7 +96,7 @@ def test_midpoints_lie_between_their_corners(read: meshio.Mesh) -> None:
 def test_elements_turn_one_way_and_cover_the_section(read: meshio.Mesh) -> None:
     """Jacobians of VTK's shapes are positive and integrate to outline less bone, pi (a b - c d), in mm2.
 
-    Sides that are parabolas miss an ellipse by the fourth order of their length: a rounding of 1e-6 here.
+    Sides that are parabolas miss an ellipse by the fourth order of their length: 5e-9 of the area here (measured).
     """
     points = by_element(read, read.points[:, :2])
     area = 0.0
@@ -106,7 +106,7 @@ def test_elements_turn_one_way_and_cover_the_section(read: meshio.Mesh) -> None:
         area += weight * float(np.sum(ax * by - ay * bx))
     finger = scene(DEVICE).model.finger
     outline, bone = finger.width * finger.height, finger.bone_width * finger.bone_height
-    assert area == pytest.approx(np.pi / 4.0 * (outline - bone), rel=1e-6)
+    assert area == pytest.approx(np.pi / 4.0 * (outline - bone), rel=1e-8)
 
 
 def strain_of(read: meshio.Mesh, x: float, y: float) -> FloatArray:
@@ -155,9 +155,8 @@ def test_turned_tissue_has_no_finite_strain() -> None:
     nothing = np.zeros((1, skin_nodes(), 2))
     (turned,) = field_meshes(section(DEVICE), finite, States(np.array([[-y - x, x - y]]), nothing))
     assert np.abs(turned.point_data["logarithmic_strain"]).max() < ROUNDING
-    assert (
-        np.abs(turned.point_data["cauchy_stress_MPa"]).max() < 1e-6
-    )  # MPa; nearly incompressible: 25 E times rounding
+    stiffest = max(sum(lame(layer.material)) for layer in finite.model.finger.layers)  # lambda + mu [MPa]
+    assert np.abs(turned.point_data["cauchy_stress_MPa"]).max() < ROUNDING * stiffest
     x, y, _ = turned.points.T
     assert turned.point_data["displacement_mm"][:, 1] == pytest.approx(x - y)
 
@@ -176,7 +175,7 @@ def test_stress_is_that_of_the_elements_layer(read: meshio.Mesh) -> None:
         stresses = by_element(read, read.point_data["stress_MPa"])[own].reshape(-1, 6)
         exx, eyy, _, exy, _, _ = strain.T
         expected = stress(np.stack([exx, eyy, 2.0 * exy], axis=1).ravel(), layer.material)
-        tolerance = 1e-12 * np.abs(stresses).max()
+        tolerance = 1e-12 * np.abs(stresses).max()  # some thousand roundings
         mean = stresses[:, :3].mean(axis=1)
         assert np.abs(stresses[:, 3] - expected[:, 3]).max() < tolerance
         for component in range(3):
@@ -185,12 +184,14 @@ def test_stress_is_that_of_the_elements_layer(read: meshio.Mesh) -> None:
         place = by_element(read, read.points[:, :2])[own]
         linear = np.concatenate([np.ones((*place.shape[:2], 1)), place - place.mean(axis=1, keepdims=True)], axis=2)
         nodal = mean.reshape(-1, 6, 1)
-        assert np.abs(linear @ (np.linalg.pinv(linear) @ nodal) - nodal).max() < 1e3 * tolerance
+        assert np.abs(linear @ (np.linalg.pinv(linear) @ nodal) - nodal).max() < tolerance
 
 
 @pytest.mark.parametrize("state", [0, 1])
 def test_tractions_integrate_to_the_contact_forces(state: int) -> None:
-    """Integrals of pressure and shear along the skin, linear between vertices, are the forces of the solution."""
+    """Integrals of pressure and shear along the skin, linear between vertices, are the forces of the solution,
+    but for the rounding of sums of some hundred terms.
+    """
     solution = solved(DEVICE, CONDITION, Interface.SHEAR)
     forces = np.stack([solution.indented_force, *solution.force])
     mesh, skin = section(DEVICE).mesh, section(DEVICE).skin
@@ -200,7 +201,7 @@ def test_tractions_integrate_to_the_contact_forces(state: int) -> None:
     length = np.hypot(*np.diff(vertices, axis=1))
     ends = on_skin[:, ::2]
     found = np.sum((ends[:, 1:] + ends[:, :-1]) / 2.0 * length, axis=1)
-    assert found == pytest.approx(forces[state].sum(axis=0), rel=1e-9, abs=1e-9 * forces[state].sum())
+    assert found == pytest.approx(forces[state].sum(axis=0), rel=1e-13, abs=1e-13 * forces[state].sum())
     assert on_skin[:, 1::2] == pytest.approx((ends[:, 1:] + ends[:, :-1]) / 2.0)
 
 
