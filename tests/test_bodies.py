@@ -196,5 +196,3 @@ def test_a_body_softer_than_the_tissue_is_pressed_with_hardly_an_increment_halve
     soft = with_body(replace(shipped, material=replace(shipped.material, modulus=modulus)))
     found = indent_device(soft, condensed("device3")[0], body_of(soft), Interface.SHEAR)
     assert found.state.cuts <= halved
-    each = np.bincount(found.problem.actuator_of, found.state.force[:, 1])
-    assert each == pytest.approx(each[::-1], rel=1e-6)  # the row mirrors

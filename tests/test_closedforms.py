@@ -20,6 +20,8 @@ from fingerpad.tissue_law import Law
 from scenes import scene
 
 PAD = scene("device2").model.finger.pad
+ROUNDING = 1e-12  # relative; some thousand units of rounding
+STEP = 1e-3  # mm; central differences are off by its square times third derivatives over first ones, less than one
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -50,7 +52,7 @@ def test_pressures_do_not_swing_near_incompressibility() -> None:
 
 def test_the_sector_is_in_equilibrium() -> None:
     """The closed form itself: free faces, and no divergence of the stress that the law's energy has; at any nu."""
-    x, y, step = np.linspace(0.1, 0.9, 5), np.full(5, 0.7), 1e-4
+    x, y = np.linspace(0.1, 0.9, 5), np.full(5, 0.7)
     for poisson in (0.0, 0.3, 0.4999):
         sector = bending.Sector(Material(1.0, poisson), bending.STRAIN)
         tissue = tissue_of(Law.HENCKY, 1.0, [sector.material], np.zeros(1, dtype=int))
@@ -60,14 +62,14 @@ def test_the_sector_is_in_equilibrium() -> None:
 
         faces = stress(np.array([0.0, bending.HEIGHT]), np.array([0.3, 0.3]))
         inside = np.abs(stress(x, y)).max()
-        assert np.abs(faces[:, 0]).max() < 1e-9 * inside
-        across = (stress(x + step, y) - stress(x - step, y))[:, 0]
-        along = (stress(x, y + step) - stress(x, y - step))[:, 1]
-        assert np.abs(across + along).max() / (2.0 * step) < 1e-6 * inside
-        moved = [sector.displacement(x + step, y), sector.displacement(x - step, y)]
-        assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(sector.gradient(x, y)[:, 0], abs=1e-7)
-        moved = [sector.displacement(x, y + step), sector.displacement(x, y - step)]
-        assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(sector.gradient(x, y)[:, 1], abs=1e-7)
+        assert np.abs(faces[:, 0]).max() < 10.0 * ROUNDING * inside  # at 0.4999 lambda is 5000 mu
+        across = (stress(x + STEP, y) - stress(x - STEP, y))[:, 0]
+        along = (stress(x, y + STEP) - stress(x, y - STEP))[:, 1]
+        assert np.abs(across + along).max() / (2.0 * STEP) < STEP**2 * inside
+        moved = [sector.displacement(x + STEP, y), sector.displacement(x - STEP, y)]
+        assert (moved[0] - moved[1]) / (2.0 * STEP) == pytest.approx(sector.gradient(x, y)[:, 0], abs=STEP**2)
+        moved = [sector.displacement(x, y + STEP), sector.displacement(x, y - STEP)]
+        assert (moved[0] - moved[1]) / (2.0 * STEP) == pytest.approx(sector.gradient(x, y)[:, 1], abs=STEP**2)
 
 
 @pytest.mark.parametrize(("poisson", "friction"), spence.CASES)
@@ -94,7 +96,7 @@ def test_layer_stiffness_is_symmetric_and_positive(k: float) -> None:
     """Betti's reciprocity, and energy for every displacement of the faces; also where exponentials would overflow."""
     for layer in PAD:
         found = layers.layer_stiffness(layer, k)
-        assert np.abs(found - found.T).max() < 1e-9 * np.abs(found).max()
+        assert np.abs(found - found.T).max() < ROUNDING * np.abs(found).max()
         assert np.linalg.eigvalsh((found + found.T) / 2.0).min() > 0.0
 
 
@@ -102,7 +104,7 @@ def test_a_thick_layer_is_a_half_plane() -> None:
     """Under a harmonic pressure p a half-plane sinks by 2 (1 - nu^2) p / (E k)."""
     material, k = Material(2.0, 0.3), 1.5
     found = np.linalg.inv(layers.layer_stiffness(Layer("deep", 40.0, material), k)[:2, :2])
-    assert found[1, 1] == pytest.approx(2.0 * (1.0 - material.poisson**2) / (material.modulus * k), rel=1e-10)
+    assert found[1, 1] == pytest.approx(2.0 * (1.0 - material.poisson**2) / (material.modulus * k), rel=ROUNDING)
 
 
 @pytest.mark.parametrize("load", layers.Load)
@@ -112,5 +114,5 @@ def test_layers_may_be_cut(load: layers.Load) -> None:
     whole = layers.exact(PAD, 2, load, x)
     halves = [replace(PAD[2], thickness=PAD[2].thickness / 2.0)] * 2
     cut = layers.exact([*PAD[:2], *halves, *PAD[3:]], 2, load, x)
-    assert np.abs(cut.strain - whole.strain).max() < 1e-9 * np.abs(whole.strain).max()
-    assert cut.displacement == pytest.approx(whole.displacement, rel=1e-9)
+    assert np.abs(cut.strain - whole.strain).max() < ROUNDING * np.abs(whole.strain).max()
+    assert cut.displacement == pytest.approx(whole.displacement, rel=ROUNDING)

@@ -67,7 +67,9 @@ def test_mirrored_motion_gives_mirrored_forces() -> None:
 
 
 def test_energy_balance_and_dissipation() -> None:
-    """Work of the punch = elastic energy + frictional dissipation, the better the finer the increments; none < 0."""
+    """Work of the punch = elastic energy + frictional dissipation, but for trapezoids of 1/20 of the way, an
+    error of the second order; none < 0.
+    """
     problem = touched(100.0, 200.0, 0.3)  # nearly flat: the force along the face is the force on the skin
     errors = []
     for increments in (5, 20):
@@ -84,8 +86,8 @@ def test_energy_balance_and_dissipation() -> None:
         stored, lost = _elastic(problem, state) - stored, state.dissipation - lost
         assert lost > 0.1 * abs(work)  # it slides
         errors.append(abs(work - stored - lost) / abs(work))
-    assert errors[1] < 0.5 * errors[0]
-    assert errors[1] < 0.01
+    assert errors[1] < errors[0] / 4**2
+    assert errors[1] < (1 / 20) ** 2
 
 
 def _elastic(problem: ContactProblem, state: ContactState) -> float:

@@ -117,7 +117,7 @@ def test_without_friction_the_work_done_is_stored() -> None:
     force = state.force.ravel()
     tissue = force @ problem.compliance @ force / 2.0
     penalties = np.sum(np.sum(state.force**2, axis=1) / (2.0 * LAW.pressure_slope * weight))
-    assert work == pytest.approx(tissue + penalties, rel=1e-3)  # trapezoids of 1/200 on a smooth path: (1/200)^2, kinks
+    assert work == pytest.approx(tissue + penalties, rel=1 / steps**2)  # trapezoids
 
 
 def test_it_is_for_rigid_actuators_with_rounded_edges() -> None:
