@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 
 from fingerpad.accuracy import with_errors
+from fingerpad.accuracy_page import accuracy_values
 from fingerpad.benchmark.first_order import condense_first_order
 from fingerpad.benchmark.growth import exponents, growth, row_of
 from fingerpad.benchmark.increments import increment_rows
@@ -32,11 +33,13 @@ from fingerpad.device import Condition, Control
 from fingerpad.edges import edge_intervals, mesh_device
 from fingerpad.errors import SceneError
 from fingerpad.figures.benchmark import benchmark_figure
+from fingerpad.frequency_page import frequency_values
 from fingerpad.numerics import Skips
-from fingerpad.pages import accuracy_values, filled, frequency_values, skipping_values, table
+from fingerpad.pages import filled, table
 from fingerpad.prediction import rows_at
 from fingerpad.readout import Readout
 from fingerpad.scene import Scene
+from fingerpad.skipping_page import skipping_values
 from fingerpad.tissue_law import Kinematics
 from scenes import scene
 

@@ -25,7 +25,7 @@ from fingerpad.ensemble import ensemble_tables
 from fingerpad.errors import SceneError
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.robustness import robustness_values
+from fingerpad.robustness_page import robustness_values
 from fingerpad.scenefile import read_yaml
 from fingerpad.validation import check_device
 from test_claims import CONDITIONS, make_scores

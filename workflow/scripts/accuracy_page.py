@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
+from fingerpad.accuracy_page import accuracy_values
 from fingerpad.files import write_text
-from fingerpad.pages import accuracy_values, filled
+from fingerpad.pages import filled
 
 
 def main(template: Path, tables: dict[str, Path], figures: dict[Path, Path], page: Path) -> None:

@@ -6,7 +6,8 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
-from fingerpad.pages import filled, frequency_values
+from fingerpad.frequency_page import frequency_values
+from fingerpad.pages import filled
 
 
 def main(template: Path, table: Path, variants: Path, scores: Path, figure: Path, page: Path, shown: Path) -> None:

@@ -7,7 +7,7 @@ import pandas as pd
 
 from fingerpad.files import write_text
 from fingerpad.pages import filled
-from fingerpad.robustness import robustness_values
+from fingerpad.robustness_page import robustness_values
 
 
 def main(template: Path, claims: Path, correlations: Path, figure: Path, page: Path, shown: Path) -> None:
