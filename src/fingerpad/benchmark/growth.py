@@ -29,22 +29,9 @@ def growth(scene: Scene, factors: Sequence[float], counts: Sequence[int], repeat
     `factors` times larger increments on the same mesh, and for rows of as many actuators as `counts`.
     """
     for factor in factors:
-        other = scene.coarsened(factor)
-        kept = scene.model.numerics
-        numerics = replace(
-            other.model.numerics,
-            indentation_increments=kept.indentation_increments,
-            stimulus_increments=kept.stimulus_increments,
-        )
-        yield _measured("mesh", scene.with_numerics(numerics), repeats)
+        yield _measured("mesh", _with_increments(scene.coarsened(factor), scene), repeats)
     for factor in factors:
-        kept = scene.model.numerics
-        numerics = replace(
-            kept,
-            indentation_increments=round(kept.indentation_increments / factor),
-            stimulus_increments=round(kept.stimulus_increments / factor),
-        )
-        yield _measured("increments", scene.with_numerics(numerics), repeats)
+        yield _measured("increments", _with_increments(scene, scene, factor), repeats)
     for count in counts:
         yield _measured("actuators", row_of(scene, count), repeats)
 
@@ -91,14 +78,19 @@ def row_of(scene: Scene, count: int) -> Scene:
     device = replace(
         scene.device, name=f"row_of_{count}", actuators=row, conditions=(condition,), cycles=(), frequencies=()
     )
-    numerics = scene.coarsened(FINE).model.numerics
-    kept = scene.model.numerics
+    fine = replace(model, numerics=scene.coarsened(FINE).model.numerics)
+    return _with_increments(Scene(fine, device), scene)
+
+
+def _with_increments(scene: Scene, other: Scene, factor: float = 1.0) -> Scene:
+    """The scene with increments `factor` times as large as another's [1]."""
+    counts = other.model.numerics
     numerics = replace(
-        numerics,
-        indentation_increments=kept.indentation_increments,
-        stimulus_increments=kept.stimulus_increments,
+        scene.model.numerics,
+        indentation_increments=round(counts.indentation_increments / factor),
+        stimulus_increments=round(counts.stimulus_increments / factor),
     )
-    return Scene(replace(model, numerics=numerics), device)
+    return scene.with_numerics(numerics)
 
 
 def _measured(varied: str, scene: Scene, repeats: int) -> Row:
