@@ -23,6 +23,16 @@ from fingerpad.errors import FingerpadError, MeshError
 from fingerpad.indentation import indent
 from fingerpad.linear_solution import solve_condition
 from fingerpad.mesh import mesh_section, nominal_edges
+from fingerpad.outcomes import (
+    SOLVED,
+    Outcome,
+    coarse_section,
+    condensed_group,
+    deformed_outcomes,
+    outcome,
+    outcomes,
+    summary,
+)
 from fingerpad.problem import contact_problem
 from fingerpad.randomscene import (
     FRICTION,
@@ -38,16 +48,6 @@ from fingerpad.randomscene import (
     random_scene,
 )
 from fingerpad.reach import contact_tractions
-from fingerpad.stress import (
-    SOLVED,
-    Outcome,
-    coarse_section,
-    condensed_group,
-    deformed_outcomes,
-    outcome,
-    outcomes,
-    summary,
-)
 
 GROUPS = range(8)
 DEFORMED = [3, 6, 9, 29, 40, 48]  # a second each
@@ -179,7 +179,9 @@ def test_outcomes_are_reproducible_in_any_order() -> None:
 
 def test_outcomes_do_not_depend_on_threads() -> None:
     """One thread and two: the same outcomes; strains within ten times what gaps and forces are solved to (1e-9)."""
-    code = "from fingerpad.stress import *\nfor row in outcomes(range(5)): print(row.outcome, repr(row.largest_strain))"
+    code = (
+        "from fingerpad.outcomes import *\nfor row in outcomes(range(5)): print(row.outcome, repr(row.largest_strain))"
+    )
     said = []
     for threads in ("1", "2"):
         environment = os.environ | {"OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads}

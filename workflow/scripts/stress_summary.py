@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from fingerpad.outcomes import summary
 from fingerpad.store import read_rows, write_rows
-from fingerpad.stress import summary
 from fingerpad.tissue_law import Kinematics
 
 

@@ -184,7 +184,7 @@ def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:
 
 
 def _outcome(number: int, scene: Scene, contact_nodes: int, result: Solution | FingerpadError) -> Outcome:
-    found = isinstance(result, Solution)
+    found = result if isinstance(result, Solution) else None
     return Outcome(
         kinematics=str(scene.kinematics),
         number=number,
@@ -196,10 +196,10 @@ def _outcome(number: int, scene: Scene, contact_nodes: int, result: Solution | F
         contact_nodes=contact_nodes,
         outcome=SOLVED if found else type(result).__name__,
         message="" if found else str(result),
-        iterations=result.iterations if isinstance(result, Solution) else 0,
-        cuts=result.cuts if isinstance(result, Solution) else 0,
-        searches=result.searches if isinstance(result, Solution) else 0,
-        largest_strain=float(result.strain.max()) if isinstance(result, Solution) else 0.0,
+        iterations=found.iterations if found else 0,
+        cuts=found.cuts if found else 0,
+        searches=found.searches if found else 0,
+        largest_strain=float(found.strain.max()) if found else 0.0,
     )
 
 
