@@ -12,6 +12,7 @@ from fingerpad.condensation import condense_section
 from fingerpad.contact_law import Interface
 from fingerpad.device import Condition
 from fingerpad.edges import mesh_device
+from fingerpad.export import DeckSettings
 from fingerpad.linear_solution import solve_condition
 from fingerpad.mesh import SectionMesh
 from fingerpad.scene import Scene
@@ -19,6 +20,16 @@ from fingerpad.scenefile import load_scene
 from fingerpad.solution import Solution
 
 CONFIG = Path(__file__).parents[1] / "config"
+DECK = DeckSettings(
+    indentation=1.25,
+    friction_indenting=0.0,
+    friction_acting=0.6,
+    pressure_slope=500.0,
+    stick_slope=100.0,
+    indentation_increments=10,
+    stimulus_increments=4,
+    rest_increments=2,
+)
 
 
 @cache

@@ -16,12 +16,12 @@ from fingerpad.bodies import BODIES
 from fingerpad.contact_law import Interface
 from fingerpad.device import Body
 from fingerpad.errors import MeshError, SceneError
-from fingerpad.export import DeckSettings, input_deck
+from fingerpad.export import input_deck
 from fingerpad.figures.actuators import draw_actuators
 from fingerpad.finger import Material
 from fingerpad.linear_solution import indent_device
 from fingerpad.scene import Scene
-from scenes import condensed, scene, section
+from scenes import DECK, condensed, scene, section
 
 SCHEMA = Path(__file__).parents[1] / "workflow" / "schemas" / "device.schema.yaml"
 SOFT = Material(1.0, 0.3)
@@ -160,21 +160,7 @@ def test_decks_have_strips_alone() -> None:
     with pytest.raises(
         SceneError, match="deck: found actuators of the kind Flared; allowed: rigid and deformable ones"
     ):
-        input_deck(
-            other,
-            section("device3"),
-            other.device.conditions[0],
-            DeckSettings(
-                indentation=1.0,
-                friction_indenting=0.0,
-                friction_acting=0.6,
-                pressure_slope=500.0,
-                stick_slope=100.0,
-                indentation_increments=10,
-                stimulus_increments=4,
-                rest_increments=2,
-            ),
-        )
+        input_deck(other, section("device3"), other.device.conditions[0], DECK)
 
 
 def test_it_is_drawn_as_it_is() -> None:

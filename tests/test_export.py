@@ -18,20 +18,10 @@ from fingerpad.export import FRICTIONLESS, READ_NODES, DeckSettings, input_deck,
 from fingerpad.profile import profile
 from fingerpad.scene import Scene
 from fingerpad.tissue_law import Kinematics, Law
-from scenes import CONFIG, scene, section
+from scenes import CONFIG, DECK, scene, section
 
 SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"
 CONDITION = "alternate_180"
-SETTINGS = DeckSettings(
-    indentation=1.25,
-    friction_indenting=0.0,
-    friction_acting=0.6,
-    pressure_slope=500.0,
-    stick_slope=100.0,
-    indentation_increments=10,
-    stimulus_increments=4,
-    rest_increments=2,
-)
 WRITTEN = 1e-11  # of a number [1]; source: decks have twelve digits of it
 SIDES = {3: ((0, 3, 1), (1, 4, 2), (2, 5, 0)), 4: ((0, 4, 1), (1, 5, 2), (2, 6, 3), (3, 7, 0))}  # by corners
 
@@ -40,7 +30,7 @@ Block = tuple[str, dict[str, str], list[list[str]]]  # keyword, its parameters, 
 
 @cache
 def deck(device: str) -> list[Block]:
-    return parsed(scene(device), SETTINGS)
+    return parsed(scene(device), DECK)
 
 
 def parsed(a_scene: Scene, settings: DeckSettings) -> list[Block]:
@@ -129,7 +119,7 @@ def test_every_layer_has_its_material() -> None:
 def finite_deck(law: Law) -> list[Block]:
     base = scene("device3")
     tissue = replace(base.model.tissue, kinematics=Kinematics.FINITE, law=law, ogden_exponent=9.0)
-    return parsed(replace(base, model=replace(base.model, tissue=tissue)), SETTINGS)
+    return parsed(replace(base, model=replace(base.model, tissue=tissue)), DECK)
 
 
 @pytest.mark.parametrize("law", list(Law))
@@ -180,7 +170,7 @@ def test_faces_follow_the_profile(device: str) -> None:
 
 def test_a_sharp_edge_ends_the_face() -> None:
     sharp = sharpened(scene("device2"))
-    faces = surface(parsed(sharp, SETTINGS), "ACTUATOR_1_FACE").reshape(-1, 2)
+    faces = surface(parsed(sharp, DECK), "ACTUATOR_1_FACE").reshape(-1, 2)
     centre, half = sharp.device.actuators.positions[0], sharp.device.actuators.width / 2.0
     assert np.all(faces[:, 1] == 0.0)
     assert [faces[:, 0].min(), faces[:, 0].max()] == pytest.approx([centre - half, centre + half], rel=WRITTEN)
@@ -213,7 +203,7 @@ def test_steps_move_the_actuators_along_the_condition() -> None:
     assert all(float(row[3]) == 0.0 for row in still)
     assert len(moves) == 2 * (1 + condition.time.size)  # each is followed by a rest
     values = np.array([[float(row[3]) for row in rows] for rows in moves]).reshape(len(moves), -1, 2)
-    indented = np.array([0.0, SETTINGS.indentation])
+    indented = np.array([0.0, DECK.indentation])
     stimulus = np.stack([condition.tangential, condition.normal], axis=-1)[0]
     wanted = [np.tile(indented, (4, 1)), indented + stimulus]
     assert np.allclose(values, [wanted[0], wanted[0], wanted[1], wanted[1]], rtol=WRITTEN, atol=0.0)
@@ -225,7 +215,7 @@ def test_steps_move_the_actuators_along_the_condition() -> None:
 def test_friction_acts_from_where_it_is_asked(
     indenting: float, acting: float, first: float | None, switched: float | None
 ) -> None:
-    blocks = parsed(scene("device2"), replace(SETTINGS, friction_indenting=indenting, friction_acting=acting))
+    blocks = parsed(scene("device2"), replace(DECK, friction_indenting=indenting, friction_acting=acting))
     found = [float(rows[0][0]) for _, _, rows in of_kind(blocks, "FRICTION")]
     assert found == pytest.approx(
         [value for value in (first, switched) if value is not None], rel=WRITTEN, abs=FRICTIONLESS
@@ -237,7 +227,7 @@ def test_friction_acts_from_where_it_is_asked(
 
 
 def test_without_rest_every_move_is_one_step() -> None:
-    blocks = parsed(scene("device2"), replace(SETTINGS, rest_increments=0))
+    blocks = parsed(scene("device2"), replace(DECK, rest_increments=0))
     assert len(of_kind(blocks, "STEP")) == 3  # the first moves nothing
 
 

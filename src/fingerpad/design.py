@@ -30,9 +30,8 @@ from .strain import FilteredReadouts
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
 SIZE = 4.0
-ROOM = (
-    0.6  # mm beside a pin in which its skin may lie; source: skin moves by 0.5 mm under far, slippery pins (measured)
-)
+# mm beside a pin in which its skin may lie; source: skin moves by 0.5 mm under far, slippery pins (measured)
+ROOM = 0.6
 NAME = "design"
 
 
