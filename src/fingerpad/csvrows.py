@@ -71,11 +71,14 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
 
 
 def told(path: Path, line: int, column: str, found: str, allowed: Sequence[str], meant: str = "") -> str:
-    """What is wrong with a cell. allowed: a phrase, or the names among which the one that was meant is guessed."""
+    """What is wrong with a cell. allowed: a phrase, or the names among which the one that was meant is guessed; of a
+    number with a decimal comma it is that with a point.
+    """
     close = [] if isinstance(allowed, str) else get_close_matches(found, allowed, n=len(allowed) or 1)
     guess = sorted(close, key=lambda name: not name.startswith(found))  # of equally close ones that which goes on
     names = allowed if isinstance(allowed, str) else listed(allowed)
-    meant = next(iter(guess), meant)
+    comma = re.fullmatch(r"[+-]?\d+,\d+", found) if isinstance(allowed, str) else None
+    meant = found.replace(",", ".") if comma else next(iter(guess), meant)
     hint = f"; did you mean '{meant}'?" if meant else ""
     return f"{path}, line {line}, column {column}: found '{found}'; allowed: {names}{hint}"
 

@@ -242,7 +242,7 @@ def _key_problems(schema: Schema, key: Key, found: dict[str, Any], about: str) -
     """Unknown and missing keys of a mapping; a misspelled one is both, and reported once, as unknown."""
     named, open_ = schema["properties"], schema.get("additionalProperties") is not False
     missing = [name for name in schema["required"] if name not in found]
-    if (comma := _decimal_comma(found)) and "value" in named:
+    if "value" in named and (comma := _decimal_comma(found, named["value"])):
         yield _problem(0, _dotted([*key, "value"]), "a decimal comma", "a decimal point", meant=comma, about=about)
         return
     unknown = {name: _closest(name, (n for n in named if n not in found)) for name in found if name not in named}
@@ -285,15 +285,17 @@ def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
 
 def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
     """What was probably meant by a text for a number (1e-9, which YAML takes for text, 0,6 or 16 mm), or by micrometres
-    that are called mm; or nothing.
+    or metres that are called mm; or nothing.
     """
     if isinstance(found, str):
         with suppress(ValueError):
             value = float(found.removesuffix(str(unit)).replace(",", "."))
             return _shown(value) if math.isfinite(value) else ""
-    highest = schema.get("maximum", math.inf)
-    micrometres = unit == "mm" and _is_number(found) and highest < found <= highest / FACTORS["mm", "um"]
-    return f"{{value: {_shown(_scaled(found, FACTORS['mm', 'um']))}, unit: mm}}" if micrometres else ""
+    if unit != "mm" or not _is_number(found):
+        return ""
+    lowest, highest = float(schema.get("minimum", 0.0)), float(schema.get("maximum", math.inf))
+    meant = _scaled(found, FACTORS["mm", "um" if found > highest else "m"])
+    return f"{{value: {_shown(meant)}, unit: mm}}" if meant and lowest <= meant <= highest else ""
 
 
 def _meant_value(schema: Schema, found: Any, unit: str) -> str:
@@ -313,11 +315,18 @@ def _meant_type(kind: str, found: Any) -> str:
     return f"[{_shown(found)}]" if kind == "array" and _is_number(found) else ""
 
 
-def _decimal_comma(found: Mapping[Any, Any]) -> str:
-    """The number that was meant by {value: 0,6, ...}, which is a value 0 and a key 6 without a value; or nothing."""
+def _decimal_comma(found: Mapping[Any, Any], allowed: Schema) -> str:
+    """The number that was meant by {value: 0,6, ...}, which is a value 0 and a key 6 without a value; or nothing.
+
+    YAML reads -0 as 0, so of -0,6 the sign is lost: where numbers below zero are allowed, both are named.
+    """
     whole = found.get("value")
     parts = [name for name, value in found.items() if str(name).isdecimal() and value is None]
-    return f"{whole}.{parts[0]}" if type(whole) is int and len(parts) == 1 else ""
+    if type(whole) is not int or len(parts) != 1:
+        return ""
+    lowest = [allowed[key] for key in ("minimum", "exclusiveMinimum") if key in allowed]
+    meant = f"{whole}.{parts[0]}"
+    return f"{meant} or -{meant}" if whole == 0 and min(lowest, default=0.0) < 0.0 else meant
 
 
 def _scaled(value: Any, factor: float) -> Any:
