@@ -16,7 +16,7 @@ STEP = "  "  # of indentation
 
 HEADER = """\
 # {name}: a device for fingerpad. Every value has its unit and its source: "paper: ...", "assumption: why", or
-# a reference.
+# a reference. All are those of {origin}, as their sources say: change value and source together.
 # Check it with `fingerpad check`, predict its roughness with `fingerpad predict` or `snakemake all`.
 # The file name is the device's name. Ratings of perceived roughness are optional: rows in data/ratings.csv.
 # Where finite strain cannot follow a stroke, this line leaves it out:
@@ -41,17 +41,38 @@ DRIVES = """\
 """
 
 
-def device_text(name: str, document: Mapping[str, Any], schema: Schema) -> str:
+def device_text(name: str, origin: str, document: Mapping[str, Any], schema: Schema) -> str:
     """Text of a device file with the document's values. Its title says `name`, so that figures tell the two apart.
+
+    Its sources say that the values are those of the device `origin`, and where that has them from: what is in the paper
+    of one device is an assumption of another.
 
     document: a valid device. schema: as `validation.checked_document` gives it for that document.
     """
     title = {"value": name, "unit": "1", "source": "assumption: a new device is called by its name"}
-    lines = list(_mapping({**document, "title": title}, schema, 0, set()))
+    lines = list(_mapping({**_copied(document, origin), "title": title}, schema, 0, set()))
     start = lines.index("stimulus:")
     while lines[start - 1].startswith("#"):
         start -= 1
-    return HEADER.format(name=name) + "\n".join([*lines[:start], *DRIVES.splitlines(), *lines[start:]]) + "\n"
+    return (
+        HEADER.format(name=name, origin=origin)
+        + "\n".join([*lines[:start], *DRIVES.splitlines(), *lines[start:]])
+        + "\n"
+    )
+
+
+def _copied(node: Any, origin: str) -> Any:
+    """A part of a document with sources that name the device whose values it has."""
+    if isinstance(node, list):
+        return [_copied(child, origin) for child in node]
+    if not isinstance(node, dict):
+        return node
+    return {
+        key: f"assumption: as {origin} ({child.removeprefix('assumption: ')})"
+        if key == "source"
+        else _copied(child, origin)
+        for key, child in node.items()
+    }
 
 
 def _mapping(node: Mapping[str, Any], schema: Schema, depth: int, told: set[str]) -> Iterator[str]:

@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> None:
 def described(scene: Scene) -> str:
     """Title, actuators and conditions in words."""
     device, row = scene.device, scene.device.actuators
-    kind = "deformable" if row.body else "rigid"
+    actuators = _several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
     normal, lateral = device.strokes
     distinct = ", ".join(condition.name for condition in device.distinct_conditions)
@@ -89,13 +89,17 @@ def described(scene: Scene) -> str:
     }
     return (
         f"{device.title} ({device.name})\n"
-        f"{len(row.positions)} {kind} actuators, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
+        f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
-        f"{len(device.conditions)} conditions: {conditions}{alike}\n"
+        f"{_several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
         f"skin over the outermost faces lies {rise:.2g} mm above that touched first, on a pad of {pad:g} mm"
         + "".join(f"\n{warning}" for warning, holds in warned.items() if holds)
     )
+
+
+def _several(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def _rise(scene: Scene) -> float:

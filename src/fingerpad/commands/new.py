@@ -17,7 +17,7 @@ from .options import existing_file
 
 DESCRIPTION = """\
 Write config/devices/NAME.yaml with the values of another device and a comment on every key: what it is, its unit, what
-is allowed, and how to change the drive. An existing file is never overwritten.
+is allowed, and how to change the drive. Its sources name the other device. An existing file is never overwritten.
 
 examples:
   fingerpad new mydevice --from device2
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> None:
     is_file = options.source.endswith(".yaml")
     source = existing_file(Path(options.source)) if is_file else require_device(options.source, checkout.devices)
     check_device(source, checkout.schemas, checkout.config)
-    text = device_text(options.name, *checked_document(source, checkout.schemas / "device.schema.yaml"))
+    text = device_text(options.name, source.stem, *checked_document(source, checkout.schemas / "device.schema.yaml"))
     copies = {path: checkout.devices / path.relative_to(source.parent) for path in recordings(source)}
     copies = {path: copy for path, copy in copies.items() if path.resolve() != copy.resolve()}
     for path in (target, *copies.values()):

@@ -84,12 +84,27 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     shown = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
     lines = [titled(scene), *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
-    places: dict[str, list[str]] = {}
+    told: dict[str, list[Mapping[str, Any]]] = {}
     for row in ordered:
         for caveat in row["caveats"]:
-            places.setdefault(caveat, []).append(f"{row['condition']} ({row['interface']}, {row['readout']})")
-    lines += [f"caveat: {', '.join(where)}: {caveat}" for caveat, where in places.items()]
+            told.setdefault(caveat, []).append(row)
+    every = [condition.name for condition in scene.device.conditions]
+    lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in told.items()]
     return "\n".join(lines)
+
+
+def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
+    """Which scores some rows are, each condition named once an interface; or that it is `every` condition."""
+    readouts: dict[tuple[str, str], list[str]] = {}
+    for row in rows:
+        readouts.setdefault((row["interface"], row["condition"]), []).append(row["readout"])
+    conditions: dict[tuple[str, str], list[str]] = {}
+    for (interface, condition), own in readouts.items():
+        conditions.setdefault((interface, " and ".join(own)), []).append(condition)
+    return "; ".join(
+        f"{'all conditions' if len(every) > 1 and own == [*every] else ', '.join(own)} ({interface}, {both})"
+        for (interface, both), own in conditions.items()
+    )
 
 
 def _shown(column: str, value: Any) -> str:
