@@ -27,7 +27,7 @@ rule report:
     params:
         code=code("report.py"),
         commit=lambda w: support.commit(BASE),
-        lateral=LATERAL,
+        example=EXAMPLE,
     script:
         "../scripts/report.py"
 

@@ -24,12 +24,12 @@ def main(
     template: Path,
     pyproject: Path,
     commit: str,
-    lateral: str | None,
+    example: str,
     page: Path,
 ) -> None:
     """Read everything, fill the template, write the page."""
     scenes = tuple(load_scene(config, path) for path in devices)
-    results = Results(scenes, tuple(read_rows(scores)), tuple(read_rows(correlations)), lateral)
+    results = Results(scenes, tuple(read_rows(scores)), tuple(read_rows(correlations)), example)
     edges = read_rows(graph)
     names = {row[end] for row in edges for end in ("rule", "feeds")}
     said = Words(
@@ -68,6 +68,6 @@ if __name__ == "__main__":
         Path(job.input.template),
         Path(job.input.pyproject),
         job.params.commit,
-        job.params.lateral,
+        job.params.example,
         Path(job.output.page),
     )

@@ -22,18 +22,18 @@ ERROR_BARS = "Bars: estimated discretisation error of a score."
 
 @dataclass(frozen=True)
 class Results:
-    """What captions are written from: the scenes, rows of scores.csv and of correlations.csv, and the device that the
-    figures of one lateral device show, if there is one.
+    """What captions are written from: the scenes, rows of scores.csv and of correlations.csv, and the name of the
+    device that figures of one device show.
     """
 
     scenes: tuple[Scene, ...]
     scores: tuple[Row, ...]
     correlations: tuple[Row, ...]
-    lateral: str | None
+    example: str
 
-    def device(self, name: str | None) -> Device:
+    def device(self, name: str) -> Device:
         """The device of that name. Raises KeyError if there is none."""
-        return {scene.device.name: scene.device for scene in self.scenes}[name or ""]
+        return {scene.device.name: scene.device for scene in self.scenes}[name]
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def _stimuli(results: Results) -> Words:
 
 
 def _workflow(results: Results) -> Words:
-    device, gabor = results.device(results.lateral), results.scenes[0].model.gabor
+    device, gabor = results.device(results.example), results.scenes[0].model.gabor
     scores = ". ".join(
         f"{READOUT_NAME[readout]} (λ = {gabor.wavelength(readout):g} mm, {SIGMA} = {gabor.sigma:g} mm):"
         f" {_scores(results, device.name, Interface.SHEAR, readout)}"
@@ -153,7 +153,7 @@ def _correlation(results: Results) -> Words:
 
 
 def _shear(results: Results) -> Words:
-    device = results.device(results.lateral)
+    device = results.device(results.example)
     parts = "; ".join(
         f"{INTERFACE_NAME[interface]}, {_correlated(results, device.name, interface, titled=False)}"
         for interface in reversed(Interface)
