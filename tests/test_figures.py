@@ -33,7 +33,7 @@ from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figu
 from fingerpad.figures.section import DRIVEN, HEAD, section_figure
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.stimuli import stimuli_figure
-from fingerpad.figures.style import MIDDLE, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save
+from fingerpad.figures.style import MIDDLE, MINUS, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.finger import Material
 from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
@@ -230,6 +230,28 @@ def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame)
     assert "no comparison" not in words(correlation_figure(SCORES, RATINGS, rated, {"phased": "Phased pins"}))
 
 
+def test_unrated_conditions_with_one_score_share_a_place() -> None:
+    scores = make_scores([UNRATED]).assign(score=0.3)
+    correlations = correlation_table(scores, RATINGS[:0], ORDER[:0], PUBLISHED[:0])
+    figure = correlation_figure(scores, RATINGS[:0], correlations, {"unrated": "Histories"})
+    for axes in figure.axes:
+        assert [label.get_text() for label in axes.get_yticklabels()] == ["push\nand 1 more"]
+        assert {line.get_ydata()[0] for line in axes.lines} == {1.0}
+
+
+def test_captions_explain_what_is_there_alone(correlations: pd.DataFrame) -> None:
+    certain = correlations.assign(r_error=0.0)
+    for given, is_open in ((certain, False), (certain.assign(r_error=1.1), True)):
+        for figure in (
+            correlation_figure(SCORES, RATINGS, given, TITLES),
+            ablation_figure(SCORES, given, TITLES),
+        ):
+            assert ("open:" in words(figure)) is is_open
+    assert "range:" in words(correlation_figure(SCORES, RATINGS, correlations, TITLES))
+    unordered = correlation_table(SCORES, RATINGS, ORDER[:0], PUBLISHED)
+    assert "range:" not in words(correlation_figure(SCORES, RATINGS, unordered, TITLES))
+
+
 def test_points_lie_where_the_tables_say(correlations: pd.DataFrame) -> None:
     figure = correlation_figure(SCORES, RATINGS, correlations, {"forced": "Forced pucks"})
     strain, change = figure.axes
@@ -345,6 +367,8 @@ def test_stimuli_have_a_panel_a_condition(devices: list[Device]) -> None:
         assert heights.size % moved.shape[2] == 0
         bottom, top = axes.get_ylim()
         assert bottom <= heights.min() <= heights.max() <= top
+        values = [text.get_text().replace(MINUS, "-") for text in axes.texts if text.get_text()[-1].isdigit()]
+        assert [float(value) for value in values] == pytest.approx(heights, abs=0.05)  # um
 
 
 def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
@@ -358,6 +382,20 @@ def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
     assert text.count("n = 4") == 2  # low and high
     assert "unrated: push" in text
     assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]) == 4
+
+
+def test_receptor_figure_explains_what_is_drawn_and_says_what_is_not() -> None:
+    """Of a single pin all phases are one stimulus. Legends are read by rows, with dispersions below phases."""
+    taps = [replace(make_condition(f"tap_{p}", "lone", 0.0, 1), phase_deg=p) for p in (0.0, 45.0)]
+    figure = receptor_figure([make_readouts(replace(SINGLE, conditions=tuple(taps)))])
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°", "under a face before the stimulus"]
+    assert "n = 2: 45° as 0°" in words(figure)
+    figure = receptor_figure([make_readouts(device) for device in DEVICES])
+    figure.draw_without_rendering()
+    boxes = [(text.get_window_extent(), text.get_text()) for text in figure.legends[0].get_texts()]
+    ordered = [said for box, said in sorted(boxes, key=lambda each: (-round(each[0].y0), each[0].x0)) if said.strip()]
+    assert ordered[:5] == ["0°", "60°", "90°", "120°", "180°"]
+    assert ordered[-3:] == ["low dispersion", "high dispersion", "under a face before the stimulus"]
 
 
 @pytest.mark.parametrize("device", [PHASED, UNRATED])

@@ -45,15 +45,20 @@ def has_p(p: object, kind: object) -> bool:
     return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
 
 
+def is_open(row: Mapping[str, Any]) -> bool:
+    """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text, as
+    they can add up to more than |r|.
+    """
+    return bool(row["r_error"] != "" and float(row["r2"]) ** 0.5 < float(row["r_error"]))
+
+
 def slope_name(row: Mapping[str, Any]) -> str:
-    """Which way the slope is of a row of the correlation table, also as text, and whether errors of scores leave that
-    open, as they can add up to more than |r|.
+    """Which way the slope is of a row of the correlation table, also as text, and whether that is open.
 
     >>> slope_name({"slope_sign": "-1", "r2": "0.25", "r_error": "0.6"}), slope_name({"slope_sign": 1, "r_error": ""})
     ('falling (open)', 'rising')
     """
-    open_ = row["r_error"] != "" and float(row["r2"]) ** 0.5 < float(row["r_error"])
-    return SLOPE_NAME[int(row["slope_sign"])] + (" (open)" if open_ else "")
+    return SLOPE_NAME[int(row["slope_sign"])] + (" (open)" if is_open(row) else "")
 
 
 class Relation(StrEnum):

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ..contact_law import Interface
-from ..ratings import OPEN_SLOPE, slope_name
+from ..ratings import OPEN_SLOPE, is_open, slope_name
 from ..readout import Readout
 from ..tissue_law import Kinematics
 from .style import (
@@ -71,7 +71,9 @@ def ablation_figure(
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text, (-30.0, 26.0))
     handles = [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface]
-    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}. {OPEN_SLOPE}")
+    shown = correlations[correlations["device"].isin(titles)].to_dict("records")
+    said = f" {OPEN_SLOPE}" if any(map(is_open, shown)) else ""
+    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{said}")
     return figure
 
 
@@ -112,7 +114,8 @@ def name_conditions(axes: Axes, conditions: pd.DataFrame, is_short: bool = False
     upright = len(places) > MOST_LEVEL
     if conditions.duplicated(["dispersion", "phase_deg"]).any():
         names = [shortened(name) for name in conditions["condition"]]
-        turned: dict[str, Any] = {"rotation": 90.0} if upright else {"rotation": 20.0, "ha": "right"}
+        turned: dict[str, Any] = {"rotation": 20.0, "ha": "right"} if sum(map(len, names)) > NAMES else {}
+        turned = {"rotation": 90.0} if upright else turned
         axes.set_xticks(places[named], names[named], **turned)
         return
     phases = [f"{phase:g}{'' if is_short else '°'}" for phase in conditions["phase_deg"]]

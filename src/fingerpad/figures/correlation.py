@@ -11,9 +11,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ..arrays import FloatArray
 from ..contact_law import Interface
-from ..ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, slope_name
+from ..ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
 from ..readout import Readout
+from ..roughness import SAME
 from ..tissue_law import Kinematics
 from .style import (
     GREY,
@@ -40,18 +42,15 @@ from .style import (
 
 ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
 STATISTICS_WIDTH = 22  # characters in a line beside a panel
-MOST_NAMES = 10  # conditions whose names fit a panel's height
+MOST_NAMES = 8  # lines of conditions' names that fit a panel's height
 TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
-    "{interface}n: conditions; those with one and the same stimulus {alike}.{rated}"
+    "{interface}n: conditions; those with one and the same stimulus have one score.{rated}"
     " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
 )
-RATED = (
-    " Line: least squares. Ratings: {kinds}. range: of R² over all ratings with the stated order. "
-    + OPEN_SLOPE
-    + " τ: Kendall's.{p}"
-)
+RATED = " Line: least squares. Ratings: {kinds}.{range}{open} τ: Kendall's.{p}"
+RANGE = " range: of R² over all ratings with the stated order."
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: an order of scores is a prediction, and no comparison with perception."
 
@@ -66,7 +65,7 @@ def correlation_figure(
 ) -> Figure:
     """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row a device.
 
-    A device without ratings is shown with its conditions in the order of their scores.
+    A device without ratings is shown with its conditions in the order of their scores, equal ones side by side.
 
     scores, correlations: the tables of that name. ratings: device, condition, rating. titles: by device.
     """
@@ -79,9 +78,8 @@ def correlation_figure(
         row[0].set_title(as_title(figure, title, len(Readout)), loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    legend_below(
-        figure, as_points(styles.legend), caption(correlations, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
-    )
+    said = caption(correlations, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
+    legend_below(figure, as_points(styles.legend), said, as_points(styles.spreads))
     return figure
 
 
@@ -95,7 +93,7 @@ def correlation_panel(
 ) -> None:
     """Ratings over scores of one device, interface and read-out, with their statistics beside; or why there is none.
 
-    Without ratings the conditions stand in the order of their scores.
+    Without ratings the conditions stand in the order of their scores; those that rounding alone tells apart share one.
     """
     device, _, readout = key
     row = _only(correlations, key)
@@ -107,7 +105,7 @@ def correlation_panel(
         return
     factor = SCORE_SCALE[readout][0]
     x = factor * points["score"].to_numpy()
-    y = np.arange(1.0, 1.0 + len(points)) if rated.empty else points["rating"].to_numpy()
+    y = _places(x) if rated.empty else points["rating"].to_numpy()
     if pd.notna(row["r2"]):
         slope, intercept = np.polyfit(x, y, 1)
         ends = np.array([x.min(), x.max()])
@@ -119,7 +117,8 @@ def correlation_panel(
     axes.locator_params(axis="x", nbins=TICKS)
     axes.set_xlabel(score_label(readout, str(points["unit"].iloc[0])))
     if rated.empty:
-        _name_ranks(axes, [shortened(styles.series[device, name].label) for name in points["condition"]])
+        names = [shortened(styles.series[device, name].label) for name in points["condition"]]
+        _name_places(axes, y, names)
     else:
         axes.locator_params(axis="y", nbins=TICKS)
         axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
@@ -129,10 +128,21 @@ def correlation_panel(
     )  # fmt: skip
 
 
-def _name_ranks(axes: Axes, names: Sequence[str]) -> None:
-    """Names of conditions at their ranks, lowest score first; ranks alone where names would not fit."""
-    if len(names) <= MOST_NAMES:
-        axes.set_yticks(np.arange(1, 1 + len(names)), list(names))
+def _places(score: FloatArray) -> FloatArray:
+    """Places 1, 2, ... of scores (n,) from the lowest up; those that only rounding tells apart share one.
+
+    >>> _places(np.array([0.1, 0.1, 0.3])).tolist()
+    [1.0, 1.0, 2.0]
+    """
+    return np.cumsum(np.diff(score, prepend=-np.inf) > SAME * np.abs(score)).astype(float)
+
+
+def _name_places(axes: Axes, place: FloatArray, names: Sequence[str]) -> None:
+    """Names of conditions at their places, lowest score first; places alone where names would not fit."""
+    groups = [[name for name, at in zip(names, place, strict=True) if at == each] for each in np.unique(place)]
+    said = [first if not others else f"{first}\nand {len(others)} more" for first, *others in groups]
+    if sum(1 + each.count("\n") for each in said) <= MOST_NAMES:
+        axes.set_yticks(np.unique(place), said)
     else:
         axes.locator_params(axis="y", integer=True)
     axes.set_ylabel("In order of score")
@@ -165,10 +175,14 @@ def caption(correlations: pd.DataFrame, interface: str = "") -> str:
     """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
-    p = P if any(has_p(row["p"], row["rating_kind"]) for row in correlations.to_dict("records")) else ""
-    alike = "have one score" if unrated else "coincide"  # without ratings each has a rank of its own
-    rated = RATED.format(kinds=kinds, p=p) if kinds else ""
-    return CAPTION.format(interface=interface, alike=alike, rated=rated) + unrated
+    rows = correlations.to_dict("records")
+    said = {
+        "range": RANGE if correlations["r2_lowest"].notna().any() else "",
+        "open": f" {OPEN_SLOPE}" if any(map(is_open, rows)) else "",
+        "p": P if any(has_p(row["p"], row["rating_kind"]) for row in rows) else "",
+    }
+    rated = RATED.format(kinds=kinds, **said) if kinds else ""
+    return CAPTION.format(interface=interface, rated=rated) + unrated
 
 
 def shown_in(scores: pd.DataFrame) -> list[Shown]:

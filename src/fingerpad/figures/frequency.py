@@ -63,7 +63,7 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
         axes.set_xlabel("Frequency (Hz)")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    legend_below(figure, styles.legend, CAPTION)
+    legend_below(figure, styles.legend, CAPTION, styles.spreads)
     return figure
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..compliance import CondensedSection
-from ..device import Device
+from ..device import Condition, Device
 from ..readout import READOUT_NAME, Readout
 from ..solution import Solution
 from ..strain import FilteredReadouts
@@ -24,6 +24,7 @@ from .style import (
     THIN,
     WIDE,
     Series,
+    Shown,
     as_title,
     condition_styles,
     conditions_of,
@@ -38,6 +39,8 @@ from .style import (
 ROW_HEIGHT, LEGEND_HEIGHT = 38.0, 18.0  # mm
 MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces of all devices
 MARKER_SPACING = 2.0  # mm between markers on a curve
+
+MOST_ALIKE = 44  # characters of what is said of conditions with one stimulus, beside a panel's count
 
 CAPTION = "With shear, {kinematics}. n: conditions; in a row, those with one and the same stimulus are drawn once."
 # small strains of the shipped devices have no such place, finite ones do at the mid-line
@@ -76,36 +79,58 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = 
     """Strain (A) and change of strain (B) along the receptor line for all conditions of all devices, with shear."""
     rows = [(entry, *each) for entry in devices for each in entry.device.by_dispersion.items()]
     figure = new_figure(WIDE, ROW_HEIGHT * len(rows) + LEGEND_HEIGHT)
-    styles = condition_styles(conditions_of(entry.device for entry in devices))
+    drawn = [
+        Shown(entry.device.name, each[0].name, each[0].dispersion, each[0].phase_deg)
+        for entry, _, own in rows
+        for each in _alike(entry.device, own)
+    ]
+    styles = condition_styles(conditions_of(entry.device for entry in devices), drawn)
     grid = figure.subplots(len(rows), len(Readout), squeeze=False)
     faces = np.concatenate([entry.faces for entry in devices])
     shown = np.nanmin(faces) - MARGIN, np.nanmax(faces) + MARGIN
     for row, (entry, dispersion, own) in zip(grid, rows, strict=True):
-        distinct = {entry.device.first_with_stimulus_of(condition.name).name: condition for condition in own[::-1]}
+        alike = _alike(entry.device, own)
         for axes, readout in zip(row, Readout, strict=True):
             draw_faces(axes, entry.faces)
-            for number, condition in enumerate(reversed(distinct.values())):
+            for number, (condition, *_) in enumerate(alike):
                 found = entry.readouts[condition.name]
                 values = PERCENT * found.unfiltered(readout)
                 series = styles.series[entry.device.name, condition.name]
-                draw_curve(axes, found.arc, values, series, number / len(distinct))
+                draw_curve(axes, found.arc, values, series, number / len(alike))
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         several = len(own) < len(entry.device.conditions)
         named = f"{entry.device.title}{f', {plain(dispersion)} dispersion' if several else ''}"
         row[0].set_title(as_title(figure, named, len(Readout)), loc="left")
-        row[1].set_title(f"n = {len(own)}", loc="right", fontweight="normal")
+        names = [[styles.series[entry.device.name, each.name].short for each in group] for group in alike]
+        row[1].set_title(f"n = {len(own)}{_said(names)}", loc="right", fontweight="normal")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     for axes in grid[-1]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     caption = CAPTION.format(kinematics=KINEMATICS_NAME[kinematics]) + (ZERO if kinematics is Kinematics.FINITE else "")
-    legend_below(figure, [*styles.legend, face_handle()], caption)
+    legend_below(figure, styles.legend, caption, [*styles.spreads, face_handle()])
     return figure
 
 
+def _alike(device: Device, conditions: Sequence[Condition]) -> list[list[Condition]]:
+    """Conditions in groups with one and the same stimulus."""
+    groups: dict[str, list[Condition]] = {}
+    for condition in conditions:
+        groups.setdefault(device.first_with_stimulus_of(condition.name).name, []).append(condition)
+    return list(groups.values())
+
+
+def _said(groups: Sequence[Sequence[str]]) -> str:
+    """Which conditions a row draws as others, or how many curves it has if that is much to say."""
+    pairs = [f"{', '.join(others)} as {first}" for first, *others in groups if others]
+    said = f": {'; '.join(pairs)}" if pairs else ""
+    return said if len(said) <= MOST_ALIKE else f", {len(groups)} drawn"
+
+
 def draw_faces(axes: Axes, faces: FloatArray) -> None:
-    """Shade where skin touches the actuators' faces before the stimulus."""
+    """Shade where skin touches the actuators' faces before the stimulus, along an axis of whole millimetres."""
+    axes.locator_params(axis="x", integer=True)
     for start, stop in faces[np.isfinite(faces).all(axis=1)]:
         axes.axvspan(start, stop, color=SHADE, linewidth=0.0, zorder=0)
 

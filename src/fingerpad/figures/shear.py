@@ -49,7 +49,6 @@ def shear_figure(
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(as_title(figure, f"{title}, {INTERFACE_NAME[interface]}", len(COLUMNS)), loc="left")
         letter(axes, text)
-    legend_below(
-        figure, as_points(styles.legend), caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ")
-    )
+    said = caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ")
+    legend_below(figure, as_points(styles.legend), said, as_points(styles.spreads))
     return figure

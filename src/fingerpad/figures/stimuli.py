@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,8 @@ from ..device import Condition, Device
 from .style import (
     BLUE,
     GREY,
+    MINUS,
+    TEXT,
     THIN,
     VERMILLION,
     WIDE,
@@ -29,14 +31,17 @@ from .style import (
 )
 
 COLUMNS = 3  # panels beside each other
-ROW_HEIGHT, TITLE_HEIGHT, LEGEND_HEIGHT = 19.0, 6.0, 16.0  # mm
+ROW_HEIGHT, TITLE_HEIGHT, LEGEND_HEIGHT = 20.0, 6.0, 16.0  # mm
 MICRO = 1e3  # micrometres in a mm
+TICKS = 2  # intervals along the axis of displacements, at most
+DECIMALS = 1  # of a value in micrometres
+VALUE_GAP = 1.5  # between the line and a value [pt]
 BARS = 0.6  # width of an actuator's bars together, of the distance between actuators [1]
-HEADROOM = 1.1  # of the axes beyond the largest displacement [1]
-MOST_NUMBERS = 16  # actuators up to which each has its number
+HEADROOM = 1.25  # of the axes beyond the largest displacement [1]
+MOST_NUMBERS, MOST_VALUES = 16, 6  # actuators up to which each has its number, and up to which bars have their values
 CAPTION = (
     "Displacements from the pre-indented position; of a stimulus with several times, where actuators have moved"
-    " farthest."
+    " farthest. Numbers in the panels: values (µm), across the line from their bars."
 )
 NORMAL, LATERAL = "normal", "lateral"
 LABELS = {NORMAL: "normal, into the skin", LATERAL: "lateral, to the right"}  # in the order of a device's strokes
@@ -67,13 +72,13 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
                     axes.set_xlabel("Actuator")
             for axes in panels[len(conditions) :]:
                 axes.remove()
-            panels[0].set_ylabel("Displacement\n(µm)")
             if number == 0:
                 title = panels[0].annotate(
                     named, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 16.0), textcoords="offset points",
                     fontweight="bold", fontsize="large", va="bottom",
                 )  # fmt: skip
                 title.set_in_layout(False)  # its room is that of the panels' titles, whose first lines are empty
+    figure.supylabel("Displacement (µm)", fontsize=TEXT)
     handles = [Patch(label=label, **LOOKS[kind]) for kind, label in LABELS.items()]
     legend_below(figure, handles, CAPTION)
     return figure
@@ -100,11 +105,24 @@ def _draw(axes: Axes, device: Device, condition: Condition) -> None:
     directions = [kind for kind, farthest in zip(LABELS, device.strokes, strict=True) if farthest > 0.0]
     for place, kind in enumerate(directions):
         width = BARS / len(directions)
-        axes.bar(number + (place + 0.5) * width - BARS / 2.0, _farthest(condition)[kind], width, **LOOKS[kind])
+        across, heights = number + ((place + 0.5) * width - BARS / 2.0), _farthest(condition)[kind]
+        axes.bar(across, heights, width, **LOOKS[kind])
+        if len(directions) == 1 and count <= MOST_VALUES:
+            _write_values(axes, across, heights)
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     axes.set_xlim(0.5, count + 0.5)
     if count <= MOST_NUMBERS:
         axes.set_xticks(number)
     if stroke > 0.0:
         axes.set_ylim(-HEADROOM * stroke, HEADROOM * stroke)
-        axes.set_yticks([-stroke, 0.0, stroke], [f"\N{MINUS SIGN}{stroke:.3g}", "0", f"{stroke:.3g}"])
+        axes.locator_params(axis="y", nbins=TICKS, symmetric=True)
+
+
+def _write_values(axes: Axes, across: Iterable[float], heights: Iterable[float]) -> None:
+    """Heights of bars as numbers on the other side of the line, where there is room."""
+    for x, height in zip(across, heights, strict=True):
+        is_up, value = height > 0.0, f"{round(height, DECIMALS) + 0.0:g}"
+        axes.annotate(
+            value.replace("-", MINUS), (x, 0.0), xytext=(0.0, -VALUE_GAP if is_up else VALUE_GAP),
+            textcoords="offset points", ha="center", va="top" if is_up else "bottom",
+        )  # fmt: skip

@@ -6,7 +6,7 @@ Nothing rests on colour alone: phases differ in colour, lightness and marker, di
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -90,7 +90,7 @@ COLOURS = (ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")  # as many as share no factor with the colours
 LINES: tuple[Any, ...] = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
 DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the shear traction
-FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom")
+FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom", "top")  # as many as share no factor with the lines
 SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
 
@@ -115,9 +115,10 @@ class Shown(NamedTuple):
 
 @dataclass(frozen=True)
 class Series:
-    """How one condition is drawn, and what it is called."""
+    """How one condition is drawn, and what it is called: among all, and among those of its device and dispersion."""
 
     label: str
+    short: str
     colour: str
     marker: str
     line: Any
@@ -128,11 +129,12 @@ class Series:
 class Styles:
     """How the conditions of some devices are drawn.
 
-    series: by device and condition. legend: handles that explain all of them.
+    series: by device and condition. legend, spreads: handles that explain those that are drawn, and their dispersions.
     """
 
     series: dict[tuple[str, str], Series]
     legend: list[Line2D]
+    spreads: list[Line2D]
 
 
 def styled(function: Any) -> Any:
@@ -183,8 +185,8 @@ def device_titles(devices: Iterable[Device]) -> dict[str, str]:
     return {device.name: device.title for device in devices}
 
 
-def condition_styles(conditions: Iterable[Shown]) -> Styles:
-    """Styles of conditions, each of which may come more than once.
+def condition_styles(conditions: Iterable[Shown], drawn: Collection[Shown] | None = None) -> Styles:
+    """Styles of conditions, each of which may come more than once. drawn: those that are; all if not given.
 
     Phases share colour and marker across devices, dispersions line and filling. Where a device has two conditions of
     one dispersion and phase (histories, say) each of its conditions is drawn in its own colour and called by its name.
@@ -201,36 +203,35 @@ def condition_styles(conditions: Iterable[Shown]) -> Styles:
     keys = [*(f"{phase:g}°" for phase in phases), *named]
     series: dict[tuple[str, str], Series] = {}
     legend: dict[str, Line2D] = {}
+    kinds: set[str] = set()
     for one in shown:
         by_phase, several = one.device not in by_name, spreads[one.device] > 1
         key = f"{one.phase_deg:g}°" if by_phase else f"{one.device}: {one.condition}"
         number = keys.index(key)
         kind = dispersions.index(one.dispersion) if by_phase and several else 0
+        short = key if by_phase else one.condition
         look = Series(
-            (f"{plain(one.dispersion)}, {key}" if several else key) if by_phase else one.condition,
+            f"{plain(one.dispersion)}, {key}" if by_phase and several else short,
+            short,
             COLOURS[number % len(COLOURS)],
             MARKERS[number % len(MARKERS)],
             LINES[kind % len(LINES)],
             FILLS[kind % len(FILLS)],
         )
         series[one.device, one.condition] = look
-        legend.setdefault(key, Line2D([], [], color=look.colour, marker=look.marker, label=shortened(key, LONGEST_KEY)))
-    handles = [legend[key] for key in keys]
-    for number, name in enumerate(dispersions):
-        line, fill = LINES[number % len(LINES)], FILLS[number % len(FILLS)]
-        handles.append(
-            Line2D(
-                [],
-                [],
-                color=GREY,
-                marker="o",
-                linestyle=line,
-                fillstyle=fill,
-                label=f"{plain(name)} dispersion",
-                markerfacecoloralt="white",
-            )
+        if drawn is None or one in drawn:
+            label = shortened(key, LONGEST_KEY)
+            legend.setdefault(key, Line2D([], [], color=look.colour, marker=look.marker, label=label))
+            kinds |= {one.dispersion} if by_phase and several else set()
+    spread = [
+        Line2D(
+            [], [], color=GREY, marker="o", linestyle=LINES[number % len(LINES)], fillstyle=FILLS[number % len(FILLS)],
+            label=f"{plain(name)} dispersion", markerfacecoloralt="white",
         )
-    return Styles(series, handles)
+        for number, name in enumerate(dispersions)
+        if name in kinds
+    ]  # fmt: skip
+    return Styles(series, [legend[key] for key in keys if key in legend], spread)
 
 
 def rows_with(table: pd.DataFrame, kinematics: str) -> pd.DataFrame:
@@ -254,20 +255,30 @@ def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, alo
         axes.vlines(x, y - error, y + error, color=GREY, linewidth=LINE, zorder=2)
 
 
-def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "") -> None:
-    """Legend under all panels, where it covers nothing, with a caption; both fit the figure's width."""
-    labels = [len(str(handle.get_label())) for handle in handles]
+def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "", below: Sequence[Any] = ()) -> None:
+    """Legend under all panels, where it covers nothing, with a caption; both fit the figure's width. It is read row by
+    row. below: handles that begin a row of their own where not all fit one.
+    """
     width = float(figure.get_size_inches()[0]) * POINTS
-    columns = len(labels)
-    while columns > 1 and _legend_width(labels, columns) > width:
-        columns -= 1
+    cells, columns = [*handles, *below], len(handles) + len(below)
+    if _legend_width(cells, columns) > width:
+        columns = max(len(handles), len(below))
+        while columns > 1 and _legend_width(_in_rows(handles, below, columns), columns) > width:
+            columns -= 1
+        cells = _in_rows(handles, below, columns)
     figure.legend(
-        handles=list(handles),
+        handles=[cell for column in range(columns) for cell in cells[column::columns]],  # matplotlib fills columns
         loc="outside lower center",
-        ncols=max(columns, 1),
+        ncols=columns,
         title=fitted(figure, caption) or None,
         title_fontproperties={"size": TEXT},
     )
+
+
+def _in_rows(handles: Sequence[Any], below: Sequence[Any], columns: int) -> list[Any]:
+    """Handles in rows of so many columns, with nothing between them and those below, which begin a row."""
+    nothing = [Line2D([], [], linestyle="none", label=" ")] * (-len(handles) % columns if below else 0)
+    return [*handles, *nothing, *below]
 
 
 def fitted(figure: Figure, text: str, size: float = TEXT, columns: float = 1.0) -> str:
@@ -281,13 +292,10 @@ def as_title(figure: Figure, text: str, columns: float = 1.0) -> str:
     return fitted(figure, text, BOLD * TITLE, columns)
 
 
-def _legend_width(labels: Sequence[int], columns: int) -> float:
-    """Width [pt] of a legend that fills its columns one after the other, with labels of so many characters."""
-    rows, longer = divmod(len(labels), columns)
-    sizes = [rows + (column < longer) for column in range(columns)]
-    starts = [sum(sizes[:column]) for column in range(columns)]
-    longest = [max(labels[start : start + size]) for start, size in zip(starts, sizes, strict=True)]
-    return TEXT * sum(HANDLE + CHARACTER * characters for characters in longest)
+def _legend_width(cells: Sequence[Any], columns: int) -> float:
+    """Width [pt] of a legend that fills its rows with handles, one after the other."""
+    labels = [len(str(cell.get_label())) for cell in cells]
+    return TEXT * sum(HANDLE + CHARACTER * max(labels[column::columns]) for column in range(columns))
 
 
 def as_points(handles: Iterable[Line2D]) -> list[Line2D]:

@@ -90,10 +90,14 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     many = len(device.conditions) > MOST_NAMES
-    grid[-1][2].set_xlabel("Conditions, in order" if many else "Condition" if long else "Phase difference")
+    by_phase = all(
+        name == f"{condition.phase_deg:g}°" for name, condition in zip(names, device.conditions, strict=True)
+    )
+    grid[-1][2].set_xlabel("Conditions, in order" if many else "Phase difference" if by_phase else "Condition")
     for axes, text in zip(grid[:, 0], "AB", strict=True):
         letter(axes, text, (-30.0, 14.0))
     title = f"{device.title}, with shear ({counted(device.conditions)})"
     figure.suptitle(as_title(figure, title), fontweight="bold")
-    legend_below(figure, [*styles.legend, face_handle()], NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES)
+    caption = NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES
+    legend_below(figure, styles.legend, caption, [*styles.spreads, face_handle()])
     return figure
