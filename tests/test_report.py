@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import dataclasses
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
@@ -104,28 +104,26 @@ def html(results: Results, tmp_path: Path) -> str:
     return built(results, tmp_path)
 
 
-def built(results: Results, folder: Path) -> str:
+CLAIMS = [
+    {
+        "kinematics": kinematics,
+        "claim": claim,
+        "kind": "stated",
+        "source": "paper: Results",
+        "holds": holds,
+        "evidence": evidence,
+    }
+    for kinematics, claim, holds, evidence in (
+        ("small", "It rises.", "yes", TRICK),
+        ("finite", "It falls.", "no", "no"),
+    )
+]
+
+
+def built(results: Results, folder: Path, claims: Sequence[Mapping[str, str]] = CLAIMS) -> str:
     """The page of these results, with one pixel for each figure."""
     for stem in FIGURES:
         (folder / f"{stem}.png").write_bytes(PIXEL)
-    claims = [
-        {
-            "kinematics": "small",
-            "claim": "It rises.",
-            "kind": "stated",
-            "source": "paper: Results",
-            "holds": "yes",
-            "evidence": TRICK,
-        },
-        {
-            "kinematics": "finite",
-            "claim": "It falls.",
-            "kind": "stated",
-            "source": "paper: Results",
-            "holds": "no",
-            "evidence": "no",
-        },
-    ]
     return report(
         TEMPLATE.read_text(encoding="utf-8"),
         results,
@@ -179,6 +177,12 @@ def test_a_condition_at_rest_has_no_relative_error(results: Results, tmp_path: P
     )
     assert "<td>?</td>" in html
     assert f"Of n = {sum(1 for row in others if row['score'])} scores" in html
+
+
+def test_a_run_without_the_papers_devices_has_none_of_its_statements(results: Results, tmp_path: Path) -> None:
+    said = "none of these is in this run"
+    assert said in built(results, tmp_path, claims=[])
+    assert said not in built(results, tmp_path)
 
 
 def test_every_picture_is_in_the_page_and_has_an_alternative(html: str) -> None:
@@ -242,6 +246,14 @@ def test_every_caption_carries_its_count(results: Results) -> None:
 def test_figures_come_in_reading_order(results: Results) -> None:
     assert list(words(FIGURES, results))[:2] == ["section", "figure_3_workflow"]
     assert list(words(FIGURES, results))[-1] == "map_device3_alternate"
+
+
+def test_captions_explain_the_range_where_there_is_one(results: Results) -> None:
+    said = "In brackets the range"
+    unordered = tuple(row | {"r2_lowest": "", "r2_highest": ""} for row in results.correlations)
+    without = dataclasses.replace(results, correlations=unordered)
+    assert said in words(["figure_6_shear"], results)["figure_6_shear"].caption
+    assert said not in words(["figure_6_shear"], without)["figure_6_shear"].caption
 
 
 def test_a_map_names_the_conditions_of_its_dispersion_alone(results: Results) -> None:

@@ -11,7 +11,7 @@ from tqdm import tqdm
 from ..contact_law import Criterion
 from ..errors import UsageError
 from ..figures.section import section_figure
-from ..figures.style import save_as
+from ..figures.style import save_as, several
 from ..files import require_folder
 from ..mesh import mesh_section, nominal_edges
 from ..scene import Scene
@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> None:
 def described(scene: Scene) -> str:
     """Title, actuators and conditions in words."""
     device, row = scene.device, scene.device.actuators
-    actuators = _several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
+    actuators = several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
     normal, lateral = device.strokes
     distinct = ", ".join(condition.name for condition in device.distinct_conditions)
@@ -91,15 +91,11 @@ def described(scene: Scene) -> str:
         f"{device.title} ({device.name})\n"
         f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
-        f"{_several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
+        f"{several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
         f"skin over the outermost faces lies {rise:.2g} mm above that touched first, on a pad of {pad:g} mm"
         + "".join(f"\n{warning}" for warning, holds in warned.items() if holds)
     )
-
-
-def _several(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def _rise(scene: Scene) -> float:

@@ -56,7 +56,8 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
     """Displacement of every actuator in every condition: a block of panels a device, a row a dispersion."""
     rows = [(device, list(_rows(device))) for device in devices]
     heights = [len(own) * ROW_HEIGHT + TITLE_HEIGHT for _, own in rows]
-    figure = new_figure(WIDE, sum(heights) + LEGEND_HEIGHT)
+    height = sum(heights) + LEGEND_HEIGHT
+    figure = new_figure(WIDE, height)
     styles = condition_styles(conditions_of(devices))
     unused = iter(figure.subplots(sum(len(own) for _, own in rows), COLUMNS, squeeze=False))
     for device, own in rows:
@@ -78,7 +79,7 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
                     fontweight="bold", fontsize="large", va="bottom",
                 )  # fmt: skip
                 title.set_in_layout(False)  # its room is that of the panels' titles, whose first lines are empty
-    figure.supylabel("Displacement (µm)", fontsize=TEXT)
+    figure.supylabel("Displacement (µm)", fontsize=TEXT, y=1.0 - 0.5 * sum(heights) / height)
     handles = [Patch(label=label, **LOOKS[kind]) for kind, label in LABELS.items()]
     legend_below(figure, handles, CAPTION)
     return figure

@@ -354,4 +354,13 @@ def shortened(name: str, most: int = LONGEST_LABEL) -> str:
 
 def counted(conditions: Sequence[Any]) -> str:
     """How many conditions there are."""
-    return f"n = {len(conditions)} condition{'' if len(conditions) == 1 else 's'}"
+    return f"n = {several(len(conditions), 'condition')}"
+
+
+def several(count: int, what: str) -> str:
+    """A count of things that take an s.
+
+    >>> several(1, "pin"), several(2, "pin")
+    ('1 pin', '2 pins')
+    """
+    return f"{count} {what}{'' if count == 1 else 's'}"

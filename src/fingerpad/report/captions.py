@@ -8,7 +8,7 @@ from functools import partial
 
 from ..contact_law import Interface
 from ..device import Device
-from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain
+from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
 from ..ratings import has_p, slope_name
 from ..readout import READOUT_NAME, Readout
 from ..roughness import TYPESET_UNITS
@@ -94,7 +94,7 @@ def _section(results: Results) -> Words:
     model = results.scenes[0].model
     layers = ", ".join(f"{plain(layer.name)} {layer.thickness:g} mm" for layer in model.finger.pad)
     rows = "; ".join(
-        f"{device.title}: {len(row.positions)} actuators {row.width:g} mm wide"
+        f"{device.title}: {several(len(row.positions), 'actuator')} {row.width:g} mm wide"
         for device, row in ((scene.device, scene.device.actuators) for scene in results.scenes)
     )
     return Words(
@@ -102,7 +102,8 @@ def _section(results: Results) -> Words:
         "Cross-section of the fingertip with its layers, bone and nail, and the actuators of each device below it.",
         f"Section {model.finger.width:g} mm wide and {model.finger.height:g} mm high."
         f" Pad on the mid-line, from the skin inwards: {layers}."
-        f" Receptors lie {model.receptor_depth:g} mm below the skin. n = {len(results.scenes)} devices. {rows}.",
+        f" Receptors lie {model.receptor_depth:g} mm below the skin."
+        f" n = {several(len(results.scenes), 'device')}. {rows}.",
     )
 
 
@@ -147,8 +148,7 @@ def _correlation(results: Results) -> Words:
     return Words(
         "Scores against perceived roughness",
         "Perceived roughness over the strain score (left) and the change-of-strain score (right), one row a device.",
-        f"With shear. {parts}. In brackets the range of R² over all ratings with the stated order."
-        f" Ratings: {_kinds(results)}. {ERROR_BARS}",
+        f"With shear. {parts}.{_range(results)} Ratings: {_kinds(results)}. {ERROR_BARS}",
     )
 
 
@@ -161,8 +161,8 @@ def _shear(results: Results) -> Words:
     return Words(
         f"With and without shear: {device.title}",
         "Perceived roughness over strain score (top) and change-of-strain score (bottom), without and with shear.",
-        f"The same {len(device.conditions)} conditions: {parts}. In brackets the range of R² over all ratings with the"
-        f" stated order. Ratings: {_kinds(results)}. {ERROR_BARS}",
+        f"The same {len(device.conditions)} conditions: {parts}.{_range(results)} Ratings: {_kinds(results)}."
+        f" {ERROR_BARS}",
     )
 
 
@@ -248,6 +248,12 @@ def _correlated(results: Results, device: str, interface: Interface, titled: boo
 
 def _r2(row: Row) -> str:
     return f"{float(row['r2']):.3f}, {slope_name(row)}" if row["r2"] else f"({row['note']})"
+
+
+def _range(results: Results) -> str:
+    """What stands in brackets behind R², where there is anything."""
+    there = any(row["r2_lowest"] for row in results.correlations)
+    return " In brackets the range of R² over all ratings with the stated order." if there else ""
 
 
 def _kinds(results: Results) -> str:
