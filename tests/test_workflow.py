@@ -446,10 +446,13 @@ def test_a_shipped_device_may_be_left_out(project: Project, tmp_path: Path, left
     run = smaller.snakemake("-n", "all")
     assert run.status == 0, run.text
     assert {job.device for job in run.jobs} == {None, "device1", "device2", "device3"} - set(left_out)
+    rules = {job.rule for job in run.jobs}
+    assert "figure_workflow" in rules
+    assert ("figure_shear" in rules) is ("device2" not in left_out)  # others do not move sideways without friction
 
 
 def test_a_device_with_shear_alone_has_no_jobs_without(project: Project, tmp_path: Path) -> None:
-    """And the figure without and with shear is of another device, or of none."""
+    """And the figure without and with shear is of another device, or of none; that of the workflow is drawn."""
     changed = Project(shutil.copytree(project.folder, tmp_path / "changed"))
     alone = 'interfaces: {value: shear, unit: "1", source: "assumption: a test"}\n'
     changed.edit(DEVICE, lambda text: f"{text}\n{alone}")
@@ -458,6 +461,8 @@ def test_a_device_with_shear_alone_has_no_jobs_without(project: Project, tmp_pat
     made = [output for job in run.jobs if job.device == "device2" for output in job.outputs]
     assert any("/shear/" in output for output in made)
     assert not any("/frictionless/" in output for output in made)
+    rules = {job.rule for job in run.jobs}
+    assert "figure_workflow" in rules and "figure_shear" not in rules
 
 
 def test_a_folder_without_devices_is_named(project: Project, tmp_path: Path) -> None:
