@@ -318,6 +318,41 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
             certified(tampered)
 
 
+def row_of(count: int, pitch: float, width: float, stroke: list[float]) -> tuple[Scene, Condition]:
+    """Pins that move sideways, and the stimulus, with twice the sizes of elements."""
+    base, condition = scene("device2"), lateral("stroke", stroke)
+    row = ActuatorRow(tuple(pitch * (np.arange(count) - (count - 1) / 2.0)), width, 0.1)
+    device = replace(base.device, actuators=row, conditions=(condition,), cycles=())
+    return replace(base, device=device).coarsened(2.0), condition
+
+
+def test_a_long_stroke_is_not_halved_again_and_again() -> None:
+    """Fronts cross many nodes in one increment of a long stroke. Once one was halved, the others stay as short, and end
+    where shorter ones end.
+    """
+    base, condition = row_of(2, 2.5, 1.0, [0.7, -0.7])
+    found = condense_section(mesh_device(base), base)
+    pressed = indent_device(base, found, None, Interface.SHEAR)
+    few, many = (
+        follow_condition(
+            base.with_numerics(replace(base.model.numerics, stimulus_increments=count)),
+            pressed.problem,
+            pressed.state,
+            condition,
+        )[-1]
+        for count in (2, 200)
+    )
+    assert 0 < few.cuts <= 4
+    assert np.abs(few.force - many.force).max() < 1e-8 * np.abs(many.force).max()
+
+
+def test_a_stroke_beyond_reach_ends_where_it_leaves_it() -> None:
+    """What follows is no solution: four pins that sweep over their neighbours' skin had no unique one, they said."""
+    base, condition = row_of(4, 1.0, 0.6, [3.0] * 4)
+    with pytest.raises(ReachError, match=r"condition=stroke, .* shorter strokes"):
+        solve_anew(base, condition)
+
+
 @pytest.mark.parametrize("interface", Interface)
 def test_a_stimulus_through_the_tissue_is_refused(interface: Interface) -> None:
     """Linear tissue would let it pass. Of four pins the one that goes deepest counts, from where it touches itself."""

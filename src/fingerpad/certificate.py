@@ -74,7 +74,7 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     for name, (found, allowed) in checks.items():
         if not found <= allowed:
             raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
-    _require_within_reach(problem, section, state, PENETRATION_LIMIT * indentation)
+    require_within_reach(problem, section, state)
     _, of_penetration, of_tension, of_cone, _ = (
         found / allowed if found > 0.0 else 0.0 for found, allowed in checks.values()
     )
@@ -106,16 +106,15 @@ def worst(certificates: Sequence[Certificate]) -> Certificate:
     )
 
 
-def _require_within_reach(
-    problem: ContactProblem, section: CondensedSection, state: ContactState, allowed: float
-) -> None:
-    """Raise ReachError if an actuator touches, or overlaps by more than `allowed` [mm], skin that was not considered
+def require_within_reach(problem: ContactProblem, section: CondensedSection, state: ContactState) -> None:
+    """Raise ReachError if an actuator touches, or overlaps by more than PENETRATION_LIMIT, skin that was not considered
     to be its own.
 
     Contact may reach an actuator's last node where the next node of the skin is a neighbour's; but no node may press
     into another actuator than the one it was given to.
     """
     own, x = problem.actuator_of, problem.position[:, 0]
+    allowed = PENETRATION_LIMIT * float(np.abs(state.actuator).max())
     active = state.status != Status.OPEN
     adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
     first = np.append(True, ~adjacent)

@@ -84,6 +84,11 @@ class ContactProblem:
         return tuple(slice(int(start), int(stop)) for start, stop in pairwise(bounds))
 
     @cached_property
+    def spacing(self) -> float:
+        """Smallest distance [mm] along x of two neighbouring nodes."""
+        return float(np.abs(np.diff(self.position[:, 0])).min(initial=np.inf))
+
+    @cached_property
     def hats(self) -> tuple[FloatArray, FloatArray]:
         """How far (2, n) [mm] the hat of each node reaches to its left (below zero) and right: to the next nodes of its
         actuator, on the undeformed skin; and the share (2, n) [1] of it there.

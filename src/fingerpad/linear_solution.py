@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from .certificate import Certificate, certify, worst
+from .arrays import FloatArray
+from .certificate import Certificate, certify, require_within_reach, worst
 from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem, ContactState
 from .contact_law import Interface
@@ -14,7 +16,8 @@ from .depth import require_tissue
 from .device import Condition
 from .increment import solve_increment
 from .indentation import indent
-from .path import advance
+from .patch import Patch
+from .path import SolveIncrement, advance
 from .problem import contact_problem, increments, named_pressing, named_stimulus
 from .scene import Scene
 from .solution import Solution, solution
@@ -39,13 +42,17 @@ def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
 
 
 def follow_condition(
-    scene: Scene, problem: ContactProblem, before: ContactState, condition: Condition
+    scene: Scene,
+    problem: ContactProblem,
+    before: ContactState,
+    condition: Condition,
+    solve: SolveIncrement[ContactState] = solve_increment,
 ) -> list[ContactState]:
     """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
     require_tissue(problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
     states, patch, (_, count) = [before], None, increments(scene, problem)
     for moved in condition.moves:
-        state, patch = advance(problem, states[-1], before.actuator + moved, count, patch, solve_increment)
+        state, patch = advance(problem, states[-1], before.actuator + moved, count, patch, solve)
         states.append(state)
     return states[1:]
 
@@ -72,10 +79,22 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
     """
     problem, before = indented.problem, indented.state
     with named_stimulus(scene, condition, indented.interface):
-        states = [before, *follow_condition(scene, problem, before, condition)]
+        solve = partial(_solve_within_reach, section)
+        states = [before, *follow_condition(scene, problem, before, condition, solve)]
         certificate = worst([indented.certificate, *(certify(problem, section, state) for state in states[1:])])
     strains = section.receptor_strain(np.array([state.force for state in states]))
     return solution(problem, section, states, strains, certificate)
+
+
+def _solve_within_reach(
+    section: CondensedSection, problem: ContactProblem, start: ContactState, actuator: FloatArray, patch: Patch | None
+) -> tuple[ContactState, Patch]:
+    """`solve_increment`, which raises ReachError as soon as contact leaves the skin that was considered: what follows
+    is no solution, and may take minutes.
+    """
+    reached, patch = solve_increment(problem, start, actuator, patch)
+    require_within_reach(problem, section, reached)
+    return reached, patch
 
 
 def solve_condition(
