@@ -11,11 +11,11 @@ from fingerpad.actuator_body import condense_body
 from fingerpad.certificate import CONE_LIMIT, DISSIPATION_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT, Certificate, certify
 from fingerpad.condensation import condense_section
 from fingerpad.contact import ContactProblem, ContactState, face_shape, rest, touch, touching_height
-from fingerpad.contact_law import Interface
+from fingerpad.contact_law import Criterion, Interface
 from fingerpad.depth import require_tissue
 from fingerpad.device import ActuatorRow, Condition
 from fingerpad.edges import mesh_device
-from fingerpad.errors import CertificateError, ContactError, DepthError, ReachError
+from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError
 from fingerpad.force_curve import small_strain_curve
 from fingerpad.gabor import filtered_readouts
 from fingerpad.increment import GIVING
@@ -217,6 +217,24 @@ def test_a_row_too_wide_says_what_helps() -> None:
         solve_anew(wide.coarsened(4.0), still)
 
 
+@pytest.mark.parametrize(("pitch", "solved_by_touch"), [(0.2, False), (0.15, True)])
+def test_rows_of_narrow_pins_say_what_helps(pitch: float, solved_by_touch: bool) -> None:
+    """Of forty pins on 8 mm some touch no skin at any height, so that `touch` is no way out; on 6 mm it is."""
+    fine, _ = row_of(40, pitch, 0.15, [0.0] * 40, edge_radius=0.05)
+    wide = fine.coarsened(1.5)
+    found = condense_section(mesh_section(wide, nominal_edges(wide.device.actuators)), wide)
+    with pytest.raises(CriterionError, match="a narrower row needs less indentation") as failure:
+        indent_device(wide, found, None, Interface.SHEAR)
+    assert ("at best" in str(failure.value)) is solved_by_touch
+    assert ("contact.criterion: touch" in str(failure.value)) is solved_by_touch
+    touching = replace(wide, model=replace(wide.model, contact=replace(wide.model.contact, criterion=Criterion.TOUCH)))
+    if solved_by_touch:
+        assert indent_device(touching, found, None, Interface.SHEAR).state.actuator[0, 1] < 1.0
+    else:
+        with pytest.raises(CriterionError):
+            indent_device(touching, found, None, Interface.SHEAR)
+
+
 def test_a_stimulus_is_not_blamed_for_where_pressing_ended() -> None:
     """Five pins on so curved a pad: contact leaves the skin that was considered before anything has moved."""
     base = scene("device2")
@@ -318,10 +336,12 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
             certified(tampered)
 
 
-def row_of(count: int, pitch: float, width: float, stroke: list[float]) -> tuple[Scene, Condition]:
+def row_of(
+    count: int, pitch: float, width: float, stroke: list[float], edge_radius: float = 0.1
+) -> tuple[Scene, Condition]:
     """Pins that move sideways, and the stimulus, with twice the sizes of elements."""
     base, condition = scene("device2"), lateral("stroke", stroke)
-    row = ActuatorRow(tuple(pitch * (np.arange(count) - (count - 1) / 2.0)), width, 0.1)
+    row = ActuatorRow(tuple(pitch * (np.arange(count) - (count - 1) / 2.0)), width, edge_radius)
     device = replace(base.device, actuators=row, conditions=(condition,), cycles=())
     return replace(base, device=device).coarsened(2.0), condition
 
@@ -349,8 +369,9 @@ def test_a_long_stroke_is_not_halved_again_and_again() -> None:
 def test_a_stroke_beyond_reach_ends_where_it_leaves_it() -> None:
     """What follows is no solution: four pins that sweep over their neighbours' skin had no unique one, they said."""
     base, condition = row_of(4, 1.0, 0.6, [3.0] * 4)
+    found = condense_section(mesh_device(base), base)
     with pytest.raises(ReachError, match=r"condition=stroke, .* shorter strokes"):
-        solve_anew(base, condition)
+        solve_condition(base, found, None, condition, Interface.SHEAR)
 
 
 @pytest.mark.parametrize("interface", Interface)

@@ -58,7 +58,11 @@ class CrossingError(ContactError):
 
 
 class CriterionError(ContactError):
-    """Pre-indentation did not bring about the contact that was asked for."""
+    """Pre-indentation does not reach its criterion. touched: whether all actuators touched skin at once on the way."""
+
+    def __init__(self, message: str, touched: bool = True) -> None:
+        super().__init__(message)
+        self.touched = touched
 
 
 class DepthError(ContactError):

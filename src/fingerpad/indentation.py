@@ -50,6 +50,7 @@ def raise_until(
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
     stride = max(rise / increments, END_STEP)
     missing, step = _missing(problem, state, criterion), stride
+    least = missing, touch  # that was missing, and at which height
     beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
     weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
     while missing > END_TOLERANCE:
@@ -57,12 +58,14 @@ def raise_until(
         if height - touch > limit:
             raise CriterionError(
                 f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm from first touch:"
-                f" {_lacking(missing)} at {height - step - touch:.3g} mm"
+                f" {_lacking(missing)} at {height - step - touch:.3g} mm{_nearest(*least, touch)}",
+                touched=bool(np.isfinite(least[0])),
             )
         target = state.actuator.copy()
         target[:, 1] = height
         advanced, carried = advance(problem, state, target, 1, carried, solve)
         left = _missing(problem, advanced, criterion)
+        least = min(least, (left, height))
         if left < -END_TOLERANCE and step > END_STEP:
             weight = weight / 2.0 if beyond else 1.0
             beyond = height, left  # too far: again from the same state
@@ -98,6 +101,13 @@ def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion)
 def _lacking(missing: float) -> str:
     """In words what is missing [mm]."""
     return f"{missing:.3g} mm are missing" if np.isfinite(missing) else "an actuator touches no skin"
+
+
+def _nearest(least: float, height: float, touch: float) -> str:
+    """In words at which height least was missing [mm]."""
+    if not np.isfinite(least):
+        return ", nor did all touch any at once before"
+    return f", at best {least:.3g} mm at {height - touch:.3g} mm"
 
 
 def front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:

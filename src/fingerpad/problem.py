@@ -11,7 +11,7 @@ from .compliance import CondensedBody, CondensedSection
 from .contact import ContactProblem
 from .contact_law import Criterion, Interface
 from .device import Condition
-from .errors import ContactError, MeshError
+from .errors import ContactError, CriterionError, MeshError
 from .scene import Scene
 from .tissue_law import Kinematics
 
@@ -72,12 +72,18 @@ def left_out(scene: Scene, interface: Interface) -> str:
     return (SMALL_ALONE if finite else "") + (SHEAR_ALONE if frictionless else "")
 
 
-def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
+@contextmanager
+def named_pressing(scene: Scene, interface: Interface) -> Iterator[None]:
     """`named`, for pre-indentation, which goes the deeper the wider the row is."""
-    full = scene.model.contact.criterion is Criterion.FULL
-    advice = "; a narrower row needs less indentation" + (TOUCH if full else "")
-    advice += left_out(scene, interface)
-    return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)
+    try:
+        yield
+    except ContactError as error:
+        # what touches no skin at any height fails the other criterion as well
+        touched = not isinstance(error, CriterionError) or error.touched
+        full = scene.model.contact.criterion is Criterion.FULL
+        advice = "; a narrower row needs less indentation" + (TOUCH if full and touched else "")
+        what = f"device={scene.device.name}, interface={interface}, pre-indentation"
+        raise type(error)(f"{what}: {error}{advice}{left_out(scene, interface)}") from error
 
 
 def named_stimulus(scene: Scene, condition: Condition, interface: Interface) -> AbstractContextManager[None]:
