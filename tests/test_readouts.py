@@ -11,7 +11,7 @@ from fingerpad.gabor import REACH, filtered_readouts, gabor_filtered
 from fingerpad.readout import GaborFilter, Readout
 from fingerpad.resampling import resampling_to_grid
 from fingerpad.roughness import roughness_score
-from fingerpad.strain import maximum_principal, receptor_readouts, rival_peak
+from fingerpad.strain import maximum_principal, read_receptors
 
 SIGMA = 1.12
 
@@ -29,16 +29,17 @@ def test_a_change_of_rounding_is_none() -> None:
     """The solver's tolerance leaves a billionth of strain; what changes by less has not changed."""
     before = np.array([0.1, -0.2, 0.05])
     for share, changed in ((1e-12, False), (1e-6, True)):
-        readouts = receptor_readouts(np.array([before, before * (1.0 + share)]), np.zeros(1))
-        assert readouts[Readout.CHANGE_OF_STRAIN].any() == changed
+        read = read_receptors(np.array([before, before * (1.0 + share)]), np.zeros(1))
+        assert read.change_of_strain.any() == changed
 
 
 def test_readout_of_a_cycle_is_taken_at_its_peak() -> None:
     """Of several times, the one with the largest change."""
     before, *along = np.array([0.1, 0.1, 0.3, 0.2])[:, None] * np.array([1.0, 0.0, 0.0] * 2)
-    found = receptor_readouts(np.array([before, *along]), np.array([0.0, 1.0]))
-    assert found[Readout.STRAIN] == pytest.approx([0.3, 0.3])
-    assert found[Readout.CHANGE_OF_STRAIN] == pytest.approx([0.2, 0.2])
+    found = read_receptors(np.array([before, *along]), np.array([0.0, 1.0]))
+    assert found.time == 1
+    assert found.strain == pytest.approx([0.3, 0.3])
+    assert found.change_of_strain == pytest.approx([0.2, 0.2])
 
 
 @pytest.mark.parametrize("finer", ["left", "right"])
@@ -49,7 +50,7 @@ def test_the_peak_does_not_depend_on_where_receptors_lie_close(finer: str) -> No
     arc = np.concatenate([left, right[1:]])
     exx = np.array([np.zeros(arc.size), np.where(arc < 0.0, 0.2, 0.0), np.where(arc < 0.0, 0.0, 0.3)])
     components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
-    assert receptor_readouts(components, arc)[Readout.STRAIN].max() == pytest.approx(0.3)
+    assert read_receptors(components, arc).strain.max() == pytest.approx(0.3)
 
 
 @pytest.mark.parametrize(
@@ -65,8 +66,8 @@ def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], rival: f
     """Five receptors, of which one is stretched by 1 at the time that is read."""
     exx = np.array([np.zeros(5), np.array([0.0, 1.0, 0.0, 0.0, 0.0]), other])
     components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
-    assert rival_peak(components, np.arange(5.0)) == pytest.approx(rival)
-    assert rival_peak(components[:2], np.arange(5.0)) == 0.0
+    assert read_receptors(components, np.arange(5.0)).rival_peak == pytest.approx(rival)
+    assert read_receptors(components[:2], np.arange(5.0)).rival_peak == 0.0
 
 
 @pytest.mark.parametrize("wavelength", [2.8, 1.15])

@@ -30,7 +30,7 @@ from .problem import contact_problem
 from .readout import Readout
 from .receptors import arc_length, receptor_gradient
 from .resampling import resampling_to_grid
-from .roughness import roughness_score, score_span
+from .roughness import roughness_scores
 from .scene import Scene
 from .strain import maximum_principal
 from .tissue_law import Kinematics, Law
@@ -217,18 +217,11 @@ def actuator_forces(problem: ContactProblem, forces: Sequence[FloatArray]) -> Fl
 def outcome_of(scene: Scene, arc: FloatArray, components: Sequence[FloatArray], force: FloatArray) -> Outcome:
     """Read-outs on the uniform grid, and scores, of strains (3m,) [1] before and after the stimulus."""
     strain = np.array([maximum_principal(each) for each in components])
-    gabor, row = scene.model.gabor, scene.device.actuators
+    gabor = scene.model.gabor
     resampling = resampling_to_grid(arc, gabor.spacing)
-    grid = resampling.grid
     readouts = {Readout.STRAIN: strain[1], Readout.CHANGE_OF_STRAIN: strain[1] - strain[0]}
-    filtered = filtered_readouts(resampling, readouts, gabor)
-    span = score_span(row, scene.model.readout.span_margin)
-    return Outcome(
-        grid,
-        np.array([resampling.weights @ values for values in strain]),
-        force,
-        {readout: roughness_score(grid, filtered.filtered(readout), span) for readout in Readout},
-    )
+    scores = roughness_scores(scene, filtered_readouts(resampling, readouts, gabor))
+    return Outcome(resampling.grid, strain @ resampling.weights.T, force, scores)
 
 
 def _relative(found: FloatArray, reference: FloatArray) -> float:

@@ -29,7 +29,7 @@ from .mesh import SectionMesh
 from .prediction import Condensed
 from .problem import named
 from .readout import Readout
-from .roughness import NO_PREDICTION, SCORE_UNIT, roughness_score, score_span
+from .roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
 from .scene import Scene
 from .strain import maximum_principal
 
@@ -124,8 +124,7 @@ def vibration_scores(
         for problem, state in zip(vibration.problems, vibration.states, strict=True):
             certify(problem, condensed.section, state)
     filtered = filtered_readouts(condensed.resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
-    span = score_span(scene.device.actuators, scene.model.readout.span_margin)
-    return {each: roughness_score(filtered.arc, filtered.filtered(each), span) for each in Readout}
+    return roughness_scores(scene, filtered)
 
 
 def _highest(indented: Indented, cycle: Cycle) -> FloatArray:

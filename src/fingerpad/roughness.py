@@ -45,17 +45,18 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
     return float(np.trapezoid(np.abs(np.interp(points, grid, filtered)), points))
 
 
+def roughness_scores(scene: Scene, readouts: FilteredReadouts) -> dict[Readout, float]:
+    """Scores [mm2] of both filtered read-outs over a scene's row."""
+    span = score_span(scene.device.actuators, scene.model.readout.span_margin)
+    return {each: roughness_score(readouts.arc, readouts.filtered(each), span) for each in Readout}
+
+
 def score_rows(
     scene: Scene, condition: Condition, interface: Interface, readouts: FilteredReadouts, note: str = ""
 ) -> list[dict[str, Any]]:
     """Rows of the score table for one condition and interface: one a read-out. note: what to beware of."""
-    span = score_span(scene.device.actuators, scene.model.readout.span_margin)
-    return [
-        _row(
-            scene, condition, interface, readout, roughness_score(readouts.arc, readouts.filtered(readout), span), note
-        )
-        for readout in Readout
-    ]
+    scores = roughness_scores(scene, readouts)
+    return [_row(scene, condition, interface, readout, score, note) for readout, score in scores.items()]
 
 
 def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:

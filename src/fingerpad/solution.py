@@ -13,7 +13,7 @@ from .compliance import CondensedSection
 from .contact import ContactProblem, ContactState, shearing_and_pressing
 from .depth import depth
 from .readout import Readout
-from .strain import receptor_readouts, rival_peak, time_read
+from .strain import read_receptors
 
 
 @dataclass(frozen=True)
@@ -24,10 +24,10 @@ class Solution:
     actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
     the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
-    `forces` but where the normal turns. read: index of the time at which receptors are read (`strain.time_read`). What
+    `forces` but where the normal turns. read: index of the time at which receptors are read (`strain.Reading`). What
     follows is at that time. pressure, shear: (n,) [MPa]. place: (n,) x of the skin nodes from their actuator's centre
     [mm]. status: (n,). arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. rival_peak: change at the time
-    that comes next to being read over that which is read [1] (`strain.rival_peak`). iterations, cuts, searches: of the
+    that comes next to being read over that which is read [1] (`strain.Reading`). iterations, cuts, searches: of the
     whole path. certificate.
     """
 
@@ -72,8 +72,8 @@ def solution(
     """Gather a solution from the pre-indented state and those at the stimulus's times, and the receptors' strains
     (1 + n_times, 3m) [1] in them.
     """
-    read, readouts = time_read(strains, section.arc), receptor_readouts(strains, section.arc)
-    before, last, shown = states[0], states[-1], states[1 + read]
+    read = read_receptors(strains, section.arc)
+    before, last, shown = states[0], states[-1], states[1 + read.time]
     contact = shearing_and_pressing(problem, states)
     return Solution(
         indentation=float(before.actuator[0, 1]),
@@ -82,15 +82,15 @@ def solution(
         indented_force=before.force,
         force=np.array([state.force for state in states[1:]]),
         contact=contact,
-        read=read,
-        pressure=contact[1 + read, :, 1] / section.weight,
-        shear=contact[1 + read, :, 0] / section.weight,
+        read=read.time,
+        pressure=contact[1 + read.time, :, 1] / section.weight,
+        shear=contact[1 + read.time, :, 0] / section.weight,
         place=shown.place,
         status=shown.status,
         arc=section.arc,
-        strain=readouts[Readout.STRAIN],
-        change_of_strain=readouts[Readout.CHANGE_OF_STRAIN],
-        rival_peak=rival_peak(strains, section.arc),
+        strain=read.strain,
+        change_of_strain=read.change_of_strain,
+        rival_peak=read.rival_peak,
         iterations=last.iterations,
         cuts=last.cuts,
         searches=last.searches,

@@ -29,63 +29,58 @@ def maximum_principal(components: FloatArray) -> FloatArray:
     return np.maximum(in_plane, 0.0)
 
 
-def receptor_readouts(
+@dataclass(frozen=True)
+class Reading:
+    """What receptors say of a stimulus: both read-outs at one of its times, in the unit of a measure.
+
+    time: index of that time. strain, change_of_strain: (m,). rival_peak: how large the change is at the time that comes
+    next to being read, over that which is read [1]: root mean squares over arc length, zero without such a time.
+    """
+
+    time: int
+    strain: FloatArray
+    change_of_strain: FloatArray
+    rival_peak: float
+
+    @property
+    def readouts(self) -> dict[Readout, FloatArray]:
+        """Both read-outs (m,)."""
+        return {Readout.STRAIN: self.strain, Readout.CHANGE_OF_STRAIN: self.change_of_strain}
+
+
+def read_receptors(
     components: FloatArray, arc: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
-) -> dict[Readout, FloatArray]:
-    """Both read-outs (m,) at the receptors, in the unit of the measure: of maximum principal strain [1].
+) -> Reading:
+    """Read-outs at the time at which a measure has changed most: the largest root mean square over arc length, so that
+    no mesh matters. That is the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
 
-    components: (1 + n_times, 3m) strains, of the pre-indented state and along the stimulus. arc: (m,) [mm]. Of several
-    times the one is read at which the measure has changed most, as in `time_read`. Where all values count as equal the
-    change is zero. measure: of strains (3m,).
-    """
-    strains, changes = _along(components, measure)
-    peak = _peak(changes, arc)
-    return {Readout.STRAIN: strains[peak], Readout.CHANGE_OF_STRAIN: changes[peak]}
-
-
-def time_read(components: FloatArray, arc: FloatArray) -> int:
-    """Which of the stimulus's times is read: that at which maximum principal strain has changed most (largest root mean
-    square over arc length, so that no mesh matters), the reference actuator's peak for a snapshot, the peak of the
-    cycle otherwise. Arguments as those of `receptor_readouts`.
-    """
-    return _peak(_along(components, maximum_principal)[1], arc)
-
-
-def rival_peak(components: FloatArray, arc: FloatArray) -> float:
-    """How large maximum principal strain's change is at the time that comes next to being read, over that which is read
-    [1]: root mean squares over arc length, of components (1 + n_times, 3m) at receptors (m,) [mm] that mirror. Zero
-    without such a time.
-
-    Only times count at which the change is another, by UNLIKE, than what is read, and than its mirror image: those just
-    beside a peak would score alike, as does the other half of a cycle whose row mirrors.
-    """
-    changes = _along(components, maximum_principal)[1]
-    size = _size(changes, arc)
-    peak = _peak(changes, arc)
-    images = np.array([changes[peak], changes[peak, ::-1]])
-    apart = np.min([_size(changes - image, arc) for image in images], axis=0)
-    return float((size[apart > UNLIKE * size[peak]] / size[peak]).max(initial=0.0))
-
-
-def _along(components: FloatArray, measure: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """A measure (n_times, m) along a stimulus, and its change from the pre-indented state, of components
-    (1 + n_times, 3m).
+    components: (1 + n_times, 3m) strains at receptors that mirror, of the pre-indented state and along the stimulus.
+    arc: (m,) [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. Where all values count as
+    equal the change is zero.
     """
     # ASSUME: readout: the change of strain is that from the pre-indented state
     before, *strains = (measure(each) for each in components)
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
-    return np.array(strains), changes
-
-
-def _peak(changes: FloatArray, arc: FloatArray) -> int:
-    """Index of the largest of changes (k, m) over arc length (m,) [mm]."""
+    size = _size(changes, arc)
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
-    return int(np.argmax(_size(changes, arc)))
+    time = int(np.argmax(size))
+    return Reading(time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
+
+
+def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray) -> float:
+    """`Reading.rival_peak` of changes (n_times, m) of some size (n_times,).
+
+    Only times count at which the change is another, by UNLIKE, than what is read, and than its mirror image: those just
+    beside a peak would score alike, as does the other half of a cycle whose row mirrors.
+    """
+    images = np.array([changes[time], changes[time, ::-1]])
+    apart = np.min([_size(changes - image, arc) for image in images], axis=0)
+    return float((size[apart > UNLIKE * size[time]] / size[time]).max(initial=0.0))
 
 
 def _size(changes: FloatArray, arc: FloatArray) -> FloatArray:
-    """Norms (k,) of changes (k, m) over arc length (m,) [mm]."""
+    """Norms (n_times,) of changes (n_times, m) over arc length (m,) [mm]."""
     return np.asarray(np.sqrt(np.trapezoid(changes**2, arc, axis=1)))
 
 

@@ -23,7 +23,7 @@ from .resampling import resampling_to_grid
 from .roughness import KEY, SCORE_UNIT, score_rows
 from .scene import Scene
 from .solution import Solution
-from .strain import receptor_readouts
+from .strain import read_receptors
 
 # times a read-out's wavelength [1]; source: an octave either way, in half octaves
 WAVELENGTH_FACTORS = (0.5, 0.5**0.5, 1.0, 2.0**0.5, 2.0)
@@ -51,10 +51,10 @@ def variant_rows(
         for measure in Measure:
             of_strain = partial(measured, measure, material=material_at(scene, side))
             for (name, interface), solution in solutions.items():
-                read = receptor_readouts(section.receptor_strain(solution.forces), section.arc, of_strain)
+                read = read_receptors(section.receptor_strain(solution.forces), section.arc, of_strain)
                 for factor in WAVELENGTH_FACTORS:
                     variant = _with_wavelengths(scene, factor)
-                    filtered = filtered_readouts(resampling, read, variant.model.gabor)
+                    filtered = filtered_readouts(resampling, read.readouts, variant.model.gabor)
                     for row in score_rows(variant, scene.device.condition(name), interface, filtered):
                         unit = SCORE_UNIT if measure.unit == "1" else f"{measure.unit} {SCORE_UNIT}"
                         how = {"measure": str(measure), "side": str(side), "wavelength_factor": round(factor, 3)}

@@ -19,7 +19,7 @@ from ..prediction import condense_scene, predicted_rows, prepared
 from ..recovery import recover_displacement
 from ..scene import Scene
 from ..states import states_fields
-from ..strain import receptor_readouts
+from ..strain import read_receptors
 from ..tissue_law import Kinematics
 from .timing import fewest
 
@@ -79,7 +79,7 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
         repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.forces))
     )
     forces, finger = solution.forces, condensed.section
-    _, reading_both = fewest(repeats, lambda: receptor_readouts(finger.receptor_strain(forces), finger.arc))
+    _, reading_both = fewest(repeats, lambda: read_receptors(finger.receptor_strain(forces), finger.arc))
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
         yield {
             "device": scene.device.name,
