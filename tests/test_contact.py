@@ -154,9 +154,16 @@ def test_halvings_of_earlier_increments_are_not_counted() -> None:
         advance(problem, rest(problem, 0.0), np.array([[0.0, 1.0]]), 4, None, solve)
 
 
-def test_a_halved_increment_is_another() -> None:
-    """Of three increments the first is halved, so that the last, made whole again, would reach over the end: where that
-    fails, half of what is left is tried, not the same again."""
+@pytest.mark.parametrize(
+    ("length", "expected"),
+    [
+        (0.03, [0.01, 0.005, 0.015, 0.025, 0.03, 0.0275, 0.03]),  # an increment crosses no two distances of nodes
+        (1.2, [0.4, 0.2, 0.4, 0.6, 0.8, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2]),  # many, so they stay as short as they got
+    ],
+)
+def test_a_halved_increment_is_another(length: float, expected: list[float]) -> None:
+    """Of three increments the first is halved. Made whole again, where it may be, the last would reach over the end:
+    where that fails, half of what is left is tried, not the same again."""
     problem, tried = touched(0.1, 1.0, 0.5), list[float]()
 
     def solve(
@@ -167,9 +174,9 @@ def test_a_halved_increment_is_another() -> None:
             raise NotConvergedError(1.0)
         return replace(state, actuator=actuator), None
 
-    reached, _ = advance(problem, rest(problem, 0.0), lift(problem, 0.0, 1.2), 3, None, solve)
-    assert tried == pytest.approx([0.4, 0.2, 0.6, 1.0, 1.2, 1.1, 1.2])
-    assert reached.actuator == pytest.approx(lift(problem, 0.0, 1.2))
+    reached, _ = advance(problem, rest(problem, 0.0), lift(problem, 0.0, length), 3, None, solve)
+    assert tried == pytest.approx(expected)
+    assert reached.actuator == pytest.approx(lift(problem, 0.0, length))
 
 
 @pytest.mark.parametrize("reach", [0.05, 0.3])
