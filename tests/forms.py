@@ -16,7 +16,7 @@ import numpy as np
 from skfem import BilinearForm, LinearForm
 from skfem.helpers import ddot, det, eye, grad, inv, mul, trace, transpose
 
-from fingerpad.tissue_law import Law
+from fingerpad.scene.tissue_law import Law
 
 STEP = 1e-30  # of a complex step
 

@@ -6,18 +6,18 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from fingerpad.actuator_body import body_of
-from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.condensation import condense_section
-from fingerpad.contact_law import Interface
-from fingerpad.device import Condition
-from fingerpad.edges import mesh_device
-from fingerpad.export import DeckSettings
-from fingerpad.linear_solution import solve_condition
-from fingerpad.mesh import SectionMesh
-from fingerpad.scene import Scene
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.calculix.deck import DeckSettings
+from fingerpad.contact.linear_solution import solve_condition
+from fingerpad.contact.solution import Solution
+from fingerpad.prediction.edges import mesh_device
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import Condition
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.tissue.actuator_body import body_of
+from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.mesh import SectionMesh
 
 CONFIG = Path(__file__).parents[1] / "config"
 DECK = DeckSettings(

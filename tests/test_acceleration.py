@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fingerpad.acceleration import accelerated
+from fingerpad.contact.acceleration import accelerated
 
 ROUNDING = 1e-10  # of a system of four equations whose condition is some hundreds
 

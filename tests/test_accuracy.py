@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fingerpad.accuracy import LEAST, true_errors, with_errors
-from fingerpad.device import Condition
-from fingerpad.edges import edge_intervals
-from fingerpad.forecast import forecast
-from fingerpad.prediction import rows_at
+from fingerpad.prediction.edges import edge_intervals
+from fingerpad.prediction.forecast import forecast
+from fingerpad.prediction.scoring import rows_at
+from fingerpad.readouts.accuracy import LEAST, true_errors, with_errors
+from fingerpad.scene.device import Condition
 from scenes import scene
 
 NEVER = 4.0  # times its stated error that no true one may be; source: the project's aim

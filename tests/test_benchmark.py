@@ -11,8 +11,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fingerpad.accuracy import with_errors
-from fingerpad.accuracy_page import accuracy_values
 from fingerpad.benchmark.first_order import condense_first_order
 from fingerpad.benchmark.growth import exponents, growth, row_of
 from fingerpad.benchmark.increments import increment_rows
@@ -28,19 +26,21 @@ from fingerpad.benchmark.ladder import (
 )
 from fingerpad.benchmark.skipping import always_rows, skip_rows
 from fingerpad.benchmark.timing import exponent
-from fingerpad.condensation import condense_section
-from fingerpad.device import Condition, Control
-from fingerpad.edges import edge_intervals, mesh_device
 from fingerpad.errors import SceneError
 from fingerpad.figures.benchmark import benchmark_figure
-from fingerpad.frequency_page import frequency_values
-from fingerpad.numerics import Skips
-from fingerpad.pages import filled, table
-from fingerpad.prediction import rows_at
-from fingerpad.readout import Readout
-from fingerpad.scene import Scene
-from fingerpad.skipping_page import skipping_values
-from fingerpad.tissue_law import Kinematics
+from fingerpad.pages.accuracy import accuracy_values
+from fingerpad.pages.filling import filled, table
+from fingerpad.pages.frequency import frequency_values
+from fingerpad.pages.skipping import skipping_values
+from fingerpad.prediction.edges import edge_intervals, mesh_device
+from fingerpad.prediction.scoring import rows_at
+from fingerpad.readouts.accuracy import with_errors
+from fingerpad.scene.device import Condition, Control
+from fingerpad.scene.numerics import Skips
+from fingerpad.scene.readout import Readout
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.tissue.condensation import condense_section
 from scenes import scene
 
 COARSE = 3.0  # times the shipped sizes [1]: seconds instead of minutes

@@ -10,17 +10,17 @@ import pytest
 import yaml
 from matplotlib.figure import Figure
 
-from fingerpad.actuator_body import body_of
 from fingerpad.arrays import FloatArray
-from fingerpad.bodies import BODIES
-from fingerpad.contact_law import Interface
-from fingerpad.device import Body
+from fingerpad.calculix.deck import input_deck
+from fingerpad.contact.linear_solution import indent_device
 from fingerpad.errors import MeshError, SceneError
-from fingerpad.export import input_deck
 from fingerpad.figures.actuators import draw_actuators
-from fingerpad.finger import Material
-from fingerpad.linear_solution import indent_device
-from fingerpad.scene import Scene
+from fingerpad.scene.bodies import BODIES
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import Body
+from fingerpad.scene.finger import Material
+from fingerpad.scene.scene import Scene
+from fingerpad.tissue.actuator_body import body_of
 from scenes import DECK, condensed, scene, section
 
 SCHEMA = Path(__file__).parents[1] / "workflow" / "schemas" / "device.schema.yaml"

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from skfem import MeshTri, MeshTri2
 
-from fingerpad import calculix
 from fingerpad.arrays import FloatArray
-from fingerpad.calculix import read_printed, run
-from fingerpad.condensation import condense_section
-from fingerpad.crosscheck import (
+from fingerpad.calculix import run as calculix
+from fingerpad.calculix.crosscheck import (
     ContactModel,
     calculix_outcome,
     differences,
@@ -23,17 +21,19 @@ from fingerpad.crosscheck import (
     printed_outcome,
     sharpened,
 )
-from fingerpad.deformation import elements_of, internal_force
-from fingerpad.deformed_crosscheck import deformed_outcome
-from fingerpad.edges import mesh_device
-from fingerpad.elasticity import displacement_basis, node_dofs
+from fingerpad.calculix.deck import DeckSettings, input_deck, material_lines
+from fingerpad.calculix.deformed_crosscheck import deformed_outcome
+from fingerpad.calculix.run import read_printed, run
 from fingerpad.errors import CalculixError, ContactError
-from fingerpad.export import DeckSettings, input_deck, material_lines
-from fingerpad.finger import Material
-from fingerpad.hyperelasticity import tissue_of
-from fingerpad.mesh import element_nodes, mesh_section, nominal_edges
-from fingerpad.scene import Scene
-from fingerpad.tissue_law import Kinematics, Law, TissueLaw
+from fingerpad.finite.deformation import elements_of, internal_force
+from fingerpad.finite.hyperelasticity import tissue_of
+from fingerpad.prediction.edges import mesh_device
+from fingerpad.scene.finger import Material
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics, Law, TissueLaw
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.elasticity import displacement_basis, node_dofs
+from fingerpad.tissue.mesh import element_nodes, mesh_section, nominal_edges
 from scenes import CONFIG, scene
 from scripts.calculix import main
 

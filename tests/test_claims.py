@@ -8,9 +8,9 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from fingerpad.claims import COLUMNS, claims_table
-from fingerpad.perception import correlation_table
-from fingerpad.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.perception.claims import COLUMNS, claims_table
+from fingerpad.perception.correlation import correlation_table
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
 ROOT = Path(__file__).parents[1]
 PHASES = (0, 90, 180)

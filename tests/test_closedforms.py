@@ -13,10 +13,10 @@ from fingerpad.closedforms.blocks import pressed
 from fingerpad.closedforms.comparison import ORDER_OF
 from fingerpad.closedforms.energy import first_stress
 from fingerpad.closedforms.table import CASES
-from fingerpad.contact import Status
-from fingerpad.finger import Layer, Material
-from fingerpad.hyperelasticity import tissue_of
-from fingerpad.tissue_law import Law
+from fingerpad.contact.formulation import Status
+from fingerpad.finite.hyperelasticity import tissue_of
+from fingerpad.scene.finger import Layer, Material
+from fingerpad.scene.tissue_law import Law
 from scenes import scene
 
 PAD = scene("device2").model.finger.pad

@@ -20,26 +20,26 @@ import yaml
 
 import fingerpad.commands.predict as predicting
 from conftest import Project, coarsened
-from fingerpad import prediction
 from fingerpad.api import predict
-from fingerpad.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
-from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.contact_law import Criterion, Interface
-from fingerpad.device import Condition
+from fingerpad.contact.linear_solution import Indented
+from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, UsageError
-from fingerpad.forecast import LEFT_OUT, forecast, steps
-from fingerpad.linear_solution import Indented
-from fingerpad.prediction import Condensed, Solved, rows_of
-from fingerpad.resampling import resampling_to_grid
-from fingerpad.scene import Scene
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
-from fingerpad.sources import Origin, quantities
-from fingerpad.template import DRIVES, device_text
-from fingerpad.tissue_law import Kinematics
-from fingerpad.validation import check_device, checked_document
+from fingerpad.prediction import scoring as prediction
+from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats
+from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
+from fingerpad.prediction.scoring import Condensed, Solved, rows_of
+from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.scene.contact_law import Criterion, Interface
+from fingerpad.scene.device import Condition
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.sources import Origin, quantities
+from fingerpad.scene.template import DRIVES, device_text
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.scene.validation import check_device, checked_document
+from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from scenes import condensed, scene, solve, solved
 
 ROOT = Path(__file__).parents[1]

@@ -7,15 +7,15 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
-from fingerpad.condensation import condense, section_stiffness
-from fingerpad.contact_law import Interface
-from fingerpad.elasticity import unit_loads
 from fingerpad.errors import CondensationError
-from fingerpad.reach import contact_tractions
-from fingerpad.receptors import receptor_strain
-from fingerpad.recovery import recover_displacement
-from fingerpad.states import states_fields
-from fingerpad.strain import maximum_principal
+from fingerpad.fields.recovery import recover_displacement
+from fingerpad.fields.states import states_fields
+from fingerpad.readouts.strain import maximum_principal
+from fingerpad.scene.contact_law import Interface
+from fingerpad.tissue.condensation import condense, section_stiffness
+from fingerpad.tissue.elasticity import unit_loads
+from fingerpad.tissue.reach import contact_tractions
+from fingerpad.tissue.receptors import receptor_strain
 from scenes import condensed, scene, section, solved
 
 

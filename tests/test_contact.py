@@ -8,14 +8,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from fingerpad.active_set import NotConvergedError
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
-from fingerpad.contact import ContactProblem, ContactState, Status, rest
-from fingerpad.device import ActuatorRow
+from fingerpad.contact.active_set import NotConvergedError
+from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest
+from fingerpad.contact.patch import patch_of
+from fingerpad.contact.path import advance, follow
 from fingerpad.errors import ContactError, ConvergenceError
-from fingerpad.patch import patch_of
-from fingerpad.path import advance, follow
+from fingerpad.scene.device import ActuatorRow
 
 SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
 

@@ -16,10 +16,10 @@ from skfem import Basis, ElementQuad1, ElementTriP2, ElementVector, FacetBasis, 
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.equilibrium import Equilibrium, equilibrium
-from fingerpad.elasticity import displacement_basis, lame, node_dofs
-from fingerpad.finger import Material
-from fingerpad.hyperelasticity import tissue_of
-from fingerpad.tissue_law import Law
+from fingerpad.finite.hyperelasticity import tissue_of
+from fingerpad.scene.finger import Material
+from fingerpad.scene.tissue_law import Law
+from fingerpad.tissue.elasticity import displacement_basis, lame, node_dofs
 from forms import forms
 
 RUBBER = Material(240.565, 0.499)  # MPa, 1

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fingerpad.contact_law import Interface
-from fingerpad.ratings import order_matrix, read_published, read_ratings, read_stated_order
-from fingerpad.readout import Readout
-from fingerpad.scenefile import build_device, build_model, read_yaml
+from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.readout import Readout
+from fingerpad.scene.scenefile import build_device, build_model, read_yaml
 
 ROOT = Path(__file__).parents[1]
 DATA = ROOT / "data"

@@ -16,12 +16,12 @@ from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.energy import STEP, stored_energy
 from fingerpad.closedforms.finite_manufactured import large_displacement
 from fingerpad.closedforms.manufactured import uniform
-from fingerpad.deformation import Elements, elements_of, internal_force, internal_force_and_tangent
-from fingerpad.elasticity import displacement_basis, node_dofs, stiffness
 from fingerpad.errors import InvertedError
-from fingerpad.hyperelasticity import Tissue, tissue_of
-from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.tissue_law import Law
+from fingerpad.finite.deformation import Elements, elements_of, internal_force, internal_force_and_tangent
+from fingerpad.finite.hyperelasticity import Tissue, tissue_of
+from fingerpad.scene.tissue_law import Law
+from fingerpad.tissue.elasticity import displacement_basis, node_dofs, stiffness
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from forms import LAWS, forms
 from scenes import scene
 

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from fingerpad.arrays import FloatArray
-from fingerpad.contact_law import Interface
-from fingerpad.deformed import deformed_state, solver_on
-from fingerpad.deformed_path import SETTLED, DeformedTissue, move
-from fingerpad.deformed_solution import PressedFinger, pressed_finger, stimulate_deformed
-from fingerpad.device import Condition
+from fingerpad.contact.path import advance
+from fingerpad.contact.problem import left_out
 from fingerpad.errors import ContactError
-from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.path import advance
-from fingerpad.pressing import press
-from fingerpad.problem import left_out
-from fingerpad.scene import Scene
-from fingerpad.tissue_law import Kinematics
+from fingerpad.finite.deformed import deformed_state, solver_on
+from fingerpad.finite.deformed_path import SETTLED, DeformedTissue, move
+from fingerpad.finite.deformed_solution import PressedFinger, pressed_finger, stimulate_deformed
+from fingerpad.finite.pressing import press
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import Condition
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from scenes import scene
 
 COARSER = 3.0  # times the shipped sizes and strides

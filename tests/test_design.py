@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fingerpad.accuracy import COARSENING, with_errors
-from fingerpad.contact_law import Interface
-from fingerpad.design import Pad, PressedRow, answer, condense_pad, press_row
-from fingerpad.edges import edge_intervals
+from fingerpad.contact.symmetry import mirrors
 from fingerpad.errors import SceneError
 from fingerpad.figures.design import DesignPicture
 from fingerpad.figures.style import SCORE_SCALE
-from fingerpad.prediction import condense_scene, predicted_rows, rows_at
-from fingerpad.readout import Readout
-from fingerpad.symmetry import mirrors
+from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
+from fingerpad.prediction.edges import edge_intervals
+from fingerpad.prediction.scoring import condense_scene, predicted_rows, rows_at
+from fingerpad.readouts.accuracy import COARSENING, with_errors
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.readout import Readout
 from scenes import scene
 
 DEVICE = "device2"

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from fingerpad.codemap import imported, levels, page, summary
 from fingerpad.errors import FingerpadError
+from fingerpad.pages.codemap import dotted, imported, levels, page, summary, unit
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "fingerpad"
@@ -100,10 +100,14 @@ def test_committed_map_is_what_the_code_says() -> None:
 
 
 def test_imports_have_no_circle_and_levels_rise() -> None:
-    single = {path.removesuffix(".py"): text for path, text in MODULES.items() if "/" not in path}
-    edges = [(other, name) for name, text in single.items() for other in imported(text) if other in single]
-    level = levels(single, edges)
-    assert all(level[start] < level[stop] for start, stop in edges)
+    """Neither between modules nor between packages; and imports are seen: there are more than modules."""
+    texts = {dotted(path): text for path, text in MODULES.items()}
+    modules = {(other, name) for name, text in texts.items() for other in imported(text, name, texts)}
+    packages = {(unit(other), unit(name)) for other, name in modules if unit(other) != unit(name)}
+    assert len(modules) > len(texts)
+    for names, edges in ((texts, modules), (map(unit, texts), packages)):
+        level = levels(names, edges)
+        assert all(level[start] < level[stop] for start, stop in edges)
 
 
 def test_citation_has_the_version_of_the_project() -> None:

@@ -6,8 +6,8 @@ import numpy as np
 
 from fingerpad.closedforms.blocks import block_mesh
 from fingerpad.closedforms.equilibrium import linear_equilibrium
-from fingerpad.elasticity import displacement_basis, facet_strain, node_dofs, stiffness
-from fingerpad.finger import Material
+from fingerpad.scene.finger import Material
+from fingerpad.tissue.elasticity import displacement_basis, facet_strain, node_dofs, stiffness
 
 
 def test_facet_strain_reads_the_side_that_is_asked_for() -> None:

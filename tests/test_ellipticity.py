@@ -7,14 +7,14 @@ import pytest
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.energy import first_stress
-from fingerpad.deformation import Elements, elements_of
-from fingerpad.elasticity import displacement_basis, node_dofs
-from fingerpad.ellipticity import require_elliptic, smallest_stiffness
 from fingerpad.errors import EllipticityError
-from fingerpad.finger import Material
-from fingerpad.hyperelasticity import tissue_of
-from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.tissue_law import Law
+from fingerpad.finite.deformation import Elements, elements_of
+from fingerpad.finite.ellipticity import require_elliptic, smallest_stiffness
+from fingerpad.finite.hyperelasticity import tissue_of
+from fingerpad.scene.finger import Material
+from fingerpad.scene.tissue_law import Law
+from fingerpad.tissue.elasticity import displacement_basis, node_dofs
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from scenes import scene
 
 SKIN = [Material(0.08, 0.48)]

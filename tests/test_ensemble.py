@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from fingerpad.alternatives import (
+from fingerpad.ensemble.alternatives import (
     AS_CONFIGURED,
     FIRST,
     HALF_CYCLES,
@@ -21,13 +21,13 @@ from fingerpad.alternatives import (
     slug,
     write_scenes,
 )
-from fingerpad.ensemble import ensemble_tables
+from fingerpad.ensemble.members import ensemble_tables
 from fingerpad.errors import SceneError
 from fingerpad.figures.ensemble import ensemble_figure
-from fingerpad.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.robustness_page import robustness_values
-from fingerpad.scenefile import read_yaml
-from fingerpad.validation import check_device
+from fingerpad.pages.robustness import robustness_values
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.scene.scenefile import read_yaml
+from fingerpad.scene.validation import check_device
 from test_claims import CONDITIONS, make_scores
 
 ROOT = Path(__file__).parents[1]

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from fingerpad.design import Answer, answer, condense_pad
 from fingerpad.errors import ContactError
 from fingerpad.explorer import LIMITS, START, Explorer, reach
+from fingerpad.prediction.design import Answer, answer, condense_pad
 from scenes import scene
 
 PNG = b"\x89PNG"

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from fingerpad.arrays import FloatArray
+from fingerpad.calculix.crosscheck import sharpened
+from fingerpad.calculix.deck import FRICTIONLESS, READ_NODES, DeckSettings, input_deck, read_nodes
 from fingerpad.cli import FAILED, main
-from fingerpad.contact_law import Interface
-from fingerpad.crosscheck import sharpened
-from fingerpad.edges import mesh_device
-from fingerpad.export import FRICTIONLESS, READ_NODES, DeckSettings, input_deck, read_nodes
-from fingerpad.profile import profile
-from fingerpad.scene import Scene
-from fingerpad.tissue_law import Kinematics, Law
+from fingerpad.contact.profile import profile
+from fingerpad.prediction.edges import mesh_device
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics, Law
 from scenes import CONFIG, DECK, scene, section
 
 SCHEMAS = Path(__file__).parents[1] / "workflow" / "schemas"

@@ -18,12 +18,10 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
 from fingerpad.arrays import FloatArray
-from fingerpad.certificate import Certificate
-from fingerpad.compliance import CondensedSection
-from fingerpad.contact import Status
-from fingerpad.contact_law import Interface
-from fingerpad.device import ActuatorRow, Body, Condition, Control, Device
-from fingerpad.fields import Fields
+from fingerpad.contact.certificate import Certificate
+from fingerpad.contact.formulation import Status
+from fingerpad.contact.solution import Solution
+from fingerpad.fields.section_fields import Fields
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.correlation import correlation_figure
@@ -35,16 +33,18 @@ from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.stimuli import stimuli_figure
 from fingerpad.figures.style import MIDDLE, MINUS, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save
 from fingerpad.figures.workflow import workflow_figure
-from fingerpad.finger import Material
-from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
-from fingerpad.numerics import Numerics
-from fingerpad.perception import correlation_table
-from fingerpad.readout import Readout
-from fingerpad.scene import Scene
-from fingerpad.scenefile import build_model, read_yaml
-from fingerpad.solution import Solution
-from fingerpad.strain import FilteredReadouts
-from fingerpad.tissue_law import Kinematics
+from fingerpad.perception.correlation import correlation_table
+from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import ActuatorRow, Body, Condition, Control, Device
+from fingerpad.scene.finger import Material
+from fingerpad.scene.numerics import Numerics
+from fingerpad.scene.readout import Readout
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.scenefile import build_model, read_yaml
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedSection
+from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
 
 ROOT = Path(__file__).parents[1]
 COARSE = Numerics(
@@ -674,7 +674,8 @@ def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd
 
 def test_neither_figures_nor_solver_load_what_they_do_not_need() -> None:
     code = (
-        "import sys, fingerpad.solution, fingerpad.gabor, fingerpad.roughness; assert 'matplotlib' not in sys.modules;"
+        "import sys, fingerpad.contact.solution, fingerpad.readouts.gabor, fingerpad.readouts.roughness;"
+        "assert 'matplotlib' not in sys.modules;"
         "import fingerpad.figures.maps, fingerpad.figures.receptors, fingerpad.figures.stimuli;"
         "assert 'matplotlib' in sys.modules and 'pandas' not in sys.modules and 'scipy' not in sys.modules;"
         "import fingerpad.figures.workflow; assert 'matplotlib.pyplot' not in sys.modules"

@@ -8,11 +8,11 @@ from scipy.linalg import logm
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.energy import first_stress, stored_energy
-from fingerpad.elasticity import lame
-from fingerpad.finger import Material
-from fingerpad.finite_strain import green_strain, is_upright, logarithmic_strain
-from fingerpad.hyperelasticity import EQUAL, Tissue, cauchy_stress, respond, tissue_of
-from fingerpad.tissue_law import Law
+from fingerpad.finite.finite_strain import green_strain, is_upright, logarithmic_strain
+from fingerpad.finite.hyperelasticity import EQUAL, Tissue, cauchy_stress, respond, tissue_of
+from fingerpad.scene.finger import Material
+from fingerpad.scene.tissue_law import Law
+from fingerpad.tissue.elasticity import lame
 
 MATERIALS = [Material(0.08, 0.48), Material(1.0, 0.3), Material(2.0, 0.0)]
 EXPONENT = 9.0  # of Ogden's law, where it matters

@@ -10,9 +10,9 @@ import pytest
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
-from fingerpad.contact import ContactProblem, ContactState
-from fingerpad.device import ActuatorRow
-from fingerpad.path import follow
+from fingerpad.contact.formulation import ContactProblem, ContactState
+from fingerpad.contact.path import follow
+from fingerpad.scene.device import ActuatorRow
 
 SPACING = 1 / 32  # mm; contact is 0.4 to 1 mm wide
 ROW = ActuatorRow((-0.35, 0.45), 0.5, 0.1)  # no mirror image of itself

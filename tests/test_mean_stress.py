@@ -10,11 +10,11 @@ from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms import bending, wave
-from fingerpad.elasticity import displacement_basis, lame, node_dofs
-from fingerpad.finger import Material
-from fingerpad.mean_stress import element_means, recover_linear
-from fingerpad.mesh import NODES
-from fingerpad.recovery import gradient_at, strain_of
+from fingerpad.fields.mean_stress import element_means, recover_linear
+from fingerpad.fields.recovery import gradient_at, strain_of
+from fingerpad.scene.finger import Material
+from fingerpad.tissue.elasticity import displacement_basis, lame, node_dofs
+from fingerpad.tissue.mesh import NODES
 from scenes import section
 
 DEVICE = "device2"

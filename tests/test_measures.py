@@ -5,9 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fingerpad.elasticity import lame
-from fingerpad.finger import Material
-from fingerpad.measures import Measure, maximum_shear, measured, strain_energy_density, stress, von_mises_stress
+from fingerpad.readouts.measures import (
+    Measure,
+    maximum_shear,
+    measured,
+    strain_energy_density,
+    stress,
+    von_mises_stress,
+)
+from fingerpad.scene.finger import Material
+from fingerpad.tissue.elasticity import lame
 
 MATERIAL = Material(0.08, 0.48)
 RANDOM = np.random.default_rng(5).standard_normal((200, 3))

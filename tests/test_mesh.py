@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fingerpad import edges
-from fingerpad.contact_law import Interface
-from fingerpad.device import ActuatorRow
-from fingerpad.edges import REACH, edge_intervals, mesh_device
-from fingerpad.elasticity import displacement_basis, node_dofs
 from fingerpad.errors import ContactError, ConvergenceError, CriterionError, MeshError, SceneError
-from fingerpad.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
-from fingerpad.reach import contact_tractions
-from fingerpad.receptors import receptor_strain
+from fingerpad.prediction import edges
+from fingerpad.prediction.edges import REACH, edge_intervals, mesh_device
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import ActuatorRow
+from fingerpad.tissue.elasticity import displacement_basis, node_dofs
+from fingerpad.tissue.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
+from fingerpad.tissue.reach import contact_tractions
+from fingerpad.tissue.receptors import receptor_strain
 from scenes import scene, section
 
 DEVICES = ("device1", "device2", "device3")

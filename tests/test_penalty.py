@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from fingerpad.arrays import FloatArray
+from fingerpad.calculix.crosscheck import sharpened
+from fingerpad.calculix.penalty import PenaltyLaw, follow_penalties, untouched
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
-from fingerpad.contact import ContactProblem, rest, switch_friction, touching_height
-from fingerpad.contact_law import Interface
-from fingerpad.crosscheck import sharpened
-from fingerpad.device import ActuatorRow
+from fingerpad.contact.formulation import ContactProblem, rest, switch_friction, touching_height
+from fingerpad.contact.path import follow
+from fingerpad.contact.problem import contact_problem
 from fingerpad.errors import ContactError
-from fingerpad.finger import Material
-from fingerpad.path import follow
-from fingerpad.penalty import PenaltyLaw, follow_penalties, untouched
-from fingerpad.problem import contact_problem
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import ActuatorRow
+from fingerpad.scene.finger import Material
 from scenes import condensed, scene
 
 FRICTION = 0.5

@@ -10,10 +10,10 @@ import pandas as pd
 import pytest
 from numpy.typing import NDArray
 
-from fingerpad import perception
 from fingerpad.errors import RatingError
-from fingerpad.perception import correlation_table, extreme_ratings, r2_range, up_sets
-from fingerpad.ratings import order_matrix, read_published, read_ratings, read_stated_order
+from fingerpad.perception import correlation as perception
+from fingerpad.perception.correlation import correlation_table, extreme_ratings, r2_range, up_sets
+from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
 Array = NDArray[np.float64]
 Matrix = NDArray[np.bool_]

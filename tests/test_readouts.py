@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from fingerpad.gabor import REACH, filtered_readouts, gabor_filtered
-from fingerpad.readout import GaborFilter, Readout
-from fingerpad.resampling import resampling_to_grid
-from fingerpad.roughness import roughness_score
-from fingerpad.strain import maximum_principal, read_receptors
+from fingerpad.readouts.gabor import REACH, filtered_readouts, gabor_filtered
+from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.readouts.roughness import roughness_score
+from fingerpad.readouts.strain import maximum_principal, read_receptors
+from fingerpad.scene.readout import GaborFilter, Readout
 
 SIGMA = 1.12
 

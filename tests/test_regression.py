@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 from conftest import SMALL_ONLY, Project
-from fingerpad.solution import Solution
+from fingerpad.contact.solution import Solution
 from fingerpad.store import load
 
 NOT_BORNE_OUT = {  # with small strain, in the first half-cycle

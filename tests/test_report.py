@@ -12,9 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from fingerpad.contact_law import Interface
 from fingerpad.digraph import layers, placed, read_dot, reduced
-from fingerpad.readout import Readout
 from fingerpad.report.captions import Results, Words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -26,9 +24,11 @@ from fingerpad.report.tables import (
     score_grid,
     score_with_error,
 )
-from fingerpad.scenefile import load_scene, read_yaml
-from fingerpad.sources import Origin, page, quantities
-from fingerpad.tissue_law import Kinematics
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.readout import Readout
+from fingerpad.scene.scenefile import load_scene, read_yaml
+from fingerpad.scene.sources import Origin, page, quantities
+from fingerpad.scene.tissue_law import Kinematics
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -344,7 +344,10 @@ def test_accuracy_counts_only_what_has_a_score(results: Results) -> None:
 
 def test_committed_page_of_assumptions_is_what_the_scene_files_say() -> None:
     files = [CONFIG, *sorted((ROOT / "config" / "devices").glob("*.yaml"))]
-    modules = {path.stem: path.read_text(encoding="utf-8") for path in sorted((ROOT / "src/fingerpad").glob("*.py"))}
+    package = ROOT / "src" / "fingerpad"
+    modules = {
+        path.relative_to(package).as_posix(): path.read_text(encoding="utf-8") for path in sorted(package.rglob("*.py"))
+    }
     made = page({f"{path.parent.name}/{path.name}": read_yaml(path) for path in files}, modules)
     committed = (ROOT / "docs" / "assumptions.md").read_text(encoding="utf-8")
     assert committed == made, (

@@ -7,27 +7,34 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.actuator_body import condense_body
-from fingerpad.certificate import CONE_LIMIT, DISSIPATION_LIMIT, PENETRATION_LIMIT, TENSION_LIMIT, Certificate, certify
-from fingerpad.condensation import condense_section
-from fingerpad.contact import ContactProblem, ContactState, face_shape, rest, touch, touching_height
-from fingerpad.contact_law import Criterion, Interface
-from fingerpad.depth import require_tissue
-from fingerpad.device import ActuatorRow, Condition
-from fingerpad.edges import mesh_device
+from fingerpad.contact.certificate import (
+    CONE_LIMIT,
+    DISSIPATION_LIMIT,
+    PENETRATION_LIMIT,
+    TENSION_LIMIT,
+    Certificate,
+    certify,
+)
+from fingerpad.contact.depth import require_tissue
+from fingerpad.contact.force_curve import small_strain_curve
+from fingerpad.contact.formulation import ContactProblem, ContactState, face_shape, rest, touch, touching_height
+from fingerpad.contact.increment import GIVING
+from fingerpad.contact.indentation import END_TOLERANCE
+from fingerpad.contact.linear_solution import follow_condition, indent_device, indented_state, solve_condition
+from fingerpad.contact.path import follow
+from fingerpad.contact.problem import contact_problem
+from fingerpad.contact.solution import Solution
 from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError
-from fingerpad.force_curve import small_strain_curve
-from fingerpad.gabor import filtered_readouts
-from fingerpad.increment import GIVING
-from fingerpad.indentation import END_TOLERANCE
-from fingerpad.linear_solution import follow_condition, indent_device, indented_state, solve_condition
-from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.path import follow
-from fingerpad.problem import contact_problem
-from fingerpad.resampling import resampling_to_grid
-from fingerpad.roughness import roughness_scores
-from fingerpad.scene import Scene
-from fingerpad.solution import Solution
+from fingerpad.prediction.edges import mesh_device
+from fingerpad.readouts.gabor import filtered_readouts
+from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.readouts.roughness import roughness_scores
+from fingerpad.scene.contact_law import Criterion, Interface
+from fingerpad.scene.device import ActuatorRow, Condition
+from fingerpad.scene.scene import Scene
+from fingerpad.tissue.actuator_body import condense_body
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from scenes import condensed, scene, solve, solved
 
 ROUNDING = 1e-10  # of a share [1]: that of shares of 1e-6 of forces

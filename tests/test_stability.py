@@ -11,23 +11,23 @@ import pytest
 from scipy.sparse import csc_matrix
 
 from fingerpad.arrays import FloatArray
-from fingerpad.contact import ContactProblem, Status
-from fingerpad.contact_law import Interface
-from fingerpad.device import ActuatorRow, Condition, Control, Device
-from fingerpad.elasticity import displacement_basis, node_dofs
+from fingerpad.contact.force_curve import limit_points
+from fingerpad.contact.formulation import ContactProblem, Status
+from fingerpad.contact.stability import unstable_directions
 from fingerpad.errors import CrossingError, SnapError
-from fingerpad.factors import factorise
 from fingerpad.figures.kinematics import NO_LIMITS, kinematics_figure
-from fingerpad.finger import Finger, Layer, Material
-from fingerpad.force_curve import limit_points
-from fingerpad.mesh import SectionMesh, mesh_section, nominal_edges
-from fingerpad.pressing import Pressed, press_to
-from fingerpad.randomscene import STILL
-from fingerpad.reach import contact_tractions
-from fingerpad.scene import Scene
-from fingerpad.skin import crossing, require_uncrossed, skin_of
-from fingerpad.stability import unstable_directions
-from fingerpad.tissue_law import Kinematics, Law
+from fingerpad.finite.pressing import Pressed, press_to
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
+from fingerpad.scene.finger import Finger, Layer, Material
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics, Law
+from fingerpad.stress.randomscene import STILL
+from fingerpad.tissue.elasticity import displacement_basis, node_dofs
+from fingerpad.tissue.factors import factorise
+from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
+from fingerpad.tissue.reach import contact_tractions
+from fingerpad.tissue.skin import crossing, require_uncrossed, skin_of
 from scenes import scene
 
 CONTRAST = 1e4  # of the shell's modulus over that of what it encloses [1]

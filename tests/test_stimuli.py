@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 import yaml
 
-from fingerpad.device import ActuatorRow, Condition, Control, Cycle, Device
 from fingerpad.errors import SceneError
-from fingerpad.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
-from fingerpad.scenefile import recordings
-from fingerpad.stimuli import KINDS, alternating, alternating_cycles, measured, phased, phased_cycles
-from fingerpad.validation import check_device
+from fingerpad.scene.device import ActuatorRow, Condition, Control, Cycle, Device
+from fingerpad.scene.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
+from fingerpad.scene.scenefile import recordings
+from fingerpad.scene.stimuli import KINDS, alternating, alternating_cycles, measured, phased, phased_cycles
+from fingerpad.scene.validation import check_device
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"

@@ -16,14 +16,13 @@ from hypothesis import strategies as st
 
 from fingerpad import errors
 from fingerpad.closedforms.blocks import half_plane
-from fingerpad.compliance import CondensedSection
-from fingerpad.contact_law import Criterion, Interface
-from fingerpad.device import ActuatorRow, Condition
+from fingerpad.contact.indentation import indent
+from fingerpad.contact.linear_solution import solve_condition
+from fingerpad.contact.problem import contact_problem
 from fingerpad.errors import FingerpadError, MeshError
-from fingerpad.indentation import indent
-from fingerpad.linear_solution import solve_condition
-from fingerpad.mesh import mesh_section, nominal_edges
-from fingerpad.outcomes import (
+from fingerpad.scene.contact_law import Criterion, Interface
+from fingerpad.scene.device import ActuatorRow, Condition
+from fingerpad.stress.outcomes import (
     SOLVED,
     Outcome,
     coarse_section,
@@ -33,8 +32,7 @@ from fingerpad.outcomes import (
     outcomes,
     summary,
 )
-from fingerpad.problem import contact_problem
-from fingerpad.randomscene import (
+from fingerpad.stress.randomscene import (
     FRICTION,
     GROUP,
     LARGEST_POISSON,
@@ -47,7 +45,9 @@ from fingerpad.randomscene import (
     random_group,
     random_scene,
 )
-from fingerpad.reach import contact_tractions
+from fingerpad.tissue.compliance import CondensedSection
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.reach import contact_tractions
 
 GROUPS = range(8)
 DEFORMED = [3, 6, 9, 29, 40, 48]  # a second each
@@ -180,7 +180,8 @@ def test_outcomes_are_reproducible_in_any_order() -> None:
 def test_outcomes_do_not_depend_on_threads() -> None:
     """One thread and two: the same outcomes; strains within ten times what gaps and forces are solved to (1e-9)."""
     code = (
-        "from fingerpad.outcomes import *\nfor row in outcomes(range(5)): print(row.outcome, repr(row.largest_strain))"
+        "from fingerpad.stress.outcomes import outcomes\n"
+        "for row in outcomes(range(5)): print(row.outcome, repr(row.largest_strain))"
     )
     said = []
     for threads in ("1", "2"):

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.compliance import MIRROR
-from fingerpad.contact_law import Interface
-from fingerpad.linear_solution import indented_state
-from fingerpad.problem import contact_problem
-from fingerpad.symmetry import mirrors
+from fingerpad.contact.linear_solution import indented_state
+from fingerpad.contact.problem import contact_problem
+from fingerpad.contact.symmetry import mirrors
+from fingerpad.scene.contact_law import Interface
+from fingerpad.tissue.compliance import MIRROR
 from scenes import condensed, scene
 
 # Gaps are solved to 1e-9 of the indentation of some 2 mm

@@ -9,15 +9,22 @@ import numpy as np
 import pytest
 
 from fingerpad.arrays import FloatArray
+from fingerpad.calculix.penalty import PenaltyLaw, follow_penalties, untouched
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
-from fingerpad.contact import ContactProblem, ContactState, Status, rest, shearing_and_pressing, touching_height
-from fingerpad.contact_law import ContactLaw, Criterion, Interface, TurningNormal
-from fingerpad.device import ActuatorRow
-from fingerpad.finger import Material
-from fingerpad.path import follow
-from fingerpad.penalty import PenaltyLaw, follow_penalties, untouched
-from fingerpad.profile import bend, profile
-from fingerpad.tissue_law import Kinematics
+from fingerpad.contact.formulation import (
+    ContactProblem,
+    ContactState,
+    Status,
+    rest,
+    shearing_and_pressing,
+    touching_height,
+)
+from fingerpad.contact.path import follow
+from fingerpad.contact.profile import bend, profile
+from fingerpad.scene.contact_law import ContactLaw, Criterion, Interface, TurningNormal
+from fingerpad.scene.device import ActuatorRow
+from fingerpad.scene.finger import Material
+from fingerpad.scene.tissue_law import Kinematics
 
 DEPTH, WAY = 0.1, 0.05  # mm
 FRICTION = 0.5

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fingerpad.active_set import NotConvergedError
-from fingerpad.contact import ContactProblem, ContactState, Status, rest
-from fingerpad.device import ActuatorRow
+from fingerpad.contact.active_set import NotConvergedError
+from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest
+from fingerpad.contact.increment import solve_increment
+from fingerpad.contact.path import follow
 from fingerpad.errors import UniquenessError
-from fingerpad.increment import solve_increment
-from fingerpad.path import follow
+from fingerpad.scene.device import ActuatorRow
 
 STIFFNESS = np.array([[1.0, 0.5], [0.5, 1.0]])  # of one node [N/mm per mm]; slip turns where mu k_xy > k_xx, mu = 2
 FACE = ActuatorRow((0.0,), 10.0, 0.0)  # flat where the node is

@@ -13,7 +13,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from fingerpad.errors import SceneError
-from fingerpad.validation import MOST_REPORTED, check_config, check_device, known_devices, require_device
+from fingerpad.scene.validation import MOST_REPORTED, check_config, check_device, known_devices, require_device
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"

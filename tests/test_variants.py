@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fingerpad.contact_law import Interface
-from fingerpad.gabor import filtered_readouts
-from fingerpad.measures import Measure
-from fingerpad.readout import Side
-from fingerpad.resampling import resampling_to_grid
-from fingerpad.roughness import score_rows
-from fingerpad.variants import VARIANT, WAVELENGTH_FACTORS, agreement, material_at, variant_rows
+from fingerpad.prediction.variants import VARIANT, WAVELENGTH_FACTORS, agreement, material_at, variant_rows
+from fingerpad.readouts.gabor import filtered_readouts
+from fingerpad.readouts.measures import Measure
+from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.readouts.roughness import score_rows
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.readout import Side
 from scenes import condensed, scene, solved
 
 DEVICE = "device2"

@@ -8,26 +8,26 @@ from functools import cache
 import numpy as np
 import pytest
 
-import fingerpad.cycling
-from fingerpad.certificate import certify
-from fingerpad.condensation import condense_section
-from fingerpad.contact_law import Interface
-from fingerpad.creep import Creep, answer, condense_creep, creep_times, stiffened
-from fingerpad.cycling import Vibration, displacement, vibrate
-from fingerpad.device import ActuatorRow, Cycle
-from fingerpad.edges import mesh_device
-from fingerpad.elasticity import mass
+import fingerpad.vibration.cycling
+from fingerpad.contact.certificate import certify
+from fingerpad.contact.linear_solution import Indented, indent_device
+from fingerpad.contact.path import follow
 from fingerpad.errors import CycleError, ReachError, SceneError
-from fingerpad.frequency import condense_vibrating_at, cyclic_readouts, frequency_rows, vibration_scores
-from fingerpad.inertia import condense_vibrating, inertia_effect
-from fingerpad.linear_solution import Indented, indent_device
-from fingerpad.mesh import SectionMesh
-from fingerpad.path import follow
-from fingerpad.prediction import condense_mesh
-from fingerpad.readout import Readout
-from fingerpad.scene import Scene
-from fingerpad.vibration_rule import Relaxation
-from fingerpad.viscoelasticity import retardation_times, stiffening
+from fingerpad.prediction.edges import mesh_device
+from fingerpad.prediction.scoring import condense_mesh
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import ActuatorRow, Cycle
+from fingerpad.scene.readout import Readout
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.vibration_rule import Relaxation
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.elasticity import mass
+from fingerpad.tissue.mesh import SectionMesh
+from fingerpad.vibration.creep import Creep, answer, condense_creep, creep_times, stiffened
+from fingerpad.vibration.cycling import Vibration, displacement, vibrate
+from fingerpad.vibration.frequency import condense_vibrating_at, cyclic_readouts, frequency_rows, vibration_scores
+from fingerpad.vibration.inertia import condense_vibrating, inertia_effect
+from fingerpad.vibration.viscoelasticity import retardation_times, stiffening
 from scenes import scene
 
 COARSER = 3.0  # times the shipped sizes: physics holds on any mesh
@@ -218,7 +218,7 @@ def test_every_state_of_the_last_cycle_is_certified() -> None:
 
 def test_cycles_that_do_not_repeat_say_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two cycles are too few for any: nothing can have been repeated."""
-    monkeypatch.setattr(fingerpad.cycling, "MAX_CYCLES", 2)
+    monkeypatch.setattr(fingerpad.vibration.cycling, "MAX_CYCLES", 2)
     with pytest.raises(CycleError, match=r"2 cycles at 80 Hz have not come to repeat.*; try a smaller amplitude"):
         vibration(Interface.SHEAR, coarse().device.cycles[2], 80.0)
 

@@ -13,16 +13,16 @@ import pytest
 from scipy.spatial import KDTree
 
 from fingerpad.arrays import FloatArray
-from fingerpad.contact_law import Interface, TurningNormal
-from fingerpad.elasticity import FACET_ENDS, GAUSS_POINTS, lame
-from fingerpad.linear_solution import solve_condition
-from fingerpad.measures import stress
-from fingerpad.mesh import NODES
-from fingerpad.reach import contact_tractions
-from fingerpad.states import States, linear_states, strain_at, stress_at
-from fingerpad.strain import maximum_principal
-from fingerpad.tissue_law import Kinematics
-from fingerpad.vtu import field_meshes, skin_tractions, write_collection, write_vtu
+from fingerpad.contact.linear_solution import solve_condition
+from fingerpad.fields.states import States, linear_states, strain_at, stress_at
+from fingerpad.fields.vtu import field_meshes, skin_tractions, write_collection, write_vtu
+from fingerpad.readouts.measures import stress
+from fingerpad.readouts.strain import maximum_principal
+from fingerpad.scene.contact_law import Interface, TurningNormal
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.tissue.elasticity import FACET_ENDS, GAUSS_POINTS, lame
+from fingerpad.tissue.mesh import NODES
+from fingerpad.tissue.reach import contact_tractions
 from scenes import condensed, scene, section, solved
 
 DEVICE, CONDITION = "device2", "alternate_180"

@@ -144,7 +144,7 @@ def test_solver_jobs_load_no_plots_no_tables_no_schemas(project: Project, name: 
 
 @pytest.mark.parametrize("script", ["filter", "score", "figure_map", "figure_receptors"])
 def test_jobs_that_read_solutions_load_no_solver(project: Project, script: str) -> None:
-    assert "fingerpad.active_set" not in loaded(project, f"workflow/scripts/{script}.py")
+    assert "fingerpad.contact.active_set" not in loaded(project, f"workflow/scripts/{script}.py")
 
 
 @pytest.mark.parametrize("script", ["check", "notebook", "report"])
@@ -225,9 +225,9 @@ def test_touched_files_rerun_nothing(changeable: Project, folder: str) -> None:
 @pytest.mark.parametrize(
     ("module", "spared"),
     [
-        ("gabor", {"mesh", "condense", "condense_body", "solve"}),
-        ("contact", {"condense_body"}),  # the mesh is fine where contact puts the edges
-        ("perception", SOLVER),
+        ("readouts.gabor", {"mesh", "condense", "condense_body", "solve"}),
+        ("contact.formulation", {"condense_body"}),  # the mesh is fine where contact puts the edges
+        ("perception.correlation", SOLVER),
         ("figures.style", SOLVER | TABLES),
     ],
 )

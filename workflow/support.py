@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from fingerpad.device import Condition
+from fingerpad.scene.device import Condition
 
 PACKAGE = "fingerpad"
 THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")

@@ -8,9 +8,9 @@ from pathlib import Path
 import pandas as pd
 
 from .checkout import find_checkout
-from .forecast import forecast
-from .tissue_law import Kinematics
-from .validation import check_device
+from .prediction.forecast import forecast
+from .scene.tissue_law import Kinematics
+from .scene.validation import check_device
 
 
 def predict(

@@ -11,10 +11,10 @@ from typing import Any
 import ipywidgets
 from threadpoolctl import threadpool_limits
 
-from .design import Answer, Pad, PressedRow, answer, press_row
 from .errors import FingerpadError
 from .figures.design import DesignPicture
-from .scene import Scene
+from .prediction.design import Answer, Pad, PressedRow, answer, press_row
+from .scene.scene import Scene
 
 # smallest, largest value and step of each slider, in the unit that its label names
 LIMITS = {

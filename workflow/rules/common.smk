@@ -3,13 +3,13 @@
 
 from difflib import get_close_matches
 
-from fingerpad.contact_law import Interface
-from fingerpad.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
+from fingerpad.scene.contact_law import Interface
+from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
-from fingerpad.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.scenefile import recordings
-from fingerpad.tissue_law import Kinematics
-from fingerpad.validation import check_config, check_device, known_devices
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.scene.scenefile import recordings
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.scene.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
 
 SETTINGS = ("scenes", "stress_scenes", "stress_scenes_finite")  # what --config takes

@@ -15,7 +15,7 @@ rule docs:
 rule assumptions:
     input:
         files=[CONFIG, *DEVICE_FILES],
-        modules=sorted((SOURCE / "fingerpad").glob("*.py")),
+        package=[SOURCE / "fingerpad" / "__init__.py", *sorted((SOURCE / "fingerpad").rglob("*.py"))],
     output:
         listed="docs/assumptions.md",
     log:
@@ -30,7 +30,7 @@ rule assumptions:
 
 rule code_map:
     input:
-        package=[SOURCE / "fingerpad" / "__init__.py", *sorted(SOURCE.glob("fingerpad/**/*.py"))],
+        package=[SOURCE / "fingerpad" / "__init__.py", *sorted((SOURCE / "fingerpad").rglob("*.py"))],
         rules=sorted((BASE / "workflow" / "rules").glob("*.smk")),
         scripts=sorted((BASE / "workflow" / "scripts").glob("*.py")),
     output:

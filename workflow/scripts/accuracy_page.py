@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.accuracy_page import accuracy_values
 from fingerpad.files import write_text
-from fingerpad.pages import filled
+from fingerpad.pages.accuracy import accuracy_values
+from fingerpad.pages.filling import filled
 
 
 def main(template: Path, tables: dict[str, Path], figures: dict[Path, Path], page: Path) -> None:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.benchmark.growth import exponents, growth
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
 

@@ -6,14 +6,14 @@ from typing import Any
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
-from fingerpad.calculix import installed
-from fingerpad.device import Condition
-from fingerpad.edges import edge_intervals
-from fingerpad.prediction import rows_at
-from fingerpad.scene import Scene
-from fingerpad.scenefile import load_scene
+from fingerpad.calculix.run import installed
+from fingerpad.prediction.edges import edge_intervals
+from fingerpad.prediction.scoring import rows_at
+from fingerpad.scene.device import Condition
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
-from fingerpad.tissue_law import Kinematics
 
 
 def alone(scene: Scene, condition: Condition) -> Scene:

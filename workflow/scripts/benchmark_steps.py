@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from fingerpad.benchmark.steps import step_rows
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
-from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, devices: list[Path], finite: list[Path], repeats: dict[str, int], timings: Path) -> None:

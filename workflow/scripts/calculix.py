@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Any
 
-from fingerpad.calculix import installed
-from fingerpad.crosscheck_table import crosscheck_rows
-from fingerpad.scenefile import load_scene
+from fingerpad.calculix.crosscheck_table import crosscheck_rows
+from fingerpad.calculix.run import installed
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
 

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from fingerpad.edges import load_edges
 from fingerpad.jobs import plain_errors
-from fingerpad.prediction import coarser_rows
-from fingerpad.scenefile import load_scene
+from fingerpad.prediction.edges import load_edges
+from fingerpad.prediction.scoring import coarser_rows
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
-from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, device: Path, kinematics: str, edges: Path, scores: Path) -> None:

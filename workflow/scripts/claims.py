@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.claims import claims_table
+from fingerpad.perception.claims import claims_table
 
 
 def main(scores: Path, correlations: Path, claims: Path) -> None:

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.claims_page import claims_values
 from fingerpad.files import write_text
-from fingerpad.pages import filled
+from fingerpad.pages.claims import claims_values
+from fingerpad.pages.filling import filled
 
 
 def main(template: Path, claims: Path, page: Path) -> None:

@@ -4,7 +4,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from fingerpad.closedforms.table import CASES
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
 

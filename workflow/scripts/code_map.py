@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from fingerpad.codemap import page
 from fingerpad.files import write_text
+from fingerpad.pages.codemap import page
 
 
 def main(package: Path, rules: list[Path], scripts: list[Path], written: Path) -> None:

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from fingerpad.condensation import condense_section
 from fingerpad.jobs import plain_errors
-from fingerpad.mesh import load_section
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import save
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.mesh import load_section
 
 
 def main(config: Path, device: Path, mesh: Path, condensed: Path) -> None:

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from fingerpad.actuator_body import condense_body
 from fingerpad.jobs import plain_errors
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import save
+from fingerpad.tissue.actuator_body import condense_body
 
 
 def main(config: Path, device: Path, body: Path) -> None:

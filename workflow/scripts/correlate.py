@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.perception import correlation_table
-from fingerpad.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.perception.correlation import correlation_table
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
 
 def main(

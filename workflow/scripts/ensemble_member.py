@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from fingerpad.alternatives import named_alternative, read_ensemble, write_scenes
-from fingerpad.ensemble import member_scores
-from fingerpad.scenefile import read_yaml
+from fingerpad.ensemble.alternatives import named_alternative, read_ensemble, write_scenes
+from fingerpad.ensemble.members import member_scores
+from fingerpad.scene.scenefile import read_yaml
+from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.scene.validation import check_device
 from fingerpad.store import write_rows
-from fingerpad.tissue_law import Kinematics
-from fingerpad.validation import check_device
 
 
 def main(

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.ensemble import ensemble_tables
-from fingerpad.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.ensemble.members import ensemble_tables
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
 
 def main(

@@ -2,18 +2,18 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedBody
-from fingerpad.contact_law import Interface
-from fingerpad.deformed_solution import pressed_finger
+from fingerpad.contact.solution import Solution
+from fingerpad.fields.states import deformed_states, linear_states
+from fingerpad.fields.vtu import field_meshes, write_path
+from fingerpad.finite.deformed_solution import pressed_finger
+from fingerpad.finite.pressing import Pressed
 from fingerpad.jobs import plain_errors
-from fingerpad.mesh import load_section
-from fingerpad.pressing import Pressed
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
-from fingerpad.states import deformed_states, linear_states
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
-from fingerpad.tissue_law import Kinematics
-from fingerpad.vtu import field_meshes, write_path
+from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.tissue.mesh import load_section
 
 
 def main(

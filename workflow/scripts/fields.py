@@ -4,17 +4,17 @@ from pathlib import Path
 
 import numpy as np
 
-from fingerpad.compliance import CondensedBody
-from fingerpad.contact_law import Interface
-from fingerpad.deformed_solution import pressed_finger
-from fingerpad.mesh import load_section
-from fingerpad.pressing import Pressed
-from fingerpad.recovery import recover_displacement
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
-from fingerpad.states import deformed_states, states_fields
+from fingerpad.contact.solution import Solution
+from fingerpad.fields.recovery import recover_displacement
+from fingerpad.fields.states import deformed_states, states_fields
+from fingerpad.finite.deformed_solution import pressed_finger
+from fingerpad.finite.pressing import Pressed
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, save
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.tissue.mesh import load_section
 
 
 def main(

@@ -6,8 +6,8 @@ import pandas as pd
 
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.style import device_titles, rows_with, save
-from fingerpad.scenefile import load_scene
-from fingerpad.tissue_law import Kinematics
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 
 
 def main(config: Path, devices: list[Path], scores: Path, correlations: Path, kinematics: str, stem: Path) -> None:

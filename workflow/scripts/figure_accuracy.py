@@ -6,7 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.style import save
-from fingerpad.tissue_law import Kinematics
+from fingerpad.scene.tissue_law import Kinematics
 
 
 def main(table: Path, kinematics: Kinematics, stem: Path) -> None:

@@ -7,9 +7,9 @@ import pandas as pd
 
 from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.style import device_titles, rows_with, save
-from fingerpad.ratings import read_ratings
-from fingerpad.scenefile import load_scene
-from fingerpad.tissue_law import Kinematics
+from fingerpad.perception.ratings import read_ratings
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 
 
 def main(

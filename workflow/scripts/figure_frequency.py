@@ -6,7 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.frequency import frequency_figure
 from fingerpad.figures.style import save
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 
 
 def main(config: Path, devices: list[Path], table: Path, stem: Path) -> None:

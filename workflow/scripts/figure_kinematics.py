@@ -6,7 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.style import device_titles, save
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 
 
 def main(config: Path, devices: list[Path], scores: Path, curves: Path, stem: Path) -> None:

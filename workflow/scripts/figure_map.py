@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from fingerpad.fields import Fields
+from fingerpad.contact.solution import Solution
+from fingerpad.fields.section_fields import Fields
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.style import save
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
-from fingerpad.tissue_law import Kinematics
 
 
 def main(

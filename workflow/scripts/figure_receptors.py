@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedSection
+from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.style import save
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
-from fingerpad.strain import FilteredReadouts
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedSection
 
 
 def main(

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from fingerpad.figures.section import section_figure
 from fingerpad.figures.style import save
-from fingerpad.mesh import load_section
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.tissue.mesh import load_section
 
 
 def main(config: Path, devices: list[Path], mesh: Path, stem: Path) -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.figures.stimuli import stimuli_figure
 from fingerpad.figures.style import save
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 
 
 def main(config: Path, devices: list[Path], stem: Path) -> None:

@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.compliance import CondensedSection
-from fingerpad.contact_law import Interface
+from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
-from fingerpad.strain import FilteredReadouts
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedSection
 
 
 def main(

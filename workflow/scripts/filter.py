@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from fingerpad.gabor import filtered_readouts
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.contact.solution import Solution
+from fingerpad.readouts.gabor import filtered_readouts
+from fingerpad.readouts.strain import Resampling
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, save
-from fingerpad.strain import Resampling
 
 
 def main(config: Path, device: Path, resampling: Path, solution: Path, filtered: Path) -> None:

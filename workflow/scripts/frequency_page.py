@@ -6,8 +6,8 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
-from fingerpad.frequency_page import frequency_values
-from fingerpad.pages import filled
+from fingerpad.pages.filling import filled
+from fingerpad.pages.frequency import frequency_values
 
 
 def main(template: Path, table: Path, variants: Path, scores: Path, figure: Path, page: Path, shown: Path) -> None:

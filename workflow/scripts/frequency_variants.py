@@ -2,16 +2,16 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.contact_law import Interface
-from fingerpad.frequency_variants import variant_rows
+from fingerpad.contact.linear_solution import indent_device
 from fingerpad.jobs import plain_errors
-from fingerpad.linear_solution import indent_device
-from fingerpad.mesh import load_section
-from fingerpad.prediction import Condensed
-from fingerpad.scenefile import load_scene
+from fingerpad.prediction.scoring import Condensed
+from fingerpad.readouts.strain import Resampling
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
-from fingerpad.strain import Resampling
+from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.tissue.mesh import load_section
+from fingerpad.vibration.frequency_variants import variant_rows
 
 
 def main(

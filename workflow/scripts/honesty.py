@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.accuracy import true_errors
+from fingerpad.readouts.accuracy import true_errors
 from fingerpad.store import read_rows, write_rows
 
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.benchmark.increments import increment_rows
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
 
 

@@ -3,15 +3,15 @@
 from pathlib import Path
 
 from fingerpad.arrays import FloatArray
-from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.contact_law import Interface
-from fingerpad.force_curve import limit_points, small_strain_curve
+from fingerpad.contact.force_curve import limit_points, small_strain_curve
+from fingerpad.contact.problem import contact_problem
+from fingerpad.finite.pressing import Pressed
 from fingerpad.jobs import plain_errors
-from fingerpad.pressing import Pressed
-from fingerpad.problem import contact_problem
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 
 
 def main(

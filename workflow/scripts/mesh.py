@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from fingerpad.edges import edge_intervals, save_edges
 from fingerpad.jobs import plain_errors
-from fingerpad.mesh import mesh_section, save_section
-from fingerpad.receptors import arc_length, receptor_strain
-from fingerpad.resampling import resampling_to_grid
-from fingerpad.scenefile import load_scene
+from fingerpad.prediction.edges import edge_intervals, save_edges
+from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import save
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.mesh import mesh_section, save_section
+from fingerpad.tissue.receptors import arc_length, receptor_strain
 
 
 def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, resampling: Path) -> None:

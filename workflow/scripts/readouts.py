@@ -4,16 +4,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from fingerpad.compliance import CondensedSection
-from fingerpad.condensation import condense_section
-from fingerpad.contact_law import Interface
-from fingerpad.mesh import load_section
-from fingerpad.readout import Side
-from fingerpad.scene import Scene
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.contact.solution import Solution
+from fingerpad.prediction.variants import agreement, variant_rows
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.readout import Side
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
-from fingerpad.variants import agreement, variant_rows
+from fingerpad.tissue.compliance import CondensedSection
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.mesh import load_section
 
 
 def read_from(scene: Scene, side: Side) -> Scene:

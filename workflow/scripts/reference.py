@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from fingerpad.accuracy import REFINEMENT
-from fingerpad.contact_law import Interface
-from fingerpad.edges import edge_intervals
-from fingerpad.mesh import mesh_section
-from fingerpad.prediction import rows_at
-from fingerpad.scenefile import load_scene
+from fingerpad.prediction.edges import edge_intervals
+from fingerpad.prediction.scoring import rows_at
+from fingerpad.readouts.accuracy import REFINEMENT
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.mesh import mesh_section
 
 
 def main(config: Path, device: Path, kinematics: Kinematics, interfaces: list[Interface], scores: Path) -> None:

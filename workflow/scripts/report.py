@@ -6,8 +6,8 @@ from fingerpad.files import write_text
 from fingerpad.report.captions import Results, Words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
-from fingerpad.scenefile import load_scene, read_yaml
-from fingerpad.sources import quantities
+from fingerpad.scene.scenefile import load_scene, read_yaml
+from fingerpad.scene.sources import quantities
 from fingerpad.store import read_rows
 
 

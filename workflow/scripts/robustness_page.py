@@ -6,8 +6,8 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
-from fingerpad.pages import filled
-from fingerpad.robustness_page import robustness_values
+from fingerpad.pages.filling import filled
+from fingerpad.pages.robustness import robustness_values
 
 
 def main(template: Path, claims: Path, correlations: Path, figure: Path, page: Path, shown: Path) -> None:

@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from fingerpad.caveats import solution_caveats
-from fingerpad.contact_law import Interface
-from fingerpad.roughness import score_rows
-from fingerpad.scenefile import load_scene
-from fingerpad.solution import Solution
+from fingerpad.contact.solution import Solution
+from fingerpad.prediction.caveats import solution_caveats
+from fingerpad.readouts.roughness import score_rows
+from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
-from fingerpad.strain import FilteredReadouts
-from fingerpad.tissue_law import Kinematics
 
 
 def main(

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from fingerpad.accuracy import with_errors
-from fingerpad.roughness import unpredicted_rows
-from fingerpad.scenefile import load_scene
+from fingerpad.readouts.accuracy import with_errors
+from fingerpad.readouts.roughness import unpredicted_rows
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
-from fingerpad.tissue_law import Kinematics
 
 
 def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Path], table: Path) -> None:

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from fingerpad.benchmark.skipping import always_rows, skip_rows
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
-from fingerpad.tissue_law import Kinematics
 
 
 def main(

@@ -5,8 +5,8 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
-from fingerpad.pages import filled
-from fingerpad.skipping_page import skipping_values
+from fingerpad.pages.filling import filled
+from fingerpad.pages.skipping import skipping_values
 
 
 def main(template: Path, switches: Path, always: Path, page: Path) -> None:

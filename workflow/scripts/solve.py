@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.contact_law import Interface
+from fingerpad.contact.linear_solution import solve_condition
 from fingerpad.jobs import plain_errors
-from fingerpad.linear_solution import solve_condition
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, save
+from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 
 
 def main(

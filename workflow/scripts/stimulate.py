@@ -2,15 +2,15 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedBody
-from fingerpad.contact_law import Interface
-from fingerpad.deformed_solution import pressed_finger, stimulate_deformed
+from fingerpad.finite.deformed_solution import pressed_finger, stimulate_deformed
+from fingerpad.finite.pressing import Pressed
 from fingerpad.jobs import plain_errors
-from fingerpad.mesh import load_section
-from fingerpad.pressing import Pressed
-from fingerpad.scenefile import load_scene
+from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.scenefile import load_scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, save
-from fingerpad.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.tissue.mesh import load_section
 
 
 def main(

@@ -3,8 +3,8 @@
 from dataclasses import asdict
 from pathlib import Path
 
-from fingerpad.outcomes import deformed_outcomes
 from fingerpad.store import write_rows
+from fingerpad.stress.outcomes import deformed_outcomes
 
 
 def main(first: int, stop: int, scenes: Path) -> None:

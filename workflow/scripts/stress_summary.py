@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from fingerpad.outcomes import summary
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
-from fingerpad.tissue_law import Kinematics
+from fingerpad.stress.outcomes import summary
 
 
 def main(scenes: dict[str, list[Path]], table: Path) -> None:

@@ -2,15 +2,15 @@
 
 from pathlib import Path
 
-from fingerpad.compliance import CondensedBody, CondensedSection
-from fingerpad.creep import condense_creep
-from fingerpad.frequency import condense_vibrating_at, frequency_rows
 from fingerpad.jobs import plain_errors
-from fingerpad.mesh import load_section
-from fingerpad.prediction import Condensed
-from fingerpad.scenefile import load_scene
+from fingerpad.prediction.scoring import Condensed
+from fingerpad.readouts.strain import Resampling
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
-from fingerpad.strain import Resampling
+from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.tissue.mesh import load_section
+from fingerpad.vibration.creep import condense_creep
+from fingerpad.vibration.frequency import condense_vibrating_at, frequency_rows
 
 
 def main(

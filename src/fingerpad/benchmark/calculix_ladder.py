@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..crosscheck import calculix_outcome, differences, on_deck, prepared
-from ..device import Condition
-from ..edges import mesh_device
-from ..readout import Readout
-from ..scene import Scene
+from ..calculix.crosscheck import calculix_outcome, differences, on_deck, prepared
+from ..prediction.edges import mesh_device
+from ..scene.device import Condition
+from ..scene.readout import Readout
+from ..scene.scene import Scene
 from .ladder import CALCULIX_LADDER
 
 

@@ -12,18 +12,18 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri2
 
-from ..actuator_body import body_of
-from ..condensation import condense_parts, section_stiffness
-from ..halves import right_half
-from ..mesh import SectionMesh
-from ..prediction import Condensed
-from ..reach import contact_tractions
-from ..resampling import resampling_to_grid
-from ..scene import Scene
+from ..prediction.scoring import Condensed
+from ..readouts.resampling import resampling_to_grid
+from ..scene.scene import Scene
+from ..tissue.actuator_body import body_of
+from ..tissue.condensation import condense_parts, section_stiffness
+from ..tissue.halves import right_half
+from ..tissue.mesh import SectionMesh
+from ..tissue.reach import contact_tractions
 
 
 def condense_first_order(scene: Scene, mesh: SectionMesh) -> Condensed:
-    """`prediction.condense_mesh` with first-order displacements; outlines and layers stay curved.
+    """`scoring.condense_mesh` with first-order displacements; outlines and layers stay curved.
 
     Raises MeshError, CondensationError.
     """

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..contact_law import Criterion, Interface
-from ..device import ActuatorRow, Condition
-from ..edges import edge_intervals
-from ..linear_solution import indent_device, stimulate
-from ..mesh import mesh_section
-from ..prediction import condense_scene
-from ..scene import Scene
+from ..contact.linear_solution import indent_device, stimulate
+from ..prediction.edges import edge_intervals
+from ..prediction.scoring import condense_scene
+from ..scene.contact_law import Criterion, Interface
+from ..scene.device import ActuatorRow, Condition
+from ..scene.scene import Scene
+from ..tissue.mesh import mesh_section
 from .timing import exponent, fewest
 
 Row = dict[str, Any]

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..accuracy import CASE, relative_error
-from ..edges import edge_intervals
-from ..prediction import condense_scene, predicted_rows
-from ..scene import Scene
+from ..prediction.edges import edge_intervals
+from ..prediction.scoring import condense_scene, predicted_rows
+from ..readouts.accuracy import CASE, relative_error
+from ..scene.scene import Scene
 
 
 def increment_rows(

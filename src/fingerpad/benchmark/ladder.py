@@ -6,20 +6,20 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from ..contact_law import Interface
-from ..device import Condition
-from ..edges import edge_intervals
+from ..contact.linear_solution import indent_device
+from ..contact.problem import increments
+from ..contact.solution import Solution
 from ..errors import SceneError
-from ..linear_solution import indent_device
-from ..mesh import SectionMesh, mesh_section
-from ..prediction import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out
-from ..problem import increments
-from ..reach import contact_tractions
-from ..readout import Readout
-from ..roughness import score_rows
-from ..scene import Scene
-from ..solution import Solution
-from ..tissue_law import Kinematics
+from ..prediction.edges import edge_intervals
+from ..prediction.scoring import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out
+from ..readouts.roughness import score_rows
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.readout import Readout
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.mesh import SectionMesh, mesh_section
+from ..tissue.reach import contact_tractions
 from .first_order import condense_first_order
 from .plain import plain_scores
 from .timing import fewest, peak_memory

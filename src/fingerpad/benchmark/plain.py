@@ -12,20 +12,20 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compliance import CondensedSection
-from ..condensation import condense_section
-from ..contact import ContactState, rest, touching_height
-from ..contact_law import Interface
-from ..device import Condition
-from ..gabor import filtered_readouts
-from ..increment import solve_increment
-from ..mesh import SectionMesh
-from ..path import advance
-from ..problem import contact_problem
-from ..resampling import resampling_to_grid
-from ..roughness import score_rows
-from ..scene import Scene
-from ..strain import read_receptors
+from ..contact.formulation import ContactState, rest, touching_height
+from ..contact.increment import solve_increment
+from ..contact.path import advance
+from ..contact.problem import contact_problem
+from ..readouts.gabor import filtered_readouts
+from ..readouts.resampling import resampling_to_grid
+from ..readouts.roughness import score_rows
+from ..readouts.strain import read_receptors
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.scene import Scene
+from ..tissue.compliance import CondensedSection
+from ..tissue.condensation import condense_section
+from ..tissue.mesh import SectionMesh
 
 
 def plain_scores(

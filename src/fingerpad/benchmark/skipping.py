@@ -8,19 +8,19 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any
 
-from ..accuracy import CASE, relative_error
 from ..arrays import FloatArray
-from ..contact_law import Interface
-from ..edges import edge_intervals
-from ..linear_solution import indent_device, stimulate
-from ..mesh import SectionMesh, mesh_section
-from ..numerics import Skips
-from ..prediction import condense_scene, predicted_rows, prepared
-from ..recovery import recover_displacement
-from ..scene import Scene
-from ..states import states_fields
-from ..strain import read_receptors
-from ..tissue_law import Kinematics
+from ..contact.linear_solution import indent_device, stimulate
+from ..fields.recovery import recover_displacement
+from ..fields.states import states_fields
+from ..prediction.edges import edge_intervals
+from ..prediction.scoring import condense_scene, predicted_rows, prepared
+from ..readouts.accuracy import CASE, relative_error
+from ..readouts.strain import read_receptors
+from ..scene.contact_law import Interface
+from ..scene.numerics import Skips
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.mesh import SectionMesh, mesh_section
 from .timing import fewest
 
 Row = dict[str, Any]

@@ -7,16 +7,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ..contact_law import Interface
-from ..device import Condition
-from ..edges import edge_intervals
-from ..mesh import SectionMesh, mesh_section
-from ..prediction import Condensed, Meshed, prepared, pressed_device, read_out
-from ..reach import contact_tractions
-from ..roughness import score_rows
-from ..scene import Scene
-from ..solution import Solution
-from ..tissue_law import Kinematics
+from ..contact.solution import Solution
+from ..prediction.edges import edge_intervals
+from ..prediction.scoring import Condensed, Meshed, prepared, pressed_device, read_out
+from ..readouts.roughness import score_rows
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.mesh import SectionMesh, mesh_section
+from ..tissue.reach import contact_tractions
 from .timing import peak_memory, timed
 
 

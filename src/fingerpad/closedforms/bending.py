@@ -22,12 +22,12 @@ from skfem import Basis, ElementTriP2, ElementVector, MeshTri, MeshTri2
 from skfem.helpers import grad
 
 from ..arrays import FloatArray
-from ..deformation import displacement_gradient, elements_of
-from ..elasticity import displacement_basis, lame, node_dofs
-from ..finger import Material
-from ..hyperelasticity import tissue_of
-from ..mean_stress import element_means, recover_linear
-from ..tissue_law import Law
+from ..fields.mean_stress import element_means, recover_linear
+from ..finite.deformation import displacement_gradient, elements_of
+from ..finite.hyperelasticity import tissue_of
+from ..scene.finger import Material
+from ..scene.tissue_law import Law
+from ..tissue.elasticity import displacement_basis, lame, node_dofs
 from .blocks import NEAR_LIMIT, TISSUE
 from .comparison import Comparison, compare, on_two_meshes
 from .equilibrium import equilibrium

@@ -10,14 +10,14 @@ from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri, MeshTri2
 
 from ..arrays import FloatArray
-from ..compliance import MIRROR
-from ..condensation import condense
-from ..contact import ContactProblem, ContactState, rest, touching_height
-from ..device import ActuatorRow
-from ..elasticity import displacement_basis, node_dofs, stiffness, unit_loads
-from ..finger import Material
-from ..path import follow
-from ..traction import linear_tractions
+from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
+from ..contact.path import follow
+from ..scene.device import ActuatorRow
+from ..scene.finger import Material
+from ..tissue.compliance import MIRROR
+from ..tissue.condensation import condense
+from ..tissue.elasticity import displacement_basis, node_dofs, stiffness, unit_loads
+from ..tissue.traction import linear_tractions
 
 TOLERANCE = 1e-10  # of the contact equations [1]; source: far below any error that is measured
 TISSUE, NEAR_LIMIT = 0.48, 0.4999  # Poisson's ratios [1]: of skin (config/config.yaml), and towards incompressibility

@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact import Status, switch_friction
-from ..path import follow
+from ..contact.formulation import Status, switch_friction
+from ..contact.path import follow
 from .blocks import element_means, half_plane, lift, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
 from .hertz import CYLINDER, DEPTH, INCREMENTS, SPACINGS, half_width, pressure

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
-from ..hyperelasticity import Tissue
-from ..tissue_law import Law
+from ..finite.hyperelasticity import Tissue
+from ..scene.tissue_law import Law
 
 STEP = 1e-30  # of the complex step [1]; source: any whose square is lost beside 1 and is not zero
 PLANE = ((0, 0), (0, 1), (1, 0), (1, 1))  # components of a gradient

@@ -10,11 +10,11 @@ from skfem import Basis, condense, solve
 from skfem.utils import solver_direct_scipy
 
 from ..arrays import FloatArray
-from ..deformation import elements_of, internal_force_and_tangent
-from ..elasticity import node_dofs
 from ..errors import ConvergenceError
-from ..factors import factorise, fill_reducing_order
-from ..hyperelasticity import Tissue
+from ..finite.deformation import elements_of, internal_force_and_tangent
+from ..finite.hyperelasticity import Tissue
+from ..tissue.elasticity import node_dofs
+from ..tissue.factors import factorise, fill_reducing_order
 
 STEP = 1e-9  # last change of displacement over the largest of it [1]; source: its square is below rounding
 MAX_STEPS = 20  # of Newton's method [1]; source: 4-7 are usual

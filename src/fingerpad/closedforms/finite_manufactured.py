@@ -14,10 +14,10 @@ from skfem import Basis, ElementTriP2, ElementVector, LinearForm
 from skfem.helpers import ddot, grad
 
 from ..arrays import FloatArray
-from ..elasticity import displacement_basis, node_dofs
-from ..hyperelasticity import tissue_of
-from ..mesh import mesh_section, nominal_edges
-from ..scene import Scene
+from ..finite.hyperelasticity import tissue_of
+from ..scene.scene import Scene
+from ..tissue.elasticity import displacement_basis, node_dofs
+from ..tissue.mesh import mesh_section, nominal_edges
 from .comparison import Comparison, compare, orders
 from .energy import first_stress
 from .equilibrium import equilibrium

@@ -13,9 +13,9 @@ from scipy.optimize import brentq
 from skfem import MeshTri, MeshTri2
 
 from ..arrays import FloatArray
-from ..elasticity import displacement_basis, node_dofs
-from ..hyperelasticity import Tissue, tissue_of
-from ..tissue_law import Law
+from ..finite.hyperelasticity import Tissue, tissue_of
+from ..scene.tissue_law import Law
+from ..tissue.elasticity import displacement_basis, node_dofs
 from .comparison import Comparison, compare
 from .energy import first_stress
 from .equilibrium import equilibrium

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact import Status
-from ..device import ActuatorRow
-from ..indentation import front
+from ..contact.formulation import Status
+from ..contact.indentation import front
+from ..scene.device import ActuatorRow
 from .blocks import HALF_WIDTH, TISSUE, element_means, half_plane, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
 

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from ..finger import Layer
-from ..scene import Model
+from ..scene.finger import Layer
+from ..scene.scene import Model
 from . import hertz, layers, punch
 from .blocks import NEAR_LIMIT
 from .comparison import Comparison, refined

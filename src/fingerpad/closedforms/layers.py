@@ -19,10 +19,10 @@ import numpy as np
 from skfem import ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri2
 
 from ..arrays import FloatArray
-from ..condensation import condense
-from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness, unit_loads
-from ..finger import Layer
-from ..scene import Model
+from ..scene.finger import Layer
+from ..scene.scene import Model
+from ..tissue.condensation import condense
+from ..tissue.elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness, unit_loads
 from .blocks import refined_block
 from .comparison import Comparison, compare, refined
 

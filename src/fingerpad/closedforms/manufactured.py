@@ -13,10 +13,10 @@ from skfem import Basis, ElementTriP2, ElementVector, LinearForm
 from skfem.helpers import ddot, eye, sym_grad, trace
 
 from ..arrays import FloatArray
-from ..condensation import section_stiffness
-from ..elasticity import lame
-from ..mesh import mesh_section, nominal_edges
-from ..scene import Scene
+from ..scene.scene import Scene
+from ..tissue.condensation import section_stiffness
+from ..tissue.elasticity import lame
+from ..tissue.mesh import mesh_section, nominal_edges
 from .comparison import Comparison, compare, orders
 from .equilibrium import linear_equilibrium
 

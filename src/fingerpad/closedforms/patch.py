@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from skfem import MeshTri, MeshTri2
 
-from ..device import ActuatorRow
-from ..elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
-from ..finger import Material
+from ..scene.device import ActuatorRow
+from ..scene.finger import Material
+from ..tissue.elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness
 from .blocks import NEAR_LIMIT, TISSUE, block_contact, block_mesh, pressed
 from .comparison import Comparison, compare
 from .equilibrium import linear_equilibrium

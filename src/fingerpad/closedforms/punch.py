@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..device import SHARP_RADIUS, ActuatorRow
+from ..scene.device import SHARP_RADIUS, ActuatorRow
 from .blocks import HALF_WIDTH, TISSUE, Block, element_means, half_plane, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
 

@@ -20,7 +20,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipk, ellipkm1
 
 from ..arrays import FloatArray
-from ..contact import ContactProblem, Status
+from ..contact.formulation import ContactProblem, Status
 from .blocks import HALF_WIDTH, pressed
 from .comparison import Comparison, compare, refined
 from .punch import DEPTH, punched

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..scene import Scene
+from ..scene.scene import Scene
 from . import (
     bending,
     cattaneo,

@@ -15,10 +15,10 @@ import numpy as np
 from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri, MeshTri2
 
 from ..arrays import FloatArray
-from ..elasticity import displacement_basis, lame, node_dofs, stiffness
-from ..finger import Material
-from ..mean_stress import element_means, recover_linear
-from ..recovery import gradient_at
+from ..fields.mean_stress import element_means, recover_linear
+from ..fields.recovery import gradient_at
+from ..scene.finger import Material
+from ..tissue.elasticity import displacement_basis, lame, node_dofs, stiffness
 from .bending import SHORTFALL
 from .blocks import NEAR_LIMIT, TISSUE
 from .comparison import ACCURACY, Comparison, compare, on_two_meshes

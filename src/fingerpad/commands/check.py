@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from ..contact_law import Criterion
 from ..errors import UsageError
 from ..figures.section import section_figure
 from ..figures.style import save_as, several
 from ..files import require_folder
-from ..mesh import mesh_section, nominal_edges
-from ..scene import Scene
+from ..scene.contact_law import Criterion
+from ..scene.scene import Scene
+from ..tissue.mesh import mesh_section, nominal_edges
 from .options import add_scene_options, checked_scene
 
 DESCRIPTION = """\

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from ..contact_law import Interface
-from ..edges import mesh_device
-from ..export import DeckSettings, input_deck
+from ..calculix.deck import DeckSettings, input_deck
 from ..files import require_folder, write_text
-from ..pressing import indented_height
+from ..finite.pressing import indented_height
+from ..prediction.edges import mesh_device
+from ..scene.contact_law import Interface
 from .options import add_case_options, add_scene_options, checked_case
 
 STEPS = 2  # of the progress: mesh, pre-indentation

@@ -8,11 +8,11 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from ..edges import mesh_device
 from ..errors import UsageError
+from ..fields.states import solved_states
+from ..fields.vtu import field_meshes, write_path, write_vtu
 from ..files import require_folder
-from ..states import solved_states
-from ..vtu import field_meshes, write_path, write_vtu
+from ..prediction.edges import mesh_device
 from .options import add_case_options, add_scene_options, checked_case
 
 STEPS = 4  # of the progress: mesh, solution, fields, files

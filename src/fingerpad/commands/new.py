@@ -10,9 +10,9 @@ from pathlib import Path
 from ..checkout import find_checkout
 from ..errors import UsageError
 from ..files import write_text
-from ..scenefile import recordings
-from ..template import device_text
-from ..validation import check_device, checked_document, require_device, require_new_name
+from ..scene.scenefile import recordings
+from ..scene.template import device_text
+from ..scene.validation import check_device, checked_document, require_device, require_new_name
 from .options import existing_file
 
 DESCRIPTION = """\

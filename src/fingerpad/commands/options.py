@@ -9,13 +9,13 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from ..checkout import find_checkout
-from ..contact_law import Interface
 from ..csvrows import listed
-from ..device import Condition
 from ..errors import UsageError
-from ..scene import Scene
-from ..tissue_law import Kinematics
-from ..validation import check_device
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..scene.validation import check_device
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:

@@ -11,10 +11,10 @@ from typing import Any
 from tqdm import tqdm
 
 from ..errors import ContactError
-from ..forecast import forecast, steps
-from ..roughness import KEY
-from ..scene import Scene
-from ..tissue_law import Kinematics
+from ..prediction.forecast import forecast, steps
+from ..readouts.roughness import KEY
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
 from .options import add_scene_options, checked_scene
 from .printing import aligned, print_csv, titled
 

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..scene import Scene
+from ..scene.scene import Scene
 
 GAP = "  "
 

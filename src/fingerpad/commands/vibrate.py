@@ -13,12 +13,12 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from ..creep import condense_creep
-from ..edges import mesh_device
 from ..errors import UsageError
-from ..frequency import SLOWLY, condense_vibrating_at, frequency_rows
-from ..prediction import condense_mesh
-from ..scene import Scene
+from ..prediction.edges import mesh_device
+from ..prediction.scoring import condense_mesh
+from ..scene.scene import Scene
+from ..vibration.creep import condense_creep
+from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_rows
 from .options import add_scene_options, checked_scene
 from .printing import aligned, print_csv, titled
 

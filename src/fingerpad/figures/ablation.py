@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..contact_law import Interface
-from ..ratings import OPEN_SLOPE, is_open, slope_name
-from ..readout import Readout
-from ..tissue_law import Kinematics
+from ..perception.ratings import OPEN_SLOPE, is_open, slope_name
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+from ..scene.tissue_law import Kinematics
 from .style import (
     BLUE,
     GREY,

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from ..closedforms.comparison import ORDER_OF
-from ..tissue_law import Kinematics
+from ..scene.tissue_law import Kinematics
 from .style import COLOURS, GREY, MARKERS, WIDE, legend_below, letter, new_figure, styled
 
 COLUMNS = 3

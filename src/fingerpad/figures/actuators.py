@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon, Rectangle
 
 from ..arrays import FloatArray
-from ..device import ActuatorRow
-from ..profile import profile
+from ..contact.profile import profile
+from ..scene.device import ActuatorRow
 from .style import THIN
 
 PROFILE_POINTS = 41  # along a rounded edge [1]

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
-from ..tissue_law import Kinematics
+from ..scene.tissue_law import Kinematics
 from .style import (
     BLACK,
     BLUE,

@@ -12,11 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
-from ..contact_law import Interface
-from ..ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
-from ..readout import Readout
-from ..roughness import SAME
-from ..tissue_law import Kinematics
+from ..perception.ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
+from ..readouts.roughness import SAME
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+from ..scene.tissue_law import Kinematics
 from .style import (
     GREY,
     KINEMATICS_NAME,

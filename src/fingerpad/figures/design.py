@@ -19,10 +19,10 @@ from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 from ..arrays import FloatArray
-from ..design import Answer
-from ..readout import READOUT_NAME, Readout
-from ..roughness import SCORE_UNIT, score_span
+from ..prediction.design import Answer
+from ..readouts.roughness import SCORE_UNIT, score_span
 from ..rounding import rounded
+from ..scene.readout import READOUT_NAME, Readout
 from .receptors import face_arcs
 from .style import (
     BLUE,

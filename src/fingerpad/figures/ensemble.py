@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..alternatives import FIRST, SECOND
-from ..claims import Holds, Kind
-from ..tissue_law import Kinematics
+from ..ensemble.alternatives import FIRST, SECOND
+from ..perception.claims import Holds, Kind
+from ..scene.tissue_law import Kinematics
 from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
 ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.6, 12.0, 52.0  # mm

@@ -9,10 +9,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..contact_law import Interface
-from ..device import Device
-from ..frequency import SLOWLY
-from ..readout import Readout
+from ..scene.contact_law import Interface
+from ..scene.device import Device
+from ..scene.readout import Readout
+from ..vibration.frequency import SLOWLY
 from .style import (
     GREY,
     INTERFACE_NAME,

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..contact_law import Interface
-from ..readout import Readout
-from ..tissue_law import Kinematics
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+from ..scene.tissue_law import Kinematics
 from .ablation import BAR, name_conditions
 from .style import (
     BLUE,

@@ -19,11 +19,11 @@ from matplotlib.lines import Line2D
 from matplotlib.tri import Triangulation
 
 from ..arrays import FloatArray
-from ..device import ActuatorRow, Condition
-from ..fields import Fields
-from ..scene import Scene
-from ..solution import Solution
-from ..tissue_law import Kinematics
+from ..contact.solution import Solution
+from ..fields.section_fields import Fields
+from ..scene.device import ActuatorRow, Condition
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
 from .actuators import draw_actuators
 from .style import (
     BLUE,

@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
-from ..compliance import CondensedSection
-from ..device import Condition, Device
-from ..readout import READOUT_NAME, Readout
-from ..solution import Solution
-from ..strain import FilteredReadouts
-from ..tissue_law import Kinematics
+from ..contact.solution import Solution
+from ..readouts.strain import FilteredReadouts
+from ..scene.device import Condition, Device
+from ..scene.readout import READOUT_NAME, Readout
+from ..scene.tissue_law import Kinematics
+from ..tissue.compliance import CondensedSection
 from .style import (
     GREY,
     KINEMATICS_NAME,

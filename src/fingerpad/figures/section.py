@@ -13,10 +13,10 @@ from matplotlib.path import Path
 from matplotlib.ticker import MultipleLocator
 
 from ..arrays import FloatArray
-from ..device import ActuatorRow, Device
-from ..mesh import SectionMesh, element_nodes
-from ..profile import touching_heights
-from ..scene import Model
+from ..contact.profile import touching_heights
+from ..scene.device import ActuatorRow, Device
+from ..scene.scene import Model
+from ..tissue.mesh import SectionMesh, element_nodes
 from .actuators import BASE, draw_actuators
 from .style import THIN, VERMILLION, WIDE, as_title, letter, new_figure, styled, subtitle
 

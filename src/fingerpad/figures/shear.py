@@ -5,9 +5,9 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.figure import Figure
 
-from ..contact_law import Interface
-from ..readout import Readout
-from ..tissue_law import Kinematics
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+from ..scene.tissue_law import Kinematics
 from .correlation import caption, correlation_panel, shown_in
 from .style import (
     INTERFACE_NAME,

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ..arrays import FloatArray
-from ..device import Condition, Device
+from ..scene.device import Condition, Device
 from .style import (
     BLUE,
     GREY,

@@ -20,12 +20,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..contact_law import Interface
-from ..device import Device
 from ..files import replacing
-from ..readout import READOUT_NAME, Readout
-from ..roughness import TYPESET_UNITS
-from ..tissue_law import Kinematics
+from ..readouts.roughness import TYPESET_UNITS
+from ..scene.contact_law import Interface
+from ..scene.device import Device
+from ..scene.readout import READOUT_NAME, Readout
+from ..scene.tissue_law import Kinematics
 
 if TYPE_CHECKING:
     import pandas as pd

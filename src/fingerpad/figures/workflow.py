@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from ..readout import READOUT_NAME, GaborFilter, Readout, ReadoutRule
-from ..roughness import score_span
+from ..readouts.roughness import score_span
 from ..rounding import rounded
+from ..scene.readout import READOUT_NAME, GaborFilter, Readout, ReadoutRule
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
     PERCENT,

@@ -6,14 +6,14 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..contact_law import Interface
-from ..device import Device
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
-from ..ratings import has_p, slope_name
-from ..readout import READOUT_NAME, Readout
-from ..roughness import TYPESET_UNITS
-from ..scene import Scene
-from ..tissue_law import Kinematics
+from ..perception.ratings import has_p, slope_name
+from ..readouts.roughness import TYPESET_UNITS
+from ..scene.contact_law import Interface
+from ..scene.device import Device
+from ..scene.readout import READOUT_NAME, Readout
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
 from .tables import Row, p_value, score_with_error
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from ..claims import verdict_counts
 from ..figures.style import KINEMATICS_NAME
-from ..ratings import RatingKind
-from ..sources import Origin, Quantity
-from ..tissue_law import Kinematics
+from ..perception.claims import verdict_counts
+from ..perception.ratings import RatingKind
+from ..scene.sources import Origin, Quantity
+from ..scene.tissue_law import Kinematics
 from .captions import Results, Words, words
 from .provenance import Provenance
 from .tables import (

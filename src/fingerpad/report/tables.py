@@ -7,13 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from ..accuracy import relative_error
-from ..contact_law import Interface
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
-from ..ratings import SLOPE_NAME, SMALLEST_P, has_p, slope_name
-from ..readout import READOUT_NAME, Readout
+from ..perception.ratings import SLOPE_NAME, SMALLEST_P, has_p, slope_name
+from ..readouts.accuracy import relative_error
 from ..rounding import rounded
-from ..tissue_law import Kinematics
+from ..scene.contact_law import Interface
+from ..scene.readout import READOUT_NAME, Readout
+from ..scene.tissue_law import Kinematics
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition

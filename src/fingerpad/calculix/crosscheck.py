@@ -1,0 +1,228 @@
+"""One case solved by CalculiX and by fingerpad, in the same terms, and how far they are apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..contact.formulation import ContactProblem, rest, switch_friction, touching_height
+from ..contact.path import follow
+from ..contact.problem import contact_problem
+from ..errors import CalculixError
+from ..finite.deformed_solution import receptor_logarithmic_strain
+from ..finite.pressing import indented_height
+from ..prediction.edges import mesh_device
+from ..readouts.gabor import filtered_readouts
+from ..readouts.resampling import resampling_to_grid
+from ..readouts.roughness import roughness_scores
+from ..readouts.strain import maximum_principal
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.readout import Readout
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics, Law
+from ..tissue.compliance import CondensedBody, CondensedSection
+from ..tissue.elasticity import displacement_basis, node_dofs, strain_of_gradient
+from ..tissue.mesh import SectionMesh
+from ..tissue.receptors import arc_length, receptor_gradient
+from .deck import DeckSettings, input_deck
+from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched
+from .run import Printed, read_printed, run
+
+# source: the change of strain no longer moves in its fourth digit (measured)
+INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]
+STIMULUS_INCREMENTS = 32  # of fingerpad's side, a segment [1]
+# of a deck's mesh; source: CalculiX has been followed down to 1.4 times these sizes (docs/accuracy.md)
+DECK_EDGE_SIZE = 0.03  # mm
+DECK_EDGE_ZONE = 0.015  # mm around an edge, half an element
+DECK_FACE_SIZE = 0.08  # mm
+DECK_RECEPTOR_SIZE = 0.09  # mm
+
+
+class ContactModel(StrEnum):
+    """Contact on fingerpad's side: its own; with CalculiX's penalties; with its turning normal too."""
+
+    OWN = "fingerpad"
+    PENALTIES = "fingerpad with penalties"
+    TURNING = "fingerpad with penalties and turning normal"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What is compared. arc: (k,) uniform grid along the receptors [mm]. strain: (2, k) maximum principal strain [1]
+    after pre-indentation and at the stimulus's end. force: (2, n_actuators, 2) on the skin [N/mm]. score: [mm2].
+    """
+
+    arc: FloatArray
+    strain: FloatArray
+    force: FloatArray
+    score: dict[Readout, float]
+
+
+def on_deck(scene: Scene, coarsening: float) -> Scene:
+    """The scene on a deck's mesh, whose sizes on skin and receptor line are `coarsening` [1] times those given here."""
+    numerics = replace(
+        scene.model.numerics,
+        edge_size=coarsening * DECK_EDGE_SIZE,
+        edge_zone=DECK_EDGE_ZONE,
+        finite_edge_size=coarsening * DECK_EDGE_SIZE,
+        finite_edge_zone=DECK_EDGE_ZONE,
+        face_size=coarsening * DECK_FACE_SIZE,
+        receptor_size=coarsening * DECK_RECEPTOR_SIZE,
+    )
+    return scene.with_numerics(numerics)
+
+
+def sharpened(scene: Scene) -> Scene:
+    """The scene with sharp edges: contact ends where the flat face does, and no normal can turn."""
+    actuators = replace(scene.device.actuators, edge_radius=0.0)
+    return replace(scene, device=replace(scene.device, actuators=actuators))
+
+
+def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings]:
+    """The case's scene with the shipped mesh, and the settings of its deck.
+
+    case: `kinematics`, and with finite ones the tissue's `law`; `indentation`, a height [mm], or full: as deep as
+    fingerpad indents; `edges` (rounded or sharp), `friction` (never, stimulus or always), and the deck's slopes and
+    increments.
+    """
+    scene = sharpened(scene) if case["edges"] == "sharp" else scene
+    scene = scene.with_kinematics(Kinematics(case["kinematics"]))
+    friction = scene.model.contact.friction
+    acting = 0.0 if case["friction"] == "never" else friction
+    indenting = friction if case["friction"] == "always" else 0.0
+    if scene.kinematics is Kinematics.FINITE:
+        tissue = replace(scene.model.tissue, law=Law(case["law"]))
+        scene = replace(scene, model=replace(scene.model, tissue=tissue))
+    depth = case["indentation"]
+    if depth == "full":
+        depth = indented_height(scene, mesh_device(scene), Interface.SHEAR if indenting else Interface.FRICTIONLESS)
+    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
+    return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
+
+
+def calculix_outcome(
+    scene: Scene, section: SectionMesh, condition: Condition, settings: DeckSettings, folder: Path, limit: float
+) -> tuple[Outcome, float]:
+    """Outcome of a deck that CalculiX solves in a folder, and the seconds it took. Raises CalculixError if it fails,
+    takes longer than the limit [s] or does not have the tissue's law.
+    """
+    if scene.kinematics is Kinematics.FINITE and scene.model.tissue.law is Law.HENCKY:
+        raise CalculixError("CalculiX has no law in logarithmic strain (hencky); try green, neo_hookean or ogden")
+    table, seconds = run(input_deck(scene, section, condition, settings), folder, limit)
+    printed = read_printed(table, len(scene.device.actuators.positions), 1 + condition.time.size, settings)
+    return printed_outcome(scene, section, printed), seconds
+
+
+def printed_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Outcome:
+    """Outcome of what CalculiX printed: strain by the same map from displacement as fingerpad's."""
+    points, gradient = receptor_gradient(section, scene)
+    unknowns = node_dofs(displacement_basis(section.mesh))[:, printed.node]
+    field = np.zeros((printed.displacement.shape[0], gradient.shape[1]))
+    field[:, unknowns] = printed.displacement.swapaxes(1, 2)
+    if scene.kinematics is Kinematics.FINITE:
+        strains = [receptor_logarithmic_strain(gradient, one) for one in field[[0, -1]]]
+    else:
+        strains = [strain_of_gradient(gradient) @ one for one in field[[0, -1]]]
+    return outcome_of(scene, arc_length(points), strains, printed.force[[0, -1]])
+
+
+def fingerpad_outcome(
+    scene: Scene,
+    section: CondensedSection,
+    body: CondensedBody | None,
+    condition: Condition,
+    settings: DeckSettings,
+    contact: ContactModel,
+) -> Outcome:
+    """Outcome of the same path on the condensed maps of undeformed tissue. Raises ContactError if it cannot be
+    followed, or the turning normal is asked of a deformable body."""
+    problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
+    # a normal that turned from the stimulus on would move what was pressed without
+    problem = replace(problem, turning=problem.turning and settings.friction_indenting > 0.0)
+    follow_path = _turning_forces if contact is ContactModel.TURNING else _own_forces
+    if contact is ContactModel.PENALTIES:
+        problem = replace(problem, compliance=problem.compliance + np.diag(softness(section, settings)))
+    forces = follow_path(problem, section, condition, settings)
+    strains = [section.strain @ force.ravel() for force in forces]
+    return outcome_of(scene, section.arc, strains, actuator_forces(problem, forces))
+
+
+def differences(found: Outcome, reference: Outcome) -> dict[str, float]:
+    """Relative differences [1] in the norm L2: of strains, pressing and all forces, change of strain, and of scores."""
+    grid = reference.arc
+    strain = np.array([np.interp(grid, found.arc, values) for values in found.strain])
+    return {
+        "strain_indented": _relative(strain[0], reference.strain[0]),
+        "pressing_indented": _relative(found.force[0, :, 1], reference.force[0, :, 1]),
+        "strain_actuated": _relative(strain[1], reference.strain[1]),
+        "force_actuated": _relative(found.force[1], reference.force[1]),
+        "change_of_strain": _relative(strain[1] - strain[0], reference.strain[1] - reference.strain[0]),
+        **{f"score_{readout}": abs(found.score[readout] / reference.score[readout] - 1.0) for readout in Readout},
+    }
+
+
+def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
+    """Displacements (n_actuators, 2) [mm] of the actuators: pre-indented, then at the stimulus's times."""
+    indented = np.tile([0.0, settings.indentation], (condition.normal.shape[1], 1))
+    return [indented, *(indented + condition.moves)]
+
+
+def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
+    """Compliance (2n,) [mm per N/mm] that the penalties add to each node: 1 / (slope times its length of skin)."""
+    slopes = np.array([settings.stick_slope, settings.pressure_slope])
+    return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())
+
+
+def _own_forces(
+    problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
+) -> tuple[FloatArray, FloatArray]:
+    indented, *stimulus = targets(condition, settings)
+    first = replace(problem, friction=settings.friction_indenting)
+    before = follow(first, rest(first, touching_height(first)), indented, INDENTATION_INCREMENTS)
+    state = switch_friction(before) if settings.friction_acting > settings.friction_indenting else before
+    for target in stimulus:
+        state = follow(problem, state, target, STIMULUS_INCREMENTS)
+    return before.force, state.force
+
+
+def _turning_forces(
+    problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
+) -> tuple[FloatArray, FloatArray]:
+    indented, *stimulus = targets(condition, settings)
+    law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting, slides_open=True)
+    first = replace(law, friction=settings.friction_indenting)
+    # in the deck's increments, which decide how much of what slides before it touches bears friction
+    before = follow_penalties(
+        problem, section.weight, first, untouched(problem), indented, settings.indentation_increments
+    )
+    state: PenaltyState = before
+    for target in stimulus:
+        state = follow_penalties(problem, section.weight, law, state, target, settings.stimulus_increments)
+    return before.force, state.force
+
+
+def actuator_forces(problem: ContactProblem, forces: Sequence[FloatArray]) -> FloatArray:
+    """Forces (k, n_actuators, 2) [N/mm] of the actuators from those of the nodes, k times (n, 2)."""
+    owner, count = problem.actuator_of, len(problem.row.positions)
+    return np.array([[force[owner == number].sum(axis=0) for number in range(count)] for force in forces])
+
+
+def outcome_of(scene: Scene, arc: FloatArray, components: Sequence[FloatArray], force: FloatArray) -> Outcome:
+    """Read-outs on the uniform grid, and scores, of strains (3m,) [1] before and after the stimulus."""
+    strain = np.array([maximum_principal(each) for each in components])
+    gabor = scene.model.gabor
+    resampling = resampling_to_grid(arc, gabor.spacing)
+    readouts = {Readout.STRAIN: strain[1], Readout.CHANGE_OF_STRAIN: strain[1] - strain[0]}
+    scores = roughness_scores(scene, filtered_readouts(resampling, readouts, gabor))
+    return Outcome(resampling.grid, strain @ resampling.weights.T, force, scores)
+
+
+def _relative(found: FloatArray, reference: FloatArray) -> float:
+    return float(np.linalg.norm(found - reference) / np.linalg.norm(reference))

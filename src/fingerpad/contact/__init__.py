@@ -1,0 +1,1 @@
+"""Frictional contact on condensed tissue: states, increments, paths, pre-indentation, and a solved condition."""

@@ -1,0 +1,26 @@
+"""Anderson's acceleration of a fixed point (Walker and Ni 2011)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..arrays import FloatArray
+
+MEMORY = 12  # iterates [1] that are combined; source: fewest corrections of 6, 8, 12
+
+
+def accelerated(steps: Sequence[FloatArray], ends: Sequence[FloatArray]) -> FloatArray:
+    """The next iterate of u = G(u), from steps G(u) - u and ends G(u) of the iterations so far, oldest first: the
+    combination of the last MEMORY ends whose steps nearly cancel; of one iteration its end.
+
+    >>> halved = [np.array([2.0]), np.array([1.0])]
+    >>> accelerated([0.5 * u - u for u in halved], [0.5 * u for u in halved])
+    array([0.])
+    """
+    if len(steps) == 1:
+        return ends[0]
+    step, end = np.stack(steps[-MEMORY:], axis=1), np.stack(ends[-MEMORY:], axis=1)
+    weights = np.linalg.lstsq(np.diff(step, axis=1), steps[-1], rcond=None)[0]
+    return np.asarray(ends[-1] - np.diff(end, axis=1) @ weights)

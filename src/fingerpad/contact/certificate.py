@@ -1,0 +1,137 @@
+"""The certificate of a solution: it is kept if it obeys the laws it was solved for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import CertificateError, ReachError
+from ..tissue.compliance import CondensedSection
+from .formulation import ContactProblem, ContactState, Status, reevaluated_gap, shearing_and_pressing
+from .profile import profile
+
+# distance of two nodes over the skin that belongs to them [1]; source: of equal elements 1/2 if they share one, 2/3 at
+# the end of a face, at least 1 if there is another between
+ADJACENT = 0.75
+
+# What a certificate may not exceed; source: each lies over an order below the score error that is aimed at (0.5 %)
+PENETRATION_LIMIT = 1e-4  # of the indentation [1]
+TENSION_LIMIT = 1e-6  # of the largest pressure [1]
+CONE_LIMIT = 1e-6  # of the largest shear that friction allows, without friction of the largest pressing force [1]
+# of the work of friction under the largest force so far along the indentation [1]; source: slip is solved to 1e-9 of
+# the way, in up to a hundred increments
+DISSIPATION_LIMIT = 1e-7
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What a solution found when it checked itself: the worst of all its states.
+
+    equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
+    penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
+    Coulomb's limit, over the largest limit, or without friction over the largest pressing force [1]. dissipation:
+    smallest frictional work so far [N mm per mm]. penetration_share, tension_share, cone_share: of what was allowed
+    there [1].
+    """
+
+    equilibrium: float
+    contact: float
+    penetration: float
+    smallest_pressure: float
+    cone_excess: float
+    dissipation: float
+    penetration_share: float
+    tension_share: float
+    cone_share: float
+
+
+def certify(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
+    """Check a state against the laws it was solved for. Raises CertificateError, with the figures, beyond a limit, and
+    ReachError if contact comes to the last node considered.
+    """
+    active = state.status != Status.OPEN
+    shearing, pressing = shearing_and_pressing(problem, [state])[0].T
+    pressure = pressing / section.weight
+    largest = float(pressure.max(initial=0.0))
+    excess = np.abs(shearing) - problem.friction * pressing
+    penetration = max(float(-reevaluated_gap(problem, state).min()), 0.0)
+    smallest = float(pressure[active].min()) if active.any() else 0.0
+    indentation = float(np.abs(state.actuator).max())
+    # what lies within the tolerance of gaps may just touch, and rounding may pull
+    slight = problem.tolerance * indentation / float(np.diag(problem.compliance).max())
+    limit = (problem.friction or 1.0) * max(float(pressing.max()), slight)
+    beyond = max(float(excess.max()), 0.0) / limit if limit > 0.0 else 0.0
+    work = problem.friction * max(state.largest_force, slight) * indentation
+    checks = {
+        "contact residual": (state.residual, problem.tolerance),
+        "penetration [mm]": (penetration, PENETRATION_LIMIT * indentation),
+        "tension [MPa]": (-smallest, max(TENSION_LIMIT * largest, slight / float(section.weight.max()))),
+        "excess over the friction cone": (beyond, CONE_LIMIT),
+        "negative dissipation [N mm/mm]": (-state.dissipation, DISSIPATION_LIMIT * work),
+    }
+    for name, (found, allowed) in checks.items():
+        if not found <= allowed:
+            raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
+    require_within_reach(problem, section, state)
+    _, of_penetration, of_tension, of_cone, _ = (
+        found / allowed if found > 0.0 else 0.0 for found, allowed in checks.values()
+    )
+    return Certificate(
+        equilibrium=section.residual,
+        contact=state.residual,
+        penetration=penetration,
+        smallest_pressure=smallest,
+        cone_excess=beyond,
+        dissipation=state.dissipation,
+        penetration_share=of_penetration,
+        tension_share=of_tension,
+        cone_share=of_cone,
+    )
+
+
+def worst(certificates: Sequence[Certificate]) -> Certificate:
+    """The worst figures of several states."""
+    return Certificate(
+        equilibrium=max(each.equilibrium for each in certificates),
+        contact=max(each.contact for each in certificates),
+        penetration=max(each.penetration for each in certificates),
+        smallest_pressure=min(each.smallest_pressure for each in certificates),
+        cone_excess=max(each.cone_excess for each in certificates),
+        dissipation=min(each.dissipation for each in certificates),
+        penetration_share=max(each.penetration_share for each in certificates),
+        tension_share=max(each.tension_share for each in certificates),
+        cone_share=max(each.cone_share for each in certificates),
+    )
+
+
+def require_within_reach(problem: ContactProblem, section: CondensedSection, state: ContactState) -> None:
+    """Raise ReachError if an actuator touches, or overlaps by more than PENETRATION_LIMIT, skin that was not considered
+    to be its own.
+
+    Contact may reach an actuator's last node where the next node of the skin is a neighbour's; but no node may press
+    into another actuator than the one it was given to.
+    """
+    own, x = problem.actuator_of, problem.position[:, 0]
+    allowed = PENETRATION_LIMIT * float(np.abs(state.actuator).max())
+    active = state.status != Status.OPEN
+    adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
+    first = np.append(True, ~adjacent)
+    last = np.append(~adjacent, True)
+    centre = np.asarray(problem.row.positions)[:, None] + state.actuator[:, :1]
+    place = (state.place + centre[own, 0] - centre).T  # (n, n_actuators)
+    nearest = np.argmin(np.abs(place), axis=1)
+    there = place[np.arange(x.size), nearest]
+    height = state.gap - profile(problem.row, state.place)[0] + (state.actuator[own] - state.actuator[nearest])[:, 1]
+    overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
+    beyond = np.flatnonzero(active & (first | last) | overlapping)
+    if beyond.size:
+        node = beyond[0]
+        aside = abs(state.place[node] + centre[own[node], 0] - x[node])
+        moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
+        advice = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
+        raise ReachError(
+            f"certificate: contact at the actuator at x = {problem.row.positions[own[node]]:g} mm reaches the last skin"
+            f" node that was considered; skin there has moved {aside:.2g} mm sideways{advice}"
+        )

@@ -1,0 +1,139 @@
+"""A path of contact: increments in a straight line, halved where they do not converge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, ClassVar, Protocol, TypeVar
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import ContactError, ConvergenceError, InvertedError, SnapError, UniquenessError
+from .active_set import NotConvergedError
+from .formulation import ContactProblem, ContactState
+from .increment import solve_increment
+from .patch import Patch
+
+
+class PathState(Protocol):
+    """What a path asks of a state, a dataclass: where the actuators stand, and increments halved so far."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    @property
+    def actuator(self) -> FloatArray: ...
+    @property
+    def cuts(self) -> int: ...
+
+
+State = TypeVar("State", bound=PathState)
+
+NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
+# Distances of the closest nodes [1] to which increments grow again once one was halved, as fronts that cross many nodes
+# at once fail again and again; source: fewest seconds of 1, 2, 4 (a stroke of 1 mm of six close pins, measured)
+CROSSED = 2.0
+CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
+
+
+class SolveIncrement(Protocol[State]):
+    """Solves one increment: from a problem, a state, where the actuators go, and what the last increment left to use
+    again. Raises NotConvergedError.
+    """
+
+    def __call__(
+        self, problem: ContactProblem, start: State, actuator: FloatArray, carried: Any, /
+    ) -> tuple[State, Any]: ...
+
+
+def follow(problem: ContactProblem, state: ContactState, target: FloatArray, increments: int) -> ContactState:
+    """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
+
+    Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
+    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see increment).
+    """
+    return advance(problem, state, target, increments, None, solve_increment)[0]
+
+
+def advance(
+    problem: ContactProblem,
+    state: State,
+    target: FloatArray,
+    increments: int,
+    carried: Any,
+    solve: SolveIncrement[State],
+    drifting: bool = False,
+) -> tuple[State, Any]:
+    """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
+    and giving the last of it back. Where the actuators stand there is nothing to solve, unless nodes are `drifting`.
+    """
+    start = state.actuator
+    standing = _stand(start, target)
+    if standing and not drifting:
+        return state, carried
+    target = start if standing else target
+    done, step = 0.0, 1.0 / increments
+    length = float(np.abs(target - start).max())
+    smallest = step / 2.0 ** (0 if standing else problem.max_cuts)  # where nothing moves, half of it is as hard
+    cuts, longest = 0, step
+    while done < 1.0:
+        goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
+        try:
+            state, carried = solve(problem, state, start + goal * (target - start), carried)
+            done = goal
+            step = min(2.0 * step, longest)
+        except NotConvergedError as failure:
+            step = (goal - done) / 2.0
+            cuts += 1
+            state = replace(state, cuts=state.cuts + 1)
+            if step < smallest or cuts > CRAWL * problem.max_cuts:
+                kind, advice = _named(failure)
+                halvings = round(-np.log2((goal - done) * increments))
+                missed = failure.residual > problem.tolerance
+                residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
+                raise kind(
+                    f"contact could not be followed: {done:.1%} of the way from {_located(start)} to"
+                    f" {_located(target)} mm, increment {int(done * increments) + 1}/{increments} halved"
+                    f" {halvings} times{residual}; {advice}"
+                    f"{', stiffer bodies' if problem.body else ''} or a finer mesh at the actuators' edges"
+                ) from failure
+            longest = min(longest, max(step, CROSSED * problem.spacing / length))
+    return state, carried
+
+
+def drifting_to(
+    last: FloatArray, begin: FloatArray, target: FloatArray, power: int = 1
+) -> SolveIncrement[ContactState]:
+    """What solves an increment of a line from `begin` to `target` (n_actuators, 2) [mm] along which contact nodes
+    without forces drift from the problem's place to `last` (n, 2) [mm], with a power of the way.
+    """
+    length = float(np.abs(target - begin).max())
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
+    ) -> tuple[ContactState, Patch]:
+        first = np.zeros_like(last) if problem.free is None else problem.free
+        way = 1.0 if _stand(begin, target) else float(np.abs(actuator - begin).max()) / length
+        return solve_increment(replace(problem, free=first + way**power * (last - first)), state, actuator, patch)
+
+    return solve
+
+
+def _stand(begin: FloatArray, target: FloatArray) -> bool:
+    """Whether the way from `begin` to `target` (n_actuators, 2) [mm] is none."""
+    return bool(np.abs(target - begin).max() <= NEGLIGIBLE * max(np.abs(begin).max(), np.abs(target).max()))
+
+
+def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
+    """Class and advice of the error that ends a path."""
+    if failure.inverted:
+        return InvertedError, f"{failure.inverted}; try less indentation or movement"
+    if failure.snaps:
+        return SnapError, "there the tissue has no stable state near, and would snap; try less indentation or movement"
+    if failure.turned:
+        return UniquenessError, "there the states of contact have no unique solution; try less friction, less movement"
+    return ConvergenceError, "try more increments"
+
+
+def _located(actuator: FloatArray) -> str:
+    """Where the actuators stand, in few words: (x, y) of the first."""
+    return f"({actuator[0, 0]:.4g}, {actuator[0, 1]:.4g})"

@@ -1,0 +1,92 @@
+"""The contact problem that a scene poses, the increments it is followed in, and errors that say whose they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+
+import numpy as np
+
+from ..errors import ContactError, CriterionError, MeshError
+from ..scene.contact_law import Criterion, Interface
+from ..scene.device import Condition
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.compliance import CondensedBody, CondensedSection
+from .formulation import ContactProblem
+
+FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
+
+TOUCH = ", and so does contact.criterion: touch (in config/config.yaml, where it changes every device)"
+SMALL_ALONE = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
+SHEAR_ALONE = "; `interfaces: shear` in the device's file leaves out what is without friction"
+
+
+def contact_problem(
+    scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
+) -> ContactProblem:
+    """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
+    numerics, law = scene.model.numerics, scene.model.contact
+    problem = ContactProblem(
+        position=section.position,
+        compliance=section.compliance,
+        row=scene.device.actuators,
+        body=body,
+        friction=law.coefficient(interface),
+        tolerance=numerics.newton_tolerance,
+        max_cuts=numerics.max_cuts,
+        patches=scene.model.skips.inactive_nodes,
+        turning=law.turns(scene.kinematics, interface),
+    )
+    centres = problem.row.positions
+    missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
+    if missed.size:
+        raise MeshError(
+            f"{scene.device.name}: no skin node is near the actuator at x = {centres[missed[0]]:g} mm, nor near"
+            f" {missed.size - 1} others of {len(centres)}; try a smaller numerics.face_size"
+        )
+    return problem
+
+
+def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
+    """Load increments of pre-indentation and of each segment of a stimulus."""
+    numerics, share = scene.model.numerics, 1
+    linear = scene.kinematics is Kinematics.SMALL  # much less than all at once is too far for Newton's method
+    if scene.model.skips.frictionless_path and problem.friction == 0.0 and linear:
+        share = FRICTIONLESS_SHARE
+    return -(-numerics.indentation_increments // share), -(-numerics.stimulus_increments // share)
+
+
+@contextmanager
+def named(what: str, advice: str = "") -> Iterator[None]:
+    """Name in every ContactError what was being solved, and say what else may help."""
+    try:
+        yield
+    except ContactError as error:
+        raise type(error)(f"{what}: {error}{advice}") from error
+
+
+def left_out(scene: Scene, interface: Interface) -> str:
+    """What a device's file may leave out where it cannot be solved."""
+    finite, frictionless = scene.kinematics is Kinematics.FINITE, interface is Interface.FRICTIONLESS
+    return (SMALL_ALONE if finite else "") + (SHEAR_ALONE if frictionless else "")
+
+
+@contextmanager
+def named_pressing(scene: Scene, interface: Interface) -> Iterator[None]:
+    """`named`, for pre-indentation, which goes the deeper the wider the row is."""
+    try:
+        yield
+    except ContactError as error:
+        # what touches no skin at any height fails the other criterion as well
+        touched = not isinstance(error, CriterionError) or error.touched
+        full = scene.model.contact.criterion is Criterion.FULL
+        advice = "; a narrower row needs less indentation" + (TOUCH if full and touched else "")
+        what = f"device={scene.device.name}, interface={interface}, pre-indentation"
+        raise type(error)(f"{what}: {error}{advice}{left_out(scene, interface)}") from error
+
+
+def named_stimulus(scene: Scene, condition: Condition, interface: Interface) -> AbstractContextManager[None]:
+    """`named`, for the stimulus of a condition."""
+    case = f"device={scene.device.name}, condition={condition.name}, interface={interface}"
+    return named(case, left_out(scene, interface))

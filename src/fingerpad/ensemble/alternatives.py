@@ -1,0 +1,180 @@
+"""What assumptions might be as well: scene files with one of them varied, in either half-cycle of the stimuli.
+
+Every member of the ensemble is a folder of scene files in which what is varied says so as its source.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from ..errors import SceneError
+from ..files import write_text
+from ..scene.scenefile import read_yaml
+from ..scene.sources import Origin
+
+AS_CONFIGURED = "as configured"
+FIRST, SECOND = "first", "second"
+HALF_CYCLES = (FIRST, SECOND)
+HALF_CYCLE = "stimulus.half_cycle"
+PARTS = ("model", "devices")
+
+Document = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """What an assumption might be as well: a value that takes the place of the one at a key, or a factor [1] on it."""
+
+    part: str
+    key: str
+    value: Any
+    times: float | None
+    source: str
+
+    @property
+    def name(self) -> str:
+        """What is varied, in words.
+
+        >>> Alternative("devices", "actuators.pitch", None, 0.8, "assumption: denser").name
+        'actuators.pitch times 0.8'
+        """
+        return f"{self.key} {self.value}" if self.times is None else f"{self.key} times {self.times:g}"
+
+    def instead_of(self, value: Any) -> Any:
+        """What takes the place of a value. Raises SceneError if a factor is to multiply what is no number."""
+        if self.times is None:
+            return self.value
+        if not _is_number(value):
+            raise SceneError(f"ensemble: {self.key}: found {value!r}; allowed: a number, as `times` multiplies it")
+        return float(f"{value * self.times:.12g}")
+
+
+@dataclass(frozen=True)
+class Scenes:
+    """Scene files of a member: config.yaml's document, and those of the devices that it varies, by name."""
+
+    config: Document
+    devices: Mapping[str, Document]
+
+
+def slug(name: str) -> str:
+    """A name as a part of file names.
+
+    >>> slug("contact.friction 0.38")
+    'contact_friction_0_38'
+    """
+    return re.sub("[^a-z0-9]+", "_", name.lower()).strip("_")
+
+
+def read_ensemble(path: Path) -> list[Alternative]:
+    """The alternatives in a file, in its order.
+
+    Raises SceneError if it holds anything but lists of key, values or times, and source under PARTS.
+    """
+    document = read_yaml(path)
+    if unknown := [key for key in document if key not in PARTS]:
+        raise SceneError(f"{path}: found the key {unknown[0]}; allowed: {', '.join(PARTS)}")
+    found: list[Alternative] = []
+    for part, entries in document.items():
+        for number, entry in enumerate(entries if isinstance(entries, list) else [entries]):
+            where = f"{path}: {part}[{number}]"
+            if not isinstance(entry, dict) or entry.keys() not in (
+                {"key", "values", "source"},
+                {"key", "times", "source"},
+            ):
+                raise SceneError(f"{where}: found {entry!r:.60}; allowed: the keys key, values or times, and source")
+            choices = entry.get("values", entry.get("times"))
+            if not isinstance(choices, list) or ("times" in entry and not all(map(_is_number, choices))):
+                raise SceneError(f"{where}: found {choices!r:.60}; allowed: a list, of numbers under times")
+            key, source = str(entry["key"]), str(entry["source"])
+            for choice in choices:
+                value, times = (None, float(choice)) if "times" in entry else (choice, None)
+                found.append(Alternative(part, key, value, times, source))
+    return found
+
+
+def member_scenes(
+    config: Document, devices: Mapping[str, Document], alternative: Alternative | None, half_cycle: str
+) -> Scenes:
+    """Scene files of a member. Without an alternative all devices that have half-cycles, as they are.
+
+    An alternative of the model concerns all of them, one of devices those that assume the value. Raises SceneError if
+    it is a key that none has, or a number's factor on what is none, and if no device has half-cycles.
+    """
+    cycled = {
+        name: _with(document, HALF_CYCLE, lambda _: half_cycle, "varied: half-cycle")
+        for name, document in devices.items()
+        if "half_cycle" in document["stimulus"]
+    }
+    if not cycled:
+        raise SceneError(f"ensemble: no device has a value {HALF_CYCLE}")
+    if alternative is None:
+        return Scenes(config, cycled)
+    source = f"varied: {alternative.source}"
+    if alternative.part == "model":
+        return Scenes(_with(config, alternative.key, alternative.instead_of, source), cycled)
+    assumed = {
+        name: _with(document, alternative.key, alternative.instead_of, source)
+        for name, document in cycled.items()
+        if str((_quantity(document, alternative.key) or {}).get("source")).startswith(Origin.ASSUMPTION)
+    }
+    if not assumed:
+        raise SceneError(f"ensemble: no device assumes a value {alternative.key}")
+    return Scenes(config, assumed)
+
+
+def named_alternative(alternatives: Sequence[Alternative], member: str) -> Alternative | None:
+    """The alternative whose name makes a slug, or None for the scenes as configured. Raises SceneError."""
+    by_slug = {slug(AS_CONFIGURED): None, **{slug(each.name): each for each in alternatives}}
+    if member not in by_slug:
+        raise SceneError(f"ensemble: found the member {member}; allowed: {', '.join(by_slug)}")
+    return by_slug[member]
+
+
+def write_scenes(
+    folder: Path,
+    config: Document,
+    devices: Mapping[str, Document],
+    alternative: Alternative | None,
+    half_cycle: str,
+) -> tuple[Path, list[Path]]:
+    """Write the scene files of a member: a folder for `--config scenes=FOLDER`. Returns those of config and devices.
+    Raises SceneError as `member_scenes`.
+    """
+    scenes = member_scenes(config, devices, alternative, half_cycle)
+    (folder / "devices").mkdir(parents=True, exist_ok=True)
+    files = {folder / "config.yaml": scenes.config}
+    files |= {folder / "devices" / f"{name}.yaml": document for name, document in scenes.devices.items()}
+    for path, document in files.items():
+        write_text(path, yaml.safe_dump(document, sort_keys=False))
+    first, *rest = files
+    return first, rest
+
+
+def _quantity(document: Document, key: str) -> Document | None:
+    """The quantity at a dotted key, or None."""
+    node: Any = document
+    for step in key.split("."):
+        node = node.get(step) if isinstance(node, dict) else None
+    return node if isinstance(node, dict) and "value" in node else None
+
+
+def _with(document: Document, key: str, change: Callable[[Any], Any], source: str) -> Document:
+    """The document with the value at a key changed."""
+    found = copy.deepcopy(document)
+    quantity = _quantity(found, key)
+    if quantity is None:
+        raise SceneError(f"ensemble: config.yaml has no value {key}")
+    quantity["value"], quantity["source"] = change(quantity["value"]), source
+    return found
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

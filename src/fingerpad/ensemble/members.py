@@ -1,0 +1,66 @@
+"""An ensemble over assumptions: scores of every member, and which of the paper's statements then hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pandas as pd
+
+from ..errors import CondensationError, ContactError, MeshError
+from ..perception.claims import claims_table
+from ..perception.correlation import correlation_table
+from ..prediction.edges import edge_intervals
+from ..prediction.scoring import predicted_rows, prepared
+from ..readouts.roughness import KEY, unpredicted_rows, unsolved_rows
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from .alternatives import AS_CONFIGURED, Alternative
+
+MEMBER = ["kinematics", "half_cycle", "varied"]  # columns that tell members apart
+
+
+def member_scores(
+    scenes: Sequence[Scene], kinematics: Kinematics, alternative: Alternative | None, half_cycle: str
+) -> list[dict[str, Any]]:
+    """Rows of the score table of a member behind MEMBER; where a device cannot be solved, rows without scores, whose
+    note says why.
+    """
+    rows: list[dict[str, Any]] = []
+    for scene in (each.with_kinematics(kinematics) for each in scenes if kinematics in each.computed):
+        try:
+            rows += predicted_rows(scene, prepared(scene, edge_intervals(scene)))
+        except (MeshError, CondensationError, ContactError) as error:
+            rows += unsolved_rows(scene, str(error))
+        rows += unpredicted_rows(scene)
+    varied = alternative.name if alternative else AS_CONFIGURED
+    return [{"half_cycle": half_cycle, "varied": varied} | row for row in rows]
+
+
+def ensemble_tables(
+    members: pd.DataFrame, configured: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Claims and correlations of every member, in the columns of their tables behind half_cycle and varied.
+
+    members: rows of the score table of all members behind MEMBER; devices that a member leaves as they are have rows as
+    configured alone. configured: the score table with errors, which members' scores have too, relative to the score.
+    """
+    relative = configured.set_index([*KEY, "condition"])
+    share = (relative["score_error"] / relative["score"].abs()).rename("share").reset_index()
+    scored = members.merge(share, on=[*KEY, "condition"], how="left")
+    scored["score_error"] = scored["share"] * scored["score"]
+    claims: list[pd.DataFrame] = []
+    correlations: list[pd.DataFrame] = []
+    for (kinematics, half_cycle), group in scored.groupby(MEMBER[:2], sort=False):
+        usual = group[group["varied"] == AS_CONFIGURED]
+        for varied, own in group.groupby("varied", sort=False):
+            rest = usual[~usual["device"].isin(own["device"])]
+            scores = pd.concat([own, rest])
+            table = correlation_table(scores, ratings, order, published)
+            for found, rows in ((claims, claims_table(scores, table)), (correlations, table)):
+                found.append(rows.assign(kinematics=kinematics, half_cycle=half_cycle, varied=varied))
+    return _first_columns(pd.concat(claims)), _first_columns(pd.concat(correlations))
+
+
+def _first_columns(table: pd.DataFrame) -> pd.DataFrame:
+    return table[[*MEMBER, *(column for column in table.columns if column not in MEMBER)]]

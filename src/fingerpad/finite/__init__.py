@@ -1,0 +1,1 @@
+"""Finite kinematics: tissue that deforms much, and contact on a linearisation of it."""

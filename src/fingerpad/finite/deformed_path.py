@@ -1,0 +1,216 @@
+"""Stimuli on tissue that deforms much: paths on the condensed tangent, corrected by what the tissue really bears.
+
+About the pre-indented state u_0 with tangent K, a path on the condensed maps ends with forces f and the displacement
+    u' = u + K^-1 (L f - R(u))
+of the tissue. Where R(u') is not L f, the contact nodes' displacement without forces, free = L^T (u - K^-1 R(u)), is
+another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
+the way from u_0, where K is exact, and evenly from elsewhere; without friction the way leaves no trace, and only its
+end is found anew. So the tissue is in equilibrium wherever a move ends.
+
+Any K leads there. Without friction a pressed finger can all but sway freely, and corrections on its tangent go astray
+with the softest mode: there K is the tangent and a spring on that mode.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.linalg import eigh
+from scipy.sparse.linalg import SuperLU
+
+from ..arrays import FloatArray
+from ..contact.acceleration import accelerated
+from ..contact.formulation import ContactProblem, ContactState
+from ..contact.increment import solve_increment
+from ..contact.patch import Patch
+from ..contact.path import advance, drifting_to
+from ..errors import ContactError
+from ..tissue.factors import factorise
+from .deformation import internal_force, internal_force_and_tangent
+from .deformed import TissuePart, contact_state, deformed_state, increments_of, is_far, solver_on
+
+MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way; source: these take longer (measured)
+SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores then hold to 0.2 %
+
+
+@dataclass(frozen=True)
+class DeformedTissue:
+    """The whole section about the pre-indented state.
+
+    factors: of its tangent K. displacement: (size,) [mm]. condensing: the same part in an order from which new tangents
+    are condensed, for moves that need them. spring: `solve` is with K + spring, or None.
+    """
+
+    part: TissuePart
+    factors: SuperLU
+    displacement: FloatArray
+    condensing: Callable[[], TissuePart]
+    spring: Spring | None
+
+    def solve(self, load: FloatArray) -> FloatArray:
+        """Displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
+        field = np.asarray(self.factors.solve(load))
+        return field if self.spring is None else field - self.spring.takes(load)
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring that makes the softest mode v of the contact nodes as stiff as the next.
+
+    With C v = c v and the next eigenvalue c', C' = C - (c - c') v v^T is the compliance of contact nodes, and
+    K^-1 - (c - c')/c^2 g g^T with g = K^-1 L v that of the tissue (Sherman and Morrison). Only corrections feel it.
+    field: (n_free,) g. share: (c - c')/c^2. compliance: C'.
+    """
+
+    field: FloatArray
+    share: float
+    compliance: FloatArray
+
+    def takes(self, load: FloatArray) -> FloatArray:
+        """What it takes of the displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
+        return self.share * float(self.field @ load) * self.field
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Contact and tissue where a move ends, or begins.
+
+    state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without
+    contact forces, had the tangent held all the way [mm]. tangents: made so far. defect: largest change of displacement
+    in the last correction of a move, over the largest displacement in it [1], so far.
+    """
+
+    state: ContactState
+    displacement: FloatArray
+    free: FloatArray
+    tangents: int
+    defect: float
+
+
+def deformed_tissue(
+    part: TissuePart, displacement: FloatArray, condensing: Callable[[], TissuePart], sprung: FloatArray | None
+) -> DeformedTissue:
+    """Linearise about a displacement (size,) [mm], with a spring on a given compliance's softest mode.
+
+    Raises CondensationError.
+    """
+    _, matrix = internal_force_and_tangent(part.elements, displacement)
+    factors = factorise(matrix)
+    spring = None if sprung is None else _spring(part, factors, sprung)
+    return DeformedTissue(part, factors, displacement, condensing, spring)
+
+
+def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> Spring:
+    """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors."""
+    count = compliance.shape[0]
+    (next_one, softest), modes = eigh(compliance, subset_by_index=[count - 2, count - 1])
+    mode = modes[:, 1]
+    return Spring(
+        factors.solve(part.loads @ mode),
+        float(softest - next_one) / float(softest) ** 2,
+        compliance - (softest - next_one) * np.outer(mode, mode),
+    )
+
+
+def move(
+    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+) -> Equilibrium:
+    """Move the actuators in a straight line to `target` (n_actuators, 2) [mm].
+
+    problem: condensed about the tissue's displacement. Where corrections do not settle the move is made anew, with new
+    tangents. Raises what `path.advance` raises.
+    """
+    if np.array_equal(target, start.state.actuator):
+        return start
+    try:
+        return _corrected(tissue, problem, start, target, increments)
+    except _UnsettledError:
+        return _followed_newly(tissue, problem, start, target, increments)
+
+
+class _UnsettledError(Exception):
+    """Corrections of a move do not settle."""
+
+
+def _corrected(
+    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+) -> Equilibrium:
+    """`move` on the tissue's tangent alone. Raises _UnsettledError."""
+    part, free = tissue.part, tissue.part.elements.free
+    exact = tissue.spring is None and np.array_equal(start.displacement, tissue.displacement)
+    power = 2 if exact else 1
+    steps: list[FloatArray] = []
+    ends: list[FloatArray] = []
+    displacement, first, state, patch = start.displacement, None, None, None
+    for correction in range(MAX_CORRECTIONS):
+        try:
+            back = -tissue.solve(internal_force(part.elements, displacement)[free])
+            last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+            first = last if first is None else first
+            if state is None or problem.friction > 0.0:
+                state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
+            else:
+                there = replace(problem, free=last)
+                state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
+        except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
+            raise _UnsettledError from error
+        step = back + tissue.solve(part.loads @ state.force.ravel())
+        reached = displacement[free] + step
+        moved = float(np.abs(reached - start.displacement[free]).max())
+        # a stimulus that never touches moves nothing
+        defect = float(np.abs(step).max()) / moved if moved > 0.0 else 0.0
+        if correction > 0:  # the first is no correction, but the move itself
+            steps.append(step)
+            ends.append(reached)
+        displacement = displacement.copy()
+        displacement[free] = reached
+        if defect <= SETTLED:
+            if is_far(moved, float(np.abs(target - start.state.actuator).max()), float(np.abs(target).max())):
+                raise _UnsettledError
+            return Equilibrium(
+                state=state,
+                displacement=displacement,
+                free=last,
+                tangents=start.tangents,
+                defect=max(start.defect, defect),
+            )
+        if steps:
+            displacement[free] = accelerated(steps, ends)
+    raise _UnsettledError
+
+
+def _followed_newly(
+    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+) -> Equilibrium:
+    """`move` with a new tangent wherever an increment asks for one."""
+    part = tissue.condensing()
+    begin, (count, within) = deformed_state(start.state, start.displacement), increments_of(increments)
+    reached, _ = advance(problem, begin, target, count, None, solver_on(part, within))
+    moved = (part.loads.T @ reached.displacement[part.elements.free]).reshape(-1, 2)
+    rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
+    return Equilibrium(
+        state=contact_state(reached),
+        displacement=reached.displacement,
+        free=rest,
+        tangents=start.tangents + reached.tangents,
+        defect=start.defect,
+    )
+
+
+def _followed(
+    problem: ContactProblem,
+    start: ContactState,
+    target: FloatArray,
+    increments: int,
+    first: FloatArray,
+    last: FloatArray,
+    power: int,
+    patch: Patch | None,
+) -> tuple[ContactState, Patch]:
+    """State at the end of a move along which contact nodes without forces drift from `first` to `last` (m, 2) [mm], and
+    the last patch.
+    """
+    solve = drifting_to(last, start.actuator, target, power)
+    return advance(replace(problem, free=first), start, target, increments, patch, solve)

@@ -1,0 +1,127 @@
+"""One condition solved on tissue that deforms much: stimulus, certificate and receptor read-outs.
+
+Receptors are read as maximum principal logarithmic strain, over their undeformed arc length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from ..arrays import FloatArray
+from ..contact.certificate import Certificate, certify, worst
+from ..contact.depth import require_tissue
+from ..contact.formulation import ContactProblem
+from ..contact.problem import contact_problem, increments, named_pressing, named_stimulus
+from ..contact.solution import Solution, solution
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.scene import Scene
+from ..tissue.compliance import CondensedBody
+from ..tissue.elasticity import displacement_basis, node_dofs
+from ..tissue.mesh import SectionMesh
+from ..tissue.receptors import receptor_gradient
+from ..tissue.skin import Skin, require_uncrossed, skin_of
+from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move
+from .finite_strain import logarithmic_strain
+from .pressing import Pressed, whole_part
+
+
+@dataclass(frozen=True)
+class PressedFinger:
+    """A pressed device and the tissue about that state: the same for all conditions.
+
+    start: of all stimuli. gradient: (4m, size) of displacement gradients at the receptors. dofs: (2, n_nodes) unknowns
+    of the nodes.
+    """
+
+    interface: Interface
+    pressed: Pressed
+    problem: ContactProblem
+    tissue: DeformedTissue
+    start: Equilibrium
+    gradient: csr_matrix
+    dofs: np.ndarray
+    skin: Skin
+
+
+def pressed_finger(
+    scene: Scene, section: SectionMesh, body: CondensedBody | None, pressed: Pressed, interface: Interface
+) -> PressedFinger:
+    """What all conditions of a device and interface begin with. Raises CondensationError."""
+    dofs = node_dofs(displacement_basis(section.mesh))
+    displacement = np.empty(dofs.size)
+    displacement[dofs] = pressed.displacement
+    skin = skin_of(section, dofs, halved=False)
+    problem, free = contact_problem(scene, pressed.section, body, interface), pressed.free
+    sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
+    condensing = partial(whole_part, scene, section, True)
+    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, sprung)
+    if tissue.spring is not None:
+        borne = (problem.compliance - tissue.spring.compliance) @ pressed.state.force.ravel()
+        problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
+    start = Equilibrium(state=pressed.state, displacement=displacement, free=free, tangents=0, defect=0.0)
+    gradient = receptor_gradient(section, scene)[1]
+    return PressedFinger(
+        interface=interface,
+        pressed=pressed,
+        problem=replace(problem, free=free),
+        tissue=tissue,
+        start=start,
+        gradient=gradient,
+        dofs=dofs,
+        skin=skin,
+    )
+
+
+def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition) -> Solution:
+    """Solve the stimulus of one condition on the pressed finger.
+
+    Raises ContactError, naming device, condition and interface, if the path cannot be followed, if a state's
+    certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
+    """
+    found, certificate = certified_equilibria(scene, finger, condition)
+    section = finger.pressed.section
+    strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in found])
+    states = [each.state for each in found]
+    return solution(finger.problem, section, states, strains, certificate)
+
+
+def certified_equilibria(
+    scene: Scene, finger: PressedFinger, condition: Condition
+) -> tuple[list[Equilibrium], Certificate]:
+    """`equilibria`, and their certificate. Raises ContactError as `stimulate_deformed`."""
+    with named_pressing(scene, finger.interface):
+        pressed = _certified(finger, finger.start)
+    with named_stimulus(scene, condition, finger.interface):
+        found = equilibria(scene, finger, condition)
+        return found, worst([pressed, *(_certified(finger, each) for each in found[1:])])
+
+
+def _certified(finger: PressedFinger, found: Equilibrium) -> Certificate:
+    """The certificate of an equilibrium. Raises CertificateError, ReachError."""
+    section = finger.pressed.section
+    problem = replace(finger.problem, free=found.free)
+    return certify(problem, replace(section, residual=max(section.residual, found.defect)), found.state)
+
+
+def equilibria(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Equilibrium]:
+    """The pre-indented one, and those at the ends of all moves of a stimulus. Raises ContactError."""
+    before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
+    require_tissue(finger.problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
+    found = [finger.start]
+    for moved in condition.moves:
+        found.append(move(finger.tissue, finger.problem, found[-1], before.actuator + moved, count))
+        require_uncrossed(finger.skin, found[-1].displacement, f"after move {len(found) - 1} of the stimulus")
+    return found
+
+
+def receptor_logarithmic_strain(gradient: csr_matrix, displacement: FloatArray) -> FloatArray:
+    """Logarithmic strain (3m,) [1] at the receptors, whose displacement gradient (4m, size) of a displacement (size,)
+    [mm] is given.
+    """
+    of_points = (gradient @ displacement).reshape(-1, 2, 2).transpose(1, 2, 0)
+    return np.asarray(logarithmic_strain(of_points).T.ravel())

@@ -1,0 +1,223 @@
+"""A device pressed onto tissue that deforms much, and its contact nodes condensed about that state.
+
+Pre-indentation is solved by `deformed`, on the right half of the section where everything mirrors. About the state
+(u, f) in which it ends, with tangent K, contact forces f' move the contact nodes by
+    L^T u' = L^T u + C (f' - f),        C = L^T K^-1 L,
+so that all conditions run on a compliance that is condensed once, as on linear tissue (`deformed_path`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csc_matrix
+
+from ..arrays import FloatArray
+from ..contact.force_curve import curve_of, recording
+from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
+from ..contact.indentation import raise_until
+from ..contact.linear_solution import indent_device
+from ..contact.path import SolveIncrement, advance
+from ..contact.problem import contact_problem, increments, named_pressing
+from ..contact.symmetry import half_of, mirrors, unfolded
+from ..scene.contact_law import Interface
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.actuator_body import body_of
+from ..tissue.compliance import MIRROR, CondensedBody, CondensedSection
+from ..tissue.condensation import condense_section
+from ..tissue.elasticity import displacement_basis
+from ..tissue.factors import fill_reducing_order
+from ..tissue.halves import Parts, right_half, unfold, unfolding, whole
+from ..tissue.mesh import SectionMesh
+from ..tissue.reach import contact_tractions
+from ..tissue.receptors import arc_length, receptor_strain
+from ..tissue.skin import require_uncrossed, skin_of
+from ..tissue.traction import Tractions
+from .deformation import elements_of
+from .deformed import (
+    DeformedState,
+    TissuePart,
+    contact_state,
+    deformed_state,
+    increments_of,
+    require_stable,
+    solver_on,
+    tangent_at,
+)
+from .ellipticity import require_elliptic
+from .hyperelasticity import tissue_of
+
+NONE = np.empty((0, 0))  # a map that nobody asks for
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """A device pressed onto the finger.
+
+    section: condensed about that state; without a strain map, as strain follows from displacements; its residual is the
+    factorisation's, or what the tissue had left to move, over the load, whichever is larger. free: (n, 2)
+    displacement that contact nodes would have without contact forces, had the tangent held all the way [mm]. state: of
+    all contact nodes. displacement: (2, n_nodes) of the section [mm]. curve: (k, 2) heights above first touch [mm] and
+    pressing forces [N/mm] on the way.
+    """
+
+    section: CondensedSection
+    free: FloatArray
+    state: ContactState
+    displacement: FloatArray
+    curve: FloatArray
+
+
+@dataclass(frozen=True)
+class _Start:
+    """Where pre-indentation begins: on the right half of the section where everything mirrors, on the whole otherwise.
+
+    tractions, undeformed: of all contact nodes; the section has no maps, as nobody asks for them. parts: of the section
+    that are solved. tissues: of each kind of loads. problem: of the parts' contact nodes, whatever its compliance.
+    state: at first touch. increments: of the tissue, and of contact in each.
+    """
+
+    tractions: Tractions
+    undeformed: CondensedSection
+    mirrored: bool
+    parts: Parts
+    tissues: tuple[TissuePart, ...]
+    problem: ContactProblem
+    state: DeformedState
+    increments: tuple[int, int]
+
+
+def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> Pressed:
+    """Raise the actuators until the criterion holds, and condense the contact nodes about that state.
+
+    Raises MeshError, CondensationError, and ContactError, naming device and interface, if the path cannot be followed.
+    """
+    start = _start(scene, section, body, interface)
+    solve, states = _recorded(section, start)
+    criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
+    with named_pressing(scene, interface):
+        reached = raise_until(start.problem, criterion, start.increments[0], limit, start.state, solve)
+        require_elliptic(start.tissues[0].elements, reached.displacement)
+        return _pressed(section, start, states, reached)
+
+
+def press_to(
+    height: float, scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface
+) -> Pressed:
+    """`press`, to a height of the faces above the undeformed pad's lowest point [mm]. Nobody asks whether tissue is
+    still elliptic there: programs are compared, on one mesh.
+    """
+    start = _start(scene, section, body, interface)
+    solve, states = _recorded(section, start)
+    target = np.full_like(start.state.actuator, height) * [0.0, 1.0]
+    with named_pressing(scene, interface):
+        reached, _ = advance(start.problem, start.state, target, start.increments[0], None, solve)
+        return _pressed(section, start, states, reached)
+
+
+def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> _Start:
+    """Raises MeshError."""
+    tractions = contact_tractions(section, scene)
+    receptor, _ = receptor_strain(section, scene)
+    undeformed = CondensedSection(
+        position=tractions.position,
+        weight=tractions.weight,
+        compliance=NONE,
+        receptor=receptor,
+        arc=arc_length(receptor),
+        strain=NONE,
+        residual=0.0,
+    )
+    problem = contact_problem(scene, undeformed, body, interface)
+    mirrored = scene.model.skips.mirrored_half and mirrors(problem)
+    parts = right_half(section, tractions) if mirrored else whole(section, tractions)
+    solved = half_of(problem) if mirrored else problem
+    return _Start(
+        tractions=tractions,
+        undeformed=undeformed,
+        mirrored=mirrored,
+        parts=parts,
+        tissues=tuple(_part(scene, section, parts, which) for which in range(len(parts.held))),
+        problem=solved,
+        state=deformed_state(rest(solved, touching_height(solved)), np.zeros(parts.dofs.size)),
+        increments=increments_of(increments(scene, problem)[0]),
+    )
+
+
+def _recorded(section: SectionMesh, start: _Start) -> tuple[SolveIncrement[DeformedState], list[ContactState]]:
+    """What solves an increment, of skin that may not cross itself, and the states that it will have found."""
+    states: list[ContactState] = []
+    skin = skin_of(section, start.parts.dofs, start.mirrored)
+
+    def note(state: DeformedState) -> None:
+        states.append(state)
+        when = f"in increment {len(states)} of the tissue, with the faces at {state.actuator[0, 1]:.4g} mm"
+        require_uncrossed(skin, state.displacement, when)
+
+    return recording(solver_on(start.tissues[0], start.increments[1]), note), states
+
+
+def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState], reached: DeformedState) -> Pressed:
+    """What is pressed to a state, by way of others. Raises SnapError, InvertedError, CondensationError."""
+    tangents = [tangent_at(tissue, reached.displacement) for tissue in start.tissues]
+    for tangent in tangents:
+        require_stable(start.problem, reached, tangent)
+    displacement, state = reached.displacement[start.parts.dofs], contact_state(reached)
+    curve, compliance = curve_of(states, float(start.state.actuator[0, 1]), reached), tangents[0].compliance
+    if start.mirrored:
+        displacement, state, curve = _mirrored(section, displacement), unfolded(state), curve * [1.0, 2.0]
+        columns = unfolding(start.tractions.position.shape[0], MIRROR)
+        compliance = unfold(compliance, tangents[1].compliance, columns, columns)
+    moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
+    free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
+    residual = max((*reached.changes[-1:], *(tangent.residual for tangent in tangents)))
+    condensed = replace(start.undeformed, compliance=compliance, strain=np.empty((0, 2 * free.size)), residual=residual)
+    return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
+
+
+def indented_height(scene: Scene, section: SectionMesh, interface: Interface) -> float:
+    """Height of the faces above the undeformed pad's lowest point [mm] at which pre-indentation ends.
+
+    Raises MeshError, CondensationError, ContactError.
+    """
+    body = body_of(scene)
+    if scene.kinematics is Kinematics.FINITE:
+        state = press(scene, section, body, interface).state
+    else:
+        state = indent_device(scene, condense_section(section, scene), body, interface).state
+    return float(state.actuator[0, 1])
+
+
+def whole_part(scene: Scene, section: SectionMesh, condensing: bool) -> TissuePart:
+    """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill."""
+    return _part(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
+
+
+def _part(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> TissuePart:
+    """The tissue with one choice of what is held."""
+    loads = parts.loads[which]
+    basis = displacement_basis(section.mesh, parts.elements)
+    joined = _joined(basis.element_dofs, parts.dofs.size)
+    order = fill_reducing_order(joined, parts.dofs, parts.held[which], loads.indices if condensing else None)
+    materials, law = scene.model.finger.materials, scene.model.tissue
+    tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
+    return TissuePart(elements_of(basis, tissue, order), csc_matrix(loads[order]))
+
+
+def _joined(element_dofs: np.ndarray, size: int) -> csc_matrix:
+    """Matrix (size, size) with entries where elements join unknowns (12, n_elements): the tangent's, in no time."""
+    count, elements = element_dofs.shape
+    within = csc_matrix((np.ones(element_dofs.size), element_dofs.T.ravel(), np.arange(elements + 1) * count))
+    within.resize(size, elements)
+    return csc_matrix(within @ within.T)
+
+
+def _mirrored(section: SectionMesh, right: FloatArray) -> FloatArray:
+    """Displacement (2, n_nodes) of the whole section from that of its right half."""
+    x, y = section.mesh.doflocs
+    twin = np.empty(x.size, dtype=np.int64)
+    twin[np.lexsort((y, x))] = np.lexsort((y, -x))
+    return np.where(x < 0.0, right[:, twin] * MIRROR[:, None], right)

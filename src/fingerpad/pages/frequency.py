@@ -1,0 +1,125 @@
+"""The page of vibrations: scores at each frequency, and what they hang on."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pandas as pd
+
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+from ..scene.tissue_law import Kinematics
+from .filling import PERCENT, percent, table
+
+
+def frequency_values(frequencies: pd.DataFrame, variants: pd.DataFrame, quasistatic: pd.DataFrame) -> dict[str, object]:
+    """What `workflow/pages/frequency.md` asks for: frequency.csv, frequency_variants.csv, scores.csv in results/."""
+    shear = frequencies[frequencies["interface"] == Interface.SHEAR]
+    change = shear[shear["readout"] == Readout.CHANGE_OF_STRAIN]
+    scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)
+    scores = scores.reindex(columns=sorted(scores.columns))
+    shown = (1e3 * scores).map("{:.3f}".format).replace("nan", "")
+    shown.columns = pd.Index([_frequency(each) for each in shown.columns])
+    worst = shear.groupby(["device", "frequency_hz"], sort=False)["inertia"].max()
+    refused = change[change["score"].isna()].groupby(["device", "frequency_hz"]).size()
+    inertia = worst.rename("inertia").to_frame().assign(refused=refused).fillna({"refused": 0}).reset_index()
+    inertia = inertia[inertia["frequency_hz"] > 0.0]
+    return {
+        "scores": table(shown.reset_index()),
+        "spread": _spread(scores[scores.columns[scores.columns > 0.0]]),
+        "spread_with_slow": _spread(scores),
+        "orders": table(_orders(scores)),
+        "varied_at": f"{variants['frequency_hz'].iloc[0]:g}",
+        "variants": table(_varied(variants)),
+        "discretisation": _discretisation(quasistatic, set(frequencies["device"])),
+        "inertia": table(
+            inertia.assign(
+                frequency_hz=inertia["frequency_hz"].map("{:g}".format),
+                inertia=percent(inertia["inertia"]),
+                refused=inertia["refused"].astype(int),
+            )
+        ),
+    } | _of_rises(change[change["device"] == change["device"].iloc[0]])
+
+
+def _spread(scores: pd.DataFrame) -> str:
+    """By how much the highest score of a condition exceeds its lowest: least and most of all conditions."""
+    spread = PERCENT * (scores.max(axis=1) / scores.min(axis=1) - 1.0)
+    return f"{spread.min():.0f} to {spread.max():.0f} %"
+
+
+def _discretisation(quasistatic: pd.DataFrame, devices: set[str]) -> str:
+    """Stated errors of the same conditions' quasi-static scores: least and most."""
+    alike = quasistatic[
+        (quasistatic["kinematics"] == Kinematics.SMALL)
+        & quasistatic["device"].isin(devices)
+        & (quasistatic["interface"] == Interface.SHEAR)
+        & (quasistatic["readout"] == Readout.CHANGE_OF_STRAIN)
+    ]
+    stated = PERCENT * alike["score_error"] / alike["score"]
+    return f"{stated.min():.1f} to {stated.max():.1f} %"
+
+
+def _of_rises(change: pd.DataFrame) -> dict[str, object]:
+    """Whether a device's scores rise with phase at the highest frequency, and where they do not with dispersion."""
+    asked, predicted = change["frequency_hz"].max(), change.dropna(subset="score")["frequency_hz"].max()
+    dispersions = change[change["frequency_hz"] == predicted].groupby("dispersion", sort=False)
+    rising = [group.sort_values("phase_deg")["score"].is_monotonic_increasing for _, group in dispersions]
+    return {
+        "highest": f"{predicted:g}",
+        "what_highest": "the highest that it was asked for" if predicted == asked else "the highest with a prediction",
+        "rising": sum(rising),
+        "dispersions": len(rising),
+        "falls": _falls(change[change["frequency_hz"] > 0.0]),
+    }
+
+
+def _falls(change: pd.DataFrame) -> str:
+    """Where a device's score is lower at a wider dispersion, which stands later in the table."""
+    found = []
+    for phase, alike in change.groupby("phase_deg"):
+        scores = alike.pivot_table("score", "dispersion", "frequency_hz", sort=False)
+        scores = scores.reindex(columns=sorted(scores.columns))
+        for lower, higher in pairwise(scores.index):
+            at = scores.columns[scores.loc[higher] < scores.loc[lower]]
+            if len(at):
+                hertz = ", ".join(f"{each:g}" for each in at)
+                found.append(f"at {phase:g}° `{higher}` lies below `{lower}` at {hertz} Hz")
+    return f"does not always rise: {'; '.join(found)}" if found else "rises at every phase and frequency"
+
+
+def _frequency(frequency: float) -> str:
+    return f"{frequency:g} Hz" if frequency > 0.0 else "slow"
+
+
+def _orders(scores: pd.DataFrame) -> pd.DataFrame:
+    """Per device and frequency whether conditions come in the order of slow cycles: Kendall's tau, and how many there
+    are.
+    """
+    slow = scores.columns[0]
+    rows = []
+    for device, own in scores.groupby(level="device", sort=False):
+        for frequency in scores.columns[1:]:
+            both = own[[slow, frequency]].dropna()
+            if len(both) > 1:
+                tau = both[slow].corr(both[frequency], method="kendall")
+                rows.append(
+                    {"device": device, "at": _frequency(frequency), "conditions": len(both), "tau": f"{tau:.2f}"}
+                )
+    return pd.DataFrame(rows)
+
+
+def _varied(variants: pd.DataFrame) -> pd.DataFrame:
+    """Per device and assumption how far scores of the change of strain move, and whether their order stays."""
+    scores = variants.pivot_table(
+        str(Readout.CHANGE_OF_STRAIN), ["device", "condition"], "assumption", sort=False, dropna=False
+    )
+    shipped, *others = variants["assumption"].drop_duplicates()
+    rows = []
+    for device, own in scores.groupby(level="device", sort=False):
+        for other in others:
+            moved = PERCENT * (own[other] / own[shipped] - 1.0)
+            tau = own[shipped].corr(own[other], method="kendall")
+            change = f"{moved.min():+.0f} to {moved.max():+.0f} %"
+            rows.append({"device": device, "assumption": other, "change": change, "tau": f"{tau:.2f}"})
+    return pd.DataFrame(rows)

@@ -1,0 +1,82 @@
+"""The page of what hangs on which assumption: tables of the ensemble's claims and correlations."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES
+from ..perception.claims import Holds, Kind
+from ..perception.ratings import SLOPE_NAME, slope_name
+from ..readouts.roughness import KEY
+from ..scene.contact_law import Interface
+from .filling import table
+
+NOTHING = ""
+TOLD = ["claim", "kind"]
+
+
+def robustness_values(claims: pd.DataFrame, correlations: pd.DataFrame) -> dict[str, object]:
+    """What `workflow/pages/robustness.md` asks for, from the tables of `members.ensemble_tables`."""
+    members = claims["varied"].nunique()
+    kinematics = list(claims["kinematics"].unique())
+    return {
+        "members": members,
+        "always": _always(claims),
+        "statements": "\n\n".join(
+            f"With {each} kinematics:\n\n{table(_statements(claims[claims['kinematics'] == each]))}"
+            for each in kinematics
+        ),
+        "correlations": table(_correlations(correlations)),
+    }
+
+
+def _always(claims: pd.DataFrame) -> str:
+    """Statements that hold in every member and half-cycle, whatever the kinematics, as a list."""
+    held = claims.groupby(TOLD, sort=False)["holds"].agg(lambda column: (column == Holds.YES).all())
+    return "\n".join(f"- {_told(*each)}" for each in held[held].index)
+
+
+def _told(claim: str, kind: str) -> str:
+    """A statement, with a mark where the paper's is stronger."""
+    return claim if kind == Kind.STATED else f"{claim} *({kind})*"
+
+
+def _statements(claims: pd.DataFrame) -> pd.DataFrame:
+    """A row a statement: in how many members it holds, and which turn it, by half-cycle."""
+    rows = []
+    for (claim, kind), own in claims.groupby(TOLD, sort=False):
+        row: dict[str, object] = {"statement": _told(claim, kind)}
+        for half_cycle in HALF_CYCLES:
+            found = own[own["half_cycle"] == half_cycle].set_index("varied")["holds"]
+            usual = found.get(AS_CONFIGURED, NOTHING)
+            row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
+            row[f"turned in {half_cycle}"] = ", ".join(found[found != usual].index)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
+    """Signed R² of each device and read-out with shear: published, as configured in each half-cycle, and the range over
+    all members of both.
+    """
+    shear = correlations[(correlations["interface"] == Interface.SHEAR) & correlations["r2"].notna()]
+    rows = []
+    for key, own in shear.groupby(KEY, sort=False):
+        row = dict(zip(KEY, key, strict=True))
+        del row["interface"]
+        first = own.iloc[0]
+        published = (
+            first["published_words"]
+            if pd.isna(first["published_r2"])
+            else _published(first["published_r2"], first["published_slope"])
+        )
+        usual = own[own["varied"] == AS_CONFIGURED].set_index("half_cycle")
+        halves = {each: f"{usual.loc[each, 'r2']:.3g}, {slope_name(usual.loc[each])}" for each in HALF_CYCLES}
+        rising = int((own["slope_sign"] > 0).sum())
+        rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(own)}"})
+    return pd.DataFrame(rows)
+
+
+def _published(r2: float, slope: float) -> str:
+    """R² and which way the slope is, if that is said."""
+    return f"{r2:.3g}" if pd.isna(slope) else f"{r2:.3g}, {SLOPE_NAME[int(slope)]}"

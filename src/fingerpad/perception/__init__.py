@@ -1,0 +1,1 @@
+"""Scores and what people feel: ratings, correlations, and the statements of the paper."""

@@ -1,0 +1,205 @@
+"""Perceived roughness: ratings, what is stated of their order, and published correlations, read and checked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from ..csvrows import checked_rows, listed, number, told
+from ..errors import RatingError
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+
+RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
+ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
+NO_RATINGS = "no ratings"  # note of a device that nobody has rated
+PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
+SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
+SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
+SMALLEST_P = 0.001  # below it p is given as a bound
+OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `slope_name`, in captions
+
+
+class RatingKind(StrEnum):
+    """Where a rating comes from: an ordinal surrogate, read off a published figure, or measured."""
+
+    SURROGATE = "surrogate"
+    DIGITISED = "digitised"
+    MEASURED = "measured"
+
+    @property
+    def label(self) -> str:
+        """How figures and tables call it; a surrogate is always called an ordinal surrogate."""
+        return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
+
+
+def has_p(p: object, kind: object) -> bool:
+    """Whether a p is there and tests anything: the steps of ordinal surrogates, a `label`, are no measurement."""
+    return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
+
+
+def is_open(row: Mapping[str, Any]) -> bool:
+    """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text, as
+    they can add up to more than |r|.
+    """
+    return bool(row["r_error"] != "" and float(row["r2"]) ** 0.5 < float(row["r_error"]))
+
+
+def slope_name(row: Mapping[str, Any]) -> str:
+    """Which way the slope is of a row of the correlation table, also as text, and whether that is open.
+
+    >>> slope_name({"slope_sign": "-1", "r2": "0.25", "r_error": "0.6"}), slope_name({"slope_sign": 1, "r_error": ""})
+    ('falling (open)', 'rising')
+    """
+    return SLOPE_NAME[int(row["slope_sign"])] + (" (open)" if is_open(row) else "")
+
+
+class Relation(StrEnum):
+    """How the ratings of two conditions compare, as stated."""
+
+    LESS = "<"
+    EQUAL = "="
+
+
+def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) -> pd.DataFrame:
+    """Ratings of perceived roughness, checked against the devices they rate.
+
+    path: CSV with the columns device, condition, rating (a number >= 0, any unit: R² does not see it), kind
+    (surrogate, digitised or measured; one kind a device) and source. conditions_by_device: the condition names of
+    every known device; one without any has been left out, and so are its rows. A device may be without ratings, but not
+    with some only.
+
+    Returns those columns, `rating` as float. Raises RatingError, which names file, line, column, what was found
+    and what is allowed.
+
+    >>> table = Path("data/ratings.csv")
+    >>> known = pd.read_csv(table).groupby("device")["condition"].agg(list).to_dict()
+    >>> read_ratings(table, known)[["condition", "kind"]].iloc[0].tolist()
+    ['low_000', 'surrogate']
+    """
+    rows: list[dict[str, Any]] = []
+    kinds: dict[str, tuple[str, int]] = {}
+    lines: dict[tuple[str, str], int] = {}
+    for line, row in _read_rows(path, RATING_COLUMNS):
+        device, condition, kind = row["device"], row["condition"], row["kind"]
+        _check_name(path, line, "device", device, conditions_by_device)
+        if not conditions_by_device[device]:
+            continue
+        _check_name(path, line, "condition", condition, conditions_by_device[device])
+        _check_name(path, line, "kind", kind, [*RatingKind])
+        rating = number(row["rating"])
+        if not (math.isfinite(rating) and rating >= 0.0):
+            raise _error(path, line, "rating", row["rating"], "a finite number, 0 or more")
+        if (device, condition) in lines:
+            first = lines[device, condition]
+            raise _error(path, line, "condition", condition, f"one row a condition; {device} has it on line {first}")
+        first_kind, first = kinds.setdefault(device, (kind, line))
+        if kind != first_kind:
+            raise _error(path, line, "kind", kind, f"one kind a device; {device} has '{first_kind}' on line {first}")
+        lines[device, condition] = line
+        rows.append({**row, "rating": rating})
+    for device in kinds:
+        missing = [name for name in conditions_by_device[device] if (device, name) not in lines]
+        if missing:
+            raise RatingError(
+                f"{path}, column condition: {device} has no rating for {listed(missing)};"
+                " allowed: ratings for all conditions of a device, or for none"
+            )
+    return pd.DataFrame(rows, columns=list(RATING_COLUMNS))
+
+
+def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) -> pd.DataFrame:
+    """What is stated about the order of ratings, checked against the devices.
+
+    path: CSV with the columns device, lower, relation (`<` or `=`), higher and source, a row for each pair of
+    conditions. Rows of devices without conditions are left out. Returns those columns. Raises RatingError as
+    `read_ratings` does, and if the rows contradict each other.
+    """
+    rows: list[dict[str, Any]] = []
+    for line, row in _read_rows(path, ORDER_COLUMNS):
+        _check_name(path, line, "device", row["device"], conditions_by_device)
+        if not conditions_by_device[row["device"]]:
+            continue
+        for column in ("lower", "higher"):
+            _check_name(path, line, column, row[column], conditions_by_device[row["device"]])
+        _check_name(path, line, "relation", row["relation"], [*Relation])
+        rows.append(dict(row))
+    table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
+    for device, part in table.groupby("device", sort=False):
+        try:
+            order_matrix(conditions_by_device[device], part)
+        except RatingError as error:
+            raise RatingError(f"{path}: {device}: {error}") from error
+    return table
+
+
+def read_published(path: Path) -> pd.DataFrame:
+    """The published correlations: device, interface, readout, r2 (NaN where there are only words), slope (-1, 1, or
+    None where nothing is said of it), words, source.
+
+    Raises RatingError as `read_ratings` does.
+    """
+    rows: list[dict[str, Any]] = []
+    for line, row in _read_rows(path, PUBLISHED_COLUMNS):
+        _check_name(path, line, "interface", row["interface"], [*Interface])
+        _check_name(path, line, "readout", row["readout"], [*Readout])
+        r2 = number(row["r2"])
+        if row["r2"] and not 0.0 <= r2 <= 1.0:
+            raise _error(path, line, "r2", row["r2"], "a number from 0 to 1, or nothing")
+        if row["slope"] not in SLOPES:
+            raise _error(path, line, "slope", row["slope"], "1, -1, or nothing")
+        rows.append({**row, "r2": r2, "slope": SLOPES[row["slope"]]})
+    return pd.DataFrame(rows, columns=list(PUBLISHED_COLUMNS))
+
+
+def order_matrix(conditions: Sequence[str], order: pd.DataFrame) -> NDArray[np.bool_]:
+    """What a stated order implies for every pair of conditions (its reflexive and transitive closure).
+
+    order: the rows of one device with columns lower, relation, higher. Returns an (n, n) matrix; [i, j] says
+    whether rating i <= rating j. Raises RatingError for an unknown condition, and for a contradiction.
+
+    >>> order_matrix(["a", "b"], pd.DataFrame([["a", "<", "b"]], columns=["lower", "relation", "higher"])).tolist()
+    [[True, True], [False, True]]
+    """
+    index = {name: i for i, name in enumerate(conditions)}
+    if unknown := [name for name in (*order["lower"], *order["higher"]) if name not in index]:
+        raise RatingError(f"stated order: found {listed(unknown[:1])}; allowed: {listed(conditions)}")
+    stated = [(index[a], r, index[b]) for a, r, b in order[["lower", "relation", "higher"]].itertuples(index=False)]
+    at_most = np.eye(len(conditions), dtype=bool)
+    for low, relation, high in stated:
+        at_most[low, high] = True
+        at_most[high, low] |= relation == Relation.EQUAL
+    for via in range(len(conditions)):
+        at_most |= at_most[:, [via]] & at_most[[via], :]
+    for low, relation, high in stated:
+        if relation == Relation.LESS and at_most[high, low]:
+            raise RatingError(
+                f"stated order contradicts itself: '{conditions[low]}' < '{conditions[high]}', and other rows"
+                f" say that '{conditions[high]}' is not above '{conditions[low]}'"
+            )
+    return at_most
+
+
+def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, str]]]:
+    """The rows of a CSV with exactly these columns, none without a source; each with its line number."""
+    rows = checked_rows(path, columns, RatingError, least=0)
+    for line, row in rows:
+        if not row["source"]:
+            raise _error(path, line, "source", "", "where the row comes from")
+    return rows
+
+
+def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str]) -> None:
+    if found not in allowed:
+        raise _error(path, line, column, found, list(allowed))
+
+
+def _error(path: Path, line: int, column: str, found: str, allowed: Sequence[str]) -> RatingError:
+    return RatingError(told(path, line, column, found, allowed))

@@ -1,0 +1,102 @@
+"""What one should know before believing a score: of its solution, and of scores that lie close together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..contact.solution import Solution
+from ..readouts.roughness import KEY, SAME
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+
+MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
+MANY_CUTS = 2  # halved increments [1]; source: shipped devices have up to 2, with finite kinematics
+NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
+# Another time's change over that which is read [1]; source: between the shipped sizes and halves of them the ratio of
+# two opposite strokes moves by up to 0.007 (eight patterns of four pins, with friction and without)
+RIVAL = 0.98
+
+# Depth of an actuator over the pad's thickness [1]; source: mean strain is then 0.5, the logarithmic one 0.69: small
+# strain is off by over a quarter. Shipped devices have up to 0.36
+DEEP = 0.5
+# Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
+FEW = 5.0
+
+
+def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
+    """Actuators too deep for small strain, too narrow for the mesh, without force where pre-indentation ends or off the
+    skin, a peak that another time comes near to, many increments that were cut or did not settle at once, and figures
+    of the certificate near their limits.
+    """
+    certificate = solution.certificate
+    found = depth_caveats(scene, solution.depth)
+    pressing = _pressing(scene, solution)
+    if idle := _numbers(pressing[0] <= 0.0):
+        found.append(f"actuators that press on nothing where pre-indentation ends, counted from the left: {idle}")
+    if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
+        found.append(f"actuators that leave the skin, counted from the left: {left}; positive normal is into it")
+    if solution.rival_peak > RIVAL:
+        found.append(
+            f"at another time strain changes by {solution.rival_peak:.1%} of what is read, elsewhere or otherwise:"
+            " which of them is read may hang on the mesh, and the error does not know of it"
+        )
+    elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
+    if elements < FEW:
+        found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
+    if solution.cuts > MANY_CUTS:
+        found.append(f"increments were halved {solution.cuts} times")
+    if solution.searches > MANY_SEARCHES:
+        found.append(f"{solution.searches} increments did not settle at once")
+    shares = {
+        "penetration": certificate.penetration_share,
+        "tension": certificate.tension_share,
+        "excess over the friction cone": certificate.cone_share,
+    }
+    found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
+    return found
+
+
+def _pressing(scene: Scene, solution: Solution) -> FloatArray:
+    """Pressing forces (1 + n_times, n_actuators) [N/mm] of actuators after pre-indentation and along the stimulus."""
+    row = scene.device.actuators
+    nearest, count = row.nearest(solution.position[:, 0]), len(row.positions)
+    return np.array([np.bincount(nearest, each[:, 1], minlength=count) for each in solution.forces])
+
+
+def _numbers(which: np.ndarray) -> str:
+    """Numbers, from 1, of the actuators that are marked (n_actuators,)."""
+    return ", ".join(str(number + 1) for number in np.flatnonzero(which))
+
+
+def depth_caveats(scene: Scene, depth: float) -> list[str]:
+    """Whether actuators go too deep [mm] for small strain."""
+    share = depth / scene.model.finger.pad_thickness
+    deep = scene.kinematics is Kinematics.SMALL and share > DEEP
+    return [f"actuators go {share:.0%} of the pad deep: small strain does not hold"] if deep else []
+
+
+def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
+    """For each row of the score table: which conditions' scores are closer than the larger of the two errors.
+
+    Scores that are equal are equal stimuli, and no caveat. Rows without a score or an error have none.
+    """
+    found = []
+    for row in rows:
+        close = [
+            str(other["condition"])
+            for other in rows
+            if all(row[column] == other[column] for column in KEY) and _indistinct(row, other)
+        ]
+        found.append([f"error is larger than the difference to {', '.join(close)}"] if close else [])
+    return found
+
+
+def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    if any(each.get("score_error") is None for each in (row, other)):
+        return False
+    difference = abs(row["score"] - other["score"])
+    return bool(SAME * abs(row["score"]) < difference < max(row["score_error"], other["score_error"]))

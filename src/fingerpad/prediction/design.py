@@ -1,0 +1,176 @@
+"""Designs of a row of rigid pins, each answered in a fraction of a second on a finger that is condensed once.
+
+The finger is condensed to all skin within reach of any design, and is equally fine everywhere, as no edge has a place
+of its own. A second condensation, whose elements are twice as large, gives every
+score its error as in the workflow (`accuracy`): the difference of both, which is the error of the first order and more
+than that of any higher.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..contact.linear_solution import Indented, indent_device, stimulate
+from ..contact.solution import Solution
+from ..errors import ContactError
+from ..readouts.accuracy import COARSENING, with_error, with_errors
+from ..readouts.resampling import resampling_to_grid
+from ..readouts.roughness import score_rows
+from ..readouts.strain import FilteredReadouts
+from ..scene.contact_law import Interface
+from ..scene.device import ActuatorRow, Condition, Control, Device
+from ..scene.scene import Scene
+from ..tissue.compliance import CondensedSection
+from ..tissue.condensation import condense_section
+from ..tissue.mesh import mesh_section
+from .scoring import Condensed, read_out
+
+# times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
+SIZE = 4.0
+# mm beside a pin in which its skin may lie; source: skin moves by 0.5 mm under far, slippery pins (measured)
+ROOM = 0.6
+NAME = "design"
+
+
+@dataclass(frozen=True)
+class Pad:
+    """A finger condensed to all skin within reach.
+
+    scene: gives the model, the number of pins and their edges. fine, coarse: the skin on both meshes.
+    """
+
+    scene: Scene
+    fine: Condensed
+    coarse: Condensed
+
+
+@dataclass(frozen=True)
+class PressedRow:
+    """A row pressed onto a finger. scene: the row at rest. skin: that it is pressed onto."""
+
+    scene: Scene
+    skin: Condensed
+    indented: Indented
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a design feels like.
+
+    scene: of the design, with one condition. section, solution, readouts: on the finer mesh. rows: of the score table,
+    with errors, or without, which `unknown` then explains.
+    """
+
+    scene: Scene
+    section: CondensedSection
+    solution: Solution
+    readouts: FilteredReadouts
+    rows: list[dict[str, Any]]
+    unknown: str = ""
+
+
+def condense_pad(scene: Scene, reach: float) -> Pad:
+    """Condense a finger to the skin up to |x| = reach [mm], where the outermost pin of any design may end, and ROOM.
+
+    Raises SceneError if the finger is narrower, MeshError, CondensationError.
+    """
+    numerics = scene.model.numerics
+    skin = replace(numerics, edge_size=SIZE * numerics.edge_size)
+    scenes = (scene.with_numerics(each) for each in (skin, skin.coarsened(COARSENING)))
+    return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
+
+
+def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[PressedRow, PressedRow | str]:
+    """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes; in place of the
+    coarser one stands why its path cannot be followed, if it cannot.
+
+    Raises SceneError if pins overlap or numbers are out of range, ContactError if the path cannot be followed.
+    """
+    model, row = pad.scene.model, pad.scene.device.actuators
+    count = len(row.positions)
+    positions = tuple((number - (count - 1) / 2.0) * pitch for number in range(count))
+    pins = ActuatorRow(positions, width, row.edge_radius)
+    model = replace(model, contact=replace(model.contact, friction=friction))
+    scene = Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, pins, (_condition(count, 0.0, 0.0, True),)))
+    fine = _pressed(scene, pad.fine)
+    try:
+        return fine, _pressed(scene.with_numerics(model.numerics.coarsened(COARSENING)), pad.coarse)
+    except ContactError as error:
+        return fine, str(error)
+
+
+def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
+    """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
+    pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
+
+    Raises ContactError if the path cannot be followed on the finer mesh.
+    """
+    fine, coarse = pressed
+    count = len(fine.scene.device.actuators.positions)
+    condition = _condition(count, amplitude, phase_deg, lateral)
+    found = _moved(fine, condition)
+    if isinstance(coarse, str):
+        unknown = coarse
+    else:
+        try:
+            coarser = [row | {"coarsest": None} for row in _moved(coarse, condition).rows]
+            return replace(found, rows=with_errors(found.rows, coarser))
+        except ContactError as error:
+            unknown = str(error)
+    return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=unknown)
+
+
+def without_middle(section: CondensedSection) -> CondensedSection:
+    """The section without a contact node on the mid-line, where rows of an even number have no pin: rows that mirror
+    are then pressed by halves.
+    """
+    kept = np.flatnonzero(section.position[:, 0] != 0.0)
+    unknowns = (2 * kept[:, None] + np.arange(2)).ravel()
+    return replace(
+        section,
+        position=section.position[kept],
+        weight=section.weight[kept],
+        compliance=section.compliance[np.ix_(unknowns, unknowns)],
+        strain=np.ascontiguousarray(section.strain[:, unknowns]),
+    )
+
+
+def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) -> Condition:
+    """The state at the first pin's peak."""
+    path = np.where(np.arange(count) % 2 == 0, amplitude, amplitude * np.cos(np.deg2rad(phase_deg)))[None, :]
+    still = np.zeros_like(path)
+    normal, tangential = (still, path) if lateral else (path, still)
+    return Condition(
+        name=NAME,
+        dispersion="alternate",
+        phase_deg=phase_deg,
+        time=np.array([1.0]),
+        normal=normal,
+        tangential=tangential,
+    )
+
+
+def _moved(row: PressedRow, condition: Condition) -> Answer:
+    """The answer on one mesh, its rows without errors. Raises ContactError."""
+    scene = replace(row.scene, device=replace(row.scene.device, conditions=(condition,)))
+    solution = stimulate(scene, row.skin.section, row.indented, condition)
+    readouts = read_out(scene, row.skin, solution)
+    rows = score_rows(scene, condition, Interface.SHEAR, readouts)
+    return Answer(scene, row.skin.section, solution, readouts, rows)
+
+
+def _condensed(scene: Scene, reach: float) -> Condensed:
+    """All skin within reach [mm], as if it lay under one wide pin."""
+    one = ActuatorRow((0.0,), 2.0 * reach, 0.0)
+    covered = Scene(scene.model, Device(NAME, NAME, Control.DISPLACEMENT, one, (_condition(1, 0.0, 0.0, True),)))
+    section = condense_section(mesh_section(covered, np.array([[0.0, reach]])), covered)
+    if len(scene.device.actuators.positions) % 2 == 0:
+        section = without_middle(section)
+    return Condensed(section, None, resampling_to_grid(section.arc, scene.model.gabor.spacing))
+
+
+def _pressed(scene: Scene, skin: Condensed) -> PressedRow:
+    return PressedRow(scene, skin, indent_device(scene, skin.section, None, Interface.SHEAR))

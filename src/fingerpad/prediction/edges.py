@@ -1,0 +1,139 @@
+"""Where the actuators' edges will lie on the skin: the mesh is fine there, and only there.
+
+Skin moves sideways while it is indented, under an outer actuator by a quarter of a millimetre, so the edges do not end
+up where undeformed skin lies over them. A coarse solution of all conditions finds where they do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..contact.formulation import ContactProblem, ContactState
+from ..contact.linear_solution import follow_condition, indented_state
+from ..contact.problem import contact_problem
+from ..errors import CondensationError, ContactError, CriterionError, MeshError
+from ..finite.pressing import press
+from ..scene.contact_law import Interface
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..store import read_rows, write_rows
+from ..tissue.actuator_body import body_of
+from ..tissue.compliance import CondensedBody, CondensedSection
+from ..tissue.condensation import condense_section
+from ..tissue.mesh import SectionMesh, mesh_section, nominal_edges
+
+COLUMNS = ("start_mm", "stop_mm")  # of a table of intervals
+COARSER = 4.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.003 mm with small
+# kinematics, 0.006 mm with finite ones (measured against 1.5 and 2), where elements have grown by a fifteenth
+REACH = 0.3  # mm by which edges may lie off their nominal place; source: largest shift in the shipped devices
+
+
+def mesh_device(scene: Scene) -> SectionMesh:
+    """Mesh of the finger's section for a device, fine where the actuators' edges will lie. Raises MeshError."""
+    return mesh_section(scene, edge_intervals(scene))
+
+
+def save_edges(path: Path, intervals: FloatArray) -> None:
+    """Write intervals (k, 2) [mm] as a CSV table."""
+    write_rows(path, [dict(zip(COLUMNS, map(float, interval), strict=True)) for interval in intervals])
+
+
+def load_edges(path: Path) -> FloatArray:
+    """Intervals (k, 2) [mm] that `save_edges` wrote."""
+    return np.array([[float(row[column]) for column in COLUMNS] for row in read_rows(path)])
+
+
+def edge_intervals(scene: Scene) -> FloatArray:
+    """Intervals (k, 2) of |x| [mm] on the undeformed skin over which rounded edges lie in any condition.
+
+    If there is no coarse mesh, or a path is lost on it, the nominal intervals and REACH around them. An interface whose
+    criterion of pre-indentation is out of reach, on a finer coarse mesh as well, has no say; if all are such, the
+    nominal intervals alone.
+    """
+    nominal = nominal_edges(scene.device.actuators)
+    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    found, failures = list[FloatArray](), list[ContactError]()
+    for times in (COARSER, COARSER / 2.0):
+        failures.clear()
+        try:
+            found = [_under_edges(*each) for each in _states(scene.coarsened(times), wide, failures)]
+        except (MeshError, CondensationError):
+            return wide
+        if not all(isinstance(failure, CriterionError) for failure in failures):
+            return wide
+        if not failures:
+            break
+    if not found:
+        return nominal
+    start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
+    both = np.stack([start, stop], axis=1)
+    return _joined(np.concatenate([both, -both[:, ::-1]]))
+
+
+def _states(
+    scene: Scene, edges: FloatArray, failures: list[ContactError]
+) -> Iterator[tuple[ContactProblem, ContactState]]:
+    """States of all conditions of a scene, as far as they can be followed; what cannot is added to `failures`. Raises
+    MeshError, CondensationError.
+    """
+    section, body = mesh_section(scene, edges), body_of(scene)
+    condensed = condense_section(section, scene) if scene.kinematics is Kinematics.SMALL else None
+    for interface in scene.device.interfaces():
+        try:
+            problem, before = _pressed_state(scene, section, condensed, body, interface)
+        except ContactError as failure:
+            failures.append(failure)
+            continue
+        yield problem, before
+        for condition in scene.device.distinct_conditions:
+            try:
+                for state in follow_condition(scene, problem, before, condition):
+                    yield problem, state
+            except ContactError as failure:
+                failures.append(failure)
+
+
+def _pressed_state(
+    scene: Scene,
+    section: SectionMesh,
+    condensed: CondensedSection | None,
+    body: CondensedBody | None,
+    interface: Interface,
+) -> tuple[ContactProblem, ContactState]:
+    """The pre-indented state, and the problem for stimuli from there: without a condensed section, with finite
+    kinematics, on tissue linearised about that state, as they move it little. Raises ContactError.
+    """
+    if condensed is not None:
+        problem = contact_problem(scene, condensed, body, interface)
+        return problem, indented_state(scene, problem)
+    pressed = press(scene, section, body, interface)
+    problem = contact_problem(scene, pressed.section, body, interface)
+    return replace(problem, free=pressed.free), pressed.state
+
+
+def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
+    """Intervals (2 n_actuators, 2) of undeformed x [mm] of the skin that lies over the rounded edges."""
+    row, x = problem.row, problem.position[:, 0]
+    found = []
+    for number in range(len(row.positions)):
+        nodes = problem.actuator_of == number
+        for edge in ((-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)):
+            found.append(np.interp(edge, state.place[nodes], x[nodes]))
+    return np.array(found)
+
+
+def _joined(intervals: FloatArray) -> FloatArray:
+    """Intervals (k, 2) of |x| [mm], those that overlap joined."""
+    positive = np.maximum(intervals[intervals[:, 1] > 0.0], 0.0)
+    joined: list[list[float]] = []
+    for start, stop in positive[np.argsort(positive[:, 0])]:
+        if joined and start <= joined[-1][1]:
+            joined[-1][1] = max(joined[-1][1], float(stop))
+        else:
+            joined.append([float(start), float(stop)])
+    return np.array(joined)

@@ -1,0 +1,80 @@
+"""The whole prediction of a scene in one process: scores with errors, ranks and caveats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+
+from ..arrays import FloatArray
+from ..readouts.accuracy import with_error, with_errors
+from ..readouts.roughness import KEY, SAME, unpredicted_rows
+from ..scene.device import Control
+from ..scene.scene import Scene
+from .caveats import score_caveats
+from .edges import edge_intervals
+from .scoring import coarser_rows, prepared, rows_of, solve_scene
+
+SILENT = "the device controls forces: without friction its displacements would be others, and none are known"
+LEFT_OUT = "left out by `interfaces: shear` in the device's file"
+
+
+def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
+    """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
+
+    What cannot be solved has no score, and a note that says why. error: whether to solve twice more, more coarsely,
+    for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called after each
+    of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
+
+    Raises MeshError, CondensationError.
+    """
+    with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
+        edges = edge_intervals(scene)
+        rows = _solved_rows(scene, edges, step)
+        sought = error and any(row["score"] is not None for row in rows)
+        coarser = coarser_rows(scene, edges, step) if sought else []
+    silent = unpredicted_rows(scene)
+    found = [*rows, *silent]
+    table = with_errors(found, coarser) if sought else [with_error(row, None) for row in found]
+    why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
+    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
+    return [
+        row | {"rank": rank, "caveats": own + close}
+        for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)
+    ]
+
+
+def steps(scene: Scene, error: bool = True) -> int:
+    """How often `forecast` calls its `step`: after condensation and after every condition of every solution."""
+    return (3 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
+
+
+def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
+    """Rank of each row's score among those of its device, interface and read-out, 1 the largest; None without one.
+
+    >>> key = {"kinematics": "small", "device": "d", "interface": "shear", "readout": "strain"}
+    >>> ranks([key | {"score": 0.1}, key | {"score": 0.3}, key | {"score": 0.1}, key | {"score": None}])
+    [2, 1, 2, None]
+    """
+    scores: dict[tuple[str, ...], list[float]] = {}
+    for row in rows:
+        if row["score"] is not None:
+            scores.setdefault(tuple(row[column] for column in KEY), []).append(row["score"])
+    return [
+        None
+        if row["score"] is None
+        else 1 + sum(other > row["score"] * (1.0 + SAME) for other in scores[tuple(row[column] for column in KEY)])
+        for row in rows
+    ]
+
+
+def _solved_rows(scene: Scene, edges: FloatArray, step: Callable[[], object]) -> list[dict[str, Any]]:
+    """Rows of the score table of what the device moves."""
+    condensed = prepared(scene, edges)
+    step()
+    rows: list[dict[str, Any]] = []
+    for solved in solve_scene(scene, condensed):
+        rows += rows_of(scene, condensed, solved)
+        step()
+    return rows

@@ -1,0 +1,190 @@
+"""All scores of a scene in one process: mesh, condensation, contact, read-outs, scores."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, TypeVar
+
+from ..arrays import FloatArray
+from ..contact.linear_solution import indent_device, stimulate
+from ..contact.solution import Solution
+from ..errors import CondensationError, ContactError, MeshError
+from ..finite.deformed_solution import pressed_finger, stimulate_deformed
+from ..finite.pressing import press
+from ..readouts.accuracy import COARSENING, COARSEST, case_of
+from ..readouts.gabor import filtered_readouts
+from ..readouts.resampling import resampling_to_grid
+from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows, unsolved_rows
+from ..readouts.strain import FilteredReadouts, Resampling
+from ..scene.contact_law import Interface
+from ..scene.device import Condition
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.actuator_body import body_of
+from ..tissue.compliance import CondensedBody, CondensedSection
+from ..tissue.condensation import condense_section
+from ..tissue.mesh import SectionMesh, mesh_section
+from ..tissue.receptors import arc_length, receptor_strain
+from .caveats import solution_caveats
+
+Result = TypeVar("Result")
+Unsolved = ContactError | CondensationError  # why there is no solution, though there is a mesh
+
+
+@dataclass(frozen=True)
+class Condensed:
+    """All that conditions of a scene with small kinematics share."""
+
+    section: CondensedSection
+    body: CondensedBody | None
+    resampling: Resampling
+
+
+@dataclass(frozen=True)
+class Meshed:
+    """All that conditions of a scene with finite kinematics share: what is condensed depends on the interface."""
+
+    section: SectionMesh
+    body: CondensedBody | None
+    resampling: Resampling
+
+
+@dataclass(frozen=True)
+class Solved:
+    """The solution that holds for a condition at an interface, or why there is none."""
+
+    condition: Condition
+    interface: Interface
+    solution: Solution | Unsolved
+
+
+def prepared(scene: Scene, edges: FloatArray) -> Condensed | Meshed:
+    """Mesh, fine at the edges' intervals (k, 2) [mm], and condense as the kinematics ask.
+
+    Raises MeshError, CondensationError.
+    """
+    return mesh_scene(scene, edges) if scene.kinematics is Kinematics.FINITE else condense_scene(scene, edges)
+
+
+def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
+    """Mesh and condense the undeformed finger. Raises MeshError, CondensationError."""
+    return condense_mesh(scene, mesh_section(scene, edges))
+
+
+def condense_mesh(scene: Scene, mesh: SectionMesh) -> Condensed:
+    """Condense the undeformed finger on a mesh. Raises CondensationError."""
+    section = condense_section(mesh, scene)
+    return Condensed(section, body_of(scene), resampling_to_grid(section.arc, scene.model.gabor.spacing))
+
+
+def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:
+    """Mesh alone, as the finger is condensed when it is pressed. Raises MeshError, CondensationError."""
+    section = mesh_section(scene, edges)
+    arc = arc_length(receptor_strain(section, scene)[0])
+    return Meshed(section, body_of(scene), resampling_to_grid(arc, scene.model.gabor.spacing))
+
+
+def rows_at(
+    scene: Scene, coarsening: float, edges: FloatArray, interfaces: Sequence[Interface] = ()
+) -> list[dict[str, Any]]:
+    """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm].
+    interfaces: those that are solved, all if none are named.
+    """
+    other = scene.coarsened(coarsening)
+    return predicted_rows(other, prepared(other, edges), interfaces)
+
+
+def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
+    """Rows of the score table on sizes and increments COARSENING times as large, for the errors of scores, and behind
+    them as `coarsest` the score on those COARSEST times as large; edges: (k, 2) [mm]. If the coarser solution cannot be
+    had, rows without scores, whose note says why; without the coarsest, None. step: called after condensation and after
+    every condition of every solution, of both.
+    """
+    coarser = _rows_if_any(scene, COARSENING, edges, step)
+    coarsest = {case_of(row): row["score"] for row in _rows_if_any(scene, COARSEST, edges, step)}
+    return [row | {"coarsest": coarsest[case_of(row)]} for row in coarser]
+
+
+def _rows_if_any(
+    scene: Scene, coarsening: float, edges: FloatArray, step: Callable[[], object]
+) -> list[dict[str, Any]]:
+    """`rows_at`, without scores where they cannot be had."""
+    other, rows = scene.coarsened(coarsening), list[dict[str, Any]]()
+    unknown = f"{ERROR_UNKNOWN}: on a mesh of {coarsening:g} times the sizes, "
+    try:
+        condensed = prepared(other, edges)
+        step()
+        for solved in solve_scene(other, condensed):
+            rows += rows_of(other, condensed, solved, unknown)
+            step()
+    except (MeshError, CondensationError) as error:
+        return unsolved_rows(scene, f"{unknown}{error}")
+    return rows
+
+
+def predicted_rows(
+    scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()
+) -> list[dict[str, Any]]:
+    """Rows of the score table for all conditions at some interfaces, or all. Raises ContactError, CondensationError."""
+    rows: list[dict[str, Any]] = []
+    for solved in solve_scene(scene, condensed, interfaces):
+        if isinstance(solved.solution, Unsolved):
+            raise solved.solution
+        rows += rows_of(scene, condensed, solved)
+    return rows
+
+
+def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
+    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
+    for interface in interfaces or scene.device.interfaces():
+        found: dict[str, Solution | Unsolved] = {}
+        pressed: Callable[[Condition], Solution] | Unsolved | None = None
+        for condition in scene.device.conditions:
+            solved_as = scene.solved_as(condition.name).name
+            if solved_as not in found:
+                if pressed is None or not scene.model.skips.shared_indentation:
+                    pressed = _attempt(pressed_device, scene, condensed, interface)
+                found[solved_as] = pressed if isinstance(pressed, Unsolved) else _attempt(pressed, condition)
+            yield Solved(condition, interface, found[solved_as])
+
+
+def _attempt(solve: Callable[..., Result], *given: object) -> Result | Unsolved:
+    """What is found, or why it cannot be."""
+    try:
+        return solve(*given)
+    except (ContactError, CondensationError) as error:
+        return error
+
+
+def pressed_device(
+    scene: Scene, condensed: Condensed | Meshed, interface: Interface
+) -> Callable[[Condition], Solution]:
+    """Press the device onto the finger: what solves the stimulus of a condition from there. Raises ContactError,
+    CondensationError.
+    """
+    if isinstance(condensed, Meshed):
+        pressed = press(scene, condensed.section, condensed.body, interface)
+        finger = pressed_finger(scene, condensed.section, condensed.body, pressed, interface)
+        return partial(stimulate_deformed, scene, finger)
+    return partial(
+        stimulate, scene, condensed.section, indent_device(scene, condensed.section, condensed.body, interface)
+    )
+
+
+def rows_of(
+    scene: Scene, condensed: Condensed | Meshed, solved: Solved, unsolved: str = f"{NO_PREDICTION}: "
+) -> list[dict[str, Any]]:
+    """Rows of the score table for one solution, with its caveats as their note; without one, rows without scores, whose
+    note is `unsolved` and why.
+    """
+    if isinstance(solved.solution, Unsolved):
+        return unscored_rows(scene, solved.condition, solved.interface, f"{unsolved}{solved.solution}")
+    read, note = read_out(scene, condensed, solved.solution), "; ".join(solution_caveats(scene, solved.solution))
+    return score_rows(scene, solved.condition, solved.interface, read, note)
+
+
+def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:
+    """Filtered read-outs of a solution."""
+    return filtered_readouts(condensed.resampling, solution.readouts, scene.model.gabor)

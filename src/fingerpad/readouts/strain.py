@@ -1,0 +1,117 @@
+"""Receptor read-outs: maximum principal strain (SA-1 proxy) and its change from pre-indentation (RA-1 proxy)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..scene.readout import CONSTANT, Readout
+from ..tissue.compliance import VOIGT
+
+# of a change [1] by which another one differs from it at least; source: proportional ones that are nearly as large as
+# the peak's (`caveats.RIVAL`) differ by a fiftieth
+UNLIKE = 0.1
+
+
+def maximum_principal(components: FloatArray) -> FloatArray:
+    """Largest of the three principal strains (m,) [1] in plane strain, from (3m,) exx, eyy, gxy point by point.
+
+    The in-plane pair is (exx + eyy)/2 +- sqrt(((exx - eyy)/2)^2 + (gxy/2)^2); the third, out of the plane, is zero.
+
+    >>> maximum_principal(np.array([0.01, -0.02, 0.0, -0.01, -0.01, 0.0])).round(12).tolist()
+    [0.01, 0.0]
+    """
+    exx, eyy, gxy = components.reshape(-1, VOIGT).T
+    in_plane = (exx + eyy) / 2.0 + np.hypot((exx - eyy) / 2.0, gxy / 2.0)
+    return np.maximum(in_plane, 0.0)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What receptors say of a stimulus: both read-outs at one of its times, in the unit of a measure.
+
+    time: index of that time. strain, change_of_strain: (m,). rival_peak: how large the change is at the time that comes
+    next to being read, over that which is read [1]: root mean squares over arc length, zero without such a time.
+    """
+
+    time: int
+    strain: FloatArray
+    change_of_strain: FloatArray
+    rival_peak: float
+
+    @property
+    def readouts(self) -> dict[Readout, FloatArray]:
+        """Both read-outs (m,)."""
+        return {Readout.STRAIN: self.strain, Readout.CHANGE_OF_STRAIN: self.change_of_strain}
+
+
+def read_receptors(
+    components: FloatArray, arc: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
+) -> Reading:
+    """Read-outs at the time at which a measure has changed most: the largest root mean square over arc length, so that
+    no mesh matters. That is the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
+
+    components: (1 + n_times, 3m) strains at receptors that mirror, of the pre-indented state and along the stimulus.
+    arc: (m,) [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. Where all values count as
+    equal the change is zero.
+    """
+    # ASSUME: readout: the change of strain is that from the pre-indented state
+    before, *strains = (measure(each) for each in components)
+    changes = np.array(strains) - before
+    changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
+    size = _size(changes, arc)
+    # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
+    time = int(np.argmax(size))
+    return Reading(time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
+
+
+def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray) -> float:
+    """`Reading.rival_peak` of changes (n_times, m) of some size (n_times,).
+
+    Only times count at which the change is another, by UNLIKE, than what is read, and than its mirror image: those just
+    beside a peak would score alike, as does the other half of a cycle whose row mirrors.
+    """
+    images = np.array([changes[time], changes[time, ::-1]])
+    apart = np.min([_size(changes - image, arc) for image in images], axis=0)
+    return float((size[apart > UNLIKE * size[time]] / size[time]).max(initial=0.0))
+
+
+def _size(changes: FloatArray, arc: FloatArray) -> FloatArray:
+    """Norms (n_times,) of changes (n_times, m) over arc length (m,) [mm]."""
+    return np.asarray(np.sqrt(np.trapezoid(changes**2, arc, axis=1)))
+
+
+@dataclass(frozen=True)
+class Resampling:
+    """Linear map from the receptors, which no condition moves, to a uniform grid.
+
+    grid: (k,) arc lengths [mm]. weights: (k, m) [1]: a read-out (m,) at the receptors is weights @ read-out there.
+    """
+
+    grid: FloatArray
+    weights: FloatArray
+
+
+@dataclass(frozen=True)
+class FilteredReadouts:
+    """Read-outs of one condition on the uniform grid, before and after the filter.
+
+    arc: (k,) [mm]. strain, change_of_strain: (k,) [1]. filtered_strain, filtered_change_of_strain: (k,) [mm].
+    """
+
+    arc: FloatArray
+    strain: FloatArray
+    change_of_strain: FloatArray
+    filtered_strain: FloatArray
+    filtered_change_of_strain: FloatArray
+
+    def unfiltered(self, readout: Readout) -> FloatArray:
+        """The read-out (k,) [1] before the filter."""
+        return self.strain if readout is Readout.STRAIN else self.change_of_strain
+
+    def filtered(self, readout: Readout) -> FloatArray:
+        """The filtered read-out (k,) [mm]."""
+        return self.filtered_strain if readout is Readout.STRAIN else self.filtered_change_of_strain

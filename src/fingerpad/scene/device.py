@@ -1,0 +1,257 @@
+"""A device: its actuators, what it controls, and the stimuli of the conditions it is tried in."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from difflib import get_close_matches
+from enum import StrEnum
+
+import numpy as np
+
+from ..arrays import ComplexArray, FloatArray
+from ..errors import SceneError
+from ..requirements import require, require_positive
+from .contact_law import Interface
+from .finger import Material
+from .tissue_law import Kinematics
+
+CROSSING = 15  # decimals of displacements [1]; cos(pi/2) is 6e-17 in floating point: a pin at its zero crossing rests
+# ASSUME: actuators.edge_radius = 0 is regularised to SHARP_RADIUS, so that a node at the edge has one slope
+SHARP_RADIUS = 0.001  # mm; source: a fifteenth of the smallest elements at edges, that no solution tells from none
+ROUNDING = 1e-9  # relative [1]; by so much neighbours that touch may overlap: their places are rounded
+
+
+class Control(StrEnum):
+    """What the device prescribes. A force-controlled device has no displacements without friction."""
+
+    DISPLACEMENT = "displacement"
+    FORCE = "force"
+
+
+@dataclass(frozen=True)
+class Body:
+    """Deformable body of an actuator: material and thickness [mm] of the strip on its rigid base.
+
+    Bodies that are no such strip say how they differ from it (`bodies`).
+    """
+
+    material: Material
+    thickness: float
+
+    def __post_init__(self) -> None:
+        require_positive("actuator body", thickness=self.thickness)
+
+    def placed(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Where the strip's points x, y (n,) lie in this body (2, n) [mm]: its face on y = 0 and the height of its base
+        stay as they are.
+        """
+        return np.stack([x, y])
+
+    def mount(self) -> FloatArray:
+        """Compliance (2, 2) [mm per N/mm] of what the base stands on, in x and y; nothing turns it."""
+        return np.zeros((2, 2))
+
+
+@dataclass(frozen=True)
+class ActuatorRow:
+    """A row of equal actuators, flat-faced with rounded edges.
+
+    positions: centres x [mm], ascending. width: over the rounded edges [mm]. edge_radius: [mm], 0 for sharp edges,
+    width/2 for a cylinder. body: None for rigid actuators.
+    """
+
+    positions: tuple[float, ...]
+    width: float
+    edge_radius: float
+    body: Body | None = None
+
+    def __post_init__(self) -> None:
+        require(len(self.positions) >= 1, "actuators: there must be at least one")
+        require(all(map(math.isfinite, self.positions)), "actuators: positions must be finite numbers")
+        require_positive("actuators", width=self.width)
+        require(
+            0.0 <= self.edge_radius <= self.width / 2.0,
+            f"actuators: edge_radius must lie between 0 and width/2 = {self.width / 2.0:g} mm,"
+            f" found {self.edge_radius:g}",
+        )
+        for left, right in zip(self.positions, self.positions[1:], strict=False):
+            require(
+                right - left >= self.width * (1.0 - ROUNDING),
+                f"actuators: neighbours at x = {left:g} and {right:g} mm overlap: width {self.width:g} mm is more"
+                f" than their distance {right - left:g} mm",
+            )
+
+    @property
+    def corner_radius(self) -> float:
+        """Radius of the edges as they are modelled [mm]: that of sharp ones is SHARP_RADIUS."""
+        return max(self.edge_radius, SHARP_RADIUS)
+
+    def nearest(self, x: FloatArray) -> np.ndarray:
+        """Index (n,) of the actuator whose centre is nearest to each place (n,) [mm]."""
+        return np.asarray(np.argmin(np.abs(x[:, None] - np.asarray(self.positions)), axis=1))
+
+    @property
+    def half_face(self) -> float:
+        """Half width of the flat part of the face, between the edges as they are modelled [mm]."""
+        return self.width / 2.0 - self.corner_radius
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One stimulus of a device: displacement histories relative to the pre-indented position.
+
+    time: (n_times,) [s], ascending. normal, tangential: (n_times, n_actuators) [mm]; linear in between. The path
+    starts from rest, so a first row that is not zero is reached from zero.
+    """
+
+    name: str
+    dispersion: str
+    phase_deg: float
+    time: FloatArray
+    normal: FloatArray
+    tangential: FloatArray
+
+    def __post_init__(self) -> None:
+        where = f"condition {self.name}"
+        require(self.time.ndim == 1 and self.time.size >= 1, f"{where}: time must have one row or more")
+        require(bool(np.all(np.diff(self.time) > 0)), f"{where}: time must ascend")
+        for name, array in (("normal", self.normal), ("tangential", self.tangential)):
+            require(
+                array.ndim == 2 and array.shape[0] == self.time.size,
+                f"{where}: {name} must have {self.time.size} rows (one a time), found shape {array.shape}",
+            )
+            require(bool(np.all(np.isfinite(array))), f"{where}: {name} must be finite numbers")
+        require(self.normal.shape == self.tangential.shape, f"{where}: normal and tangential differ in shape")
+
+    @property
+    def times(self) -> FloatArray:
+        """Times (1 + n_times,) [s] of pre-indentation and of the rows: 0, or one step before a first row at 0.
+
+        >>> nothing = np.zeros((2, 1))
+        >>> rows = np.array([1.0, 3.0]), np.array([0.0, 2.0])
+        >>> [Condition("a", "b", 0.0, time, nothing, nothing).times.tolist() for time in rows]
+        [[0.0, 1.0, 3.0], [-2.0, 0.0, 2.0]]
+        """
+        first, second, *_ = *self.time, self.time[-1] + 1.0
+        return np.array([0.0 if first > 0.0 else first - (second - first), *self.time])
+
+    @property
+    def moves(self) -> FloatArray:
+        """Displacements (n_times, n_actuators, 2) [mm], tangential and normal."""
+        return np.stack([self.tangential, self.normal], axis=2)
+
+    def same_stimulus(self, other: Condition) -> bool:
+        """Whether both prescribe the same path, whatever they are called."""
+        return (
+            np.array_equal(self.time, other.time)
+            and np.array_equal(self.normal, other.normal)
+            and np.array_equal(self.tangential, other.tangential)
+        )
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A condition as vibration: actuator i moves by the real part of a_i exp(i omega t) from the pre-indented position.
+
+    name, dispersion, phase_deg: of the condition. normal, tangential: amplitudes a (n_actuators,), complex [mm].
+    """
+
+    name: str
+    dispersion: str
+    phase_deg: float
+    normal: ComplexArray
+    tangential: ComplexArray
+
+
+@dataclass(frozen=True)
+class Device:
+    """A device: its actuators, what it controls, and the conditions it is tried in.
+
+    cycles: the conditions as vibrations, none if they are given in time. frequencies: at which they are asked for [Hz].
+    kinematics: with which it may be predicted; strokes that turn elements inside out leave finite ones out.
+    frictionless: whether it may be predicted without friction; rows that only friction holds leave that out.
+    """
+
+    name: str
+    title: str
+    control: Control
+    actuators: ActuatorRow
+    conditions: tuple[Condition, ...]
+    cycles: tuple[Cycle, ...] = ()
+    frequencies: tuple[float, ...] = ()
+    kinematics: tuple[Kinematics, ...] = tuple(Kinematics)
+    frictionless: bool = True
+
+    def __post_init__(self) -> None:
+        require(len(self.conditions) >= 1, f"{self.name}: there must be at least one condition")
+        names = [condition.name for condition in self.conditions]
+        require(len(set(names)) == len(names), f"{self.name}: condition names must differ, found {names}")
+        count = len(self.actuators.positions)
+        for condition in self.conditions:
+            require(
+                condition.normal.shape[1] == count,
+                f"{self.name}: condition {condition.name} moves {condition.normal.shape[1]} actuators,"
+                f" the device has {count}",
+            )
+            for time, tangential in zip(condition.time, condition.tangential, strict=True):
+                self._require_apart(f"condition {condition.name}, time {time:g} s", -np.diff(tangential))
+        for cycle in self.cycles:
+            self._require_apart(f"condition {cycle.name}, as a vibration", np.abs(np.diff(cycle.tangential)))
+
+    def _require_apart(self, what: str, approach: FloatArray) -> None:
+        """Raise SceneError if neighbours that come closer by `approach` (n_actuators - 1,) [mm] run into each other."""
+        # linear between rows, so that rows suffice; bodies reach down from their faces, so that heights do not matter
+        row = self.actuators
+        overlap = approach - (np.diff(row.positions) - row.width)
+        for i in np.flatnonzero(overlap > ROUNDING * row.width)[:1]:
+            raise SceneError(
+                f"{self.name}: {what}: actuators {i + 1} and {i + 2} run into each other: they come {approach[i]:g} mm"
+                f" closer and overlap by {overlap[i]:.3g} mm; allowed: strokes within their gap of"
+                f" {approach[i] - overlap[i]:.3g} mm"
+            )
+
+    @property
+    def strokes(self) -> tuple[float, float]:
+        """Farthest [mm] that any condition moves an actuator along y (normal) and along x (lateral)."""
+        return (
+            max(float(np.abs(each.normal).max()) for each in self.conditions),
+            max(float(np.abs(each.tangential).max()) for each in self.conditions),
+        )
+
+    @property
+    def stroke(self) -> float:
+        """Farthest [mm] that any condition moves an actuator along x or y: it decides which skin is within reach."""
+        return max(self.strokes)
+
+    def condition(self, name: str) -> Condition:
+        """The condition of that name. Raises SceneError if there is none."""
+        for condition in self.conditions:
+            if condition.name == name:
+                return condition
+        names = [condition.name for condition in self.conditions]
+        hint = "".join(f"; did you mean '{close}'?" for close in get_close_matches(name, names, n=1))
+        raise SceneError(f"{self.name}: no condition '{name}'; allowed: {', '.join(names)}{hint}")
+
+    def first_with_stimulus_of(self, name: str) -> Condition:
+        """The first condition with the same stimulus."""
+        wanted = self.condition(name)
+        return next(c for c in self.conditions if c.same_stimulus(wanted))
+
+    @property
+    def by_dispersion(self) -> dict[str, list[Condition]]:
+        """The conditions of every dispersion, in the order of the file."""
+        found: dict[str, list[Condition]] = {}
+        for condition in self.conditions:
+            found.setdefault(condition.dispersion, []).append(condition)
+        return found
+
+    @property
+    def distinct_conditions(self) -> tuple[Condition, ...]:
+        """One condition of every stimulus, the first."""
+        return tuple(each for each in self.conditions if self.first_with_stimulus_of(each.name) is each)
+
+    def interfaces(self) -> tuple[Interface, ...]:
+        """Interfaces that can be predicted: a force-controlled device moves nothing without friction."""
+        alone = self.control is Control.FORCE or not self.frictionless
+        return (Interface.SHEAR,) if alone else tuple(Interface)

@@ -1,0 +1,89 @@
+"""Numerics: mesh sizes, load increments, tolerances, and what a scene may skip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ..requirements import require, require_positive
+from .tissue_law import Kinematics
+
+
+@dataclass(frozen=True)
+class Numerics:
+    """Mesh sizes [mm], load increments and tolerances.
+
+    edge_size: element size on the skin within edge_zone of an actuator's edge; finite_edge_size, finite_edge_zone: the
+    same with finite kinematics. face_size: largest on the skin under an actuator. growth: growth of element size with
+    distance [1]. receptor_size: largest on the receptor line. largest_size: anywhere. indentation_increments,
+    stimulus_increments: load increments (per segment of a stimulus). newton_tolerance: on forces relative to the
+    largest and on gaps relative to the load. max_cuts: how often an increment may be halved.
+    """
+
+    edge_size: float
+    edge_zone: float
+    finite_edge_size: float
+    finite_edge_zone: float
+    face_size: float
+    growth: float
+    receptor_size: float
+    largest_size: float
+    indentation_increments: int
+    stimulus_increments: int
+    newton_tolerance: float
+    max_cuts: int
+
+    def __post_init__(self) -> None:
+        require_positive(
+            "numerics",
+            edge_size=self.edge_size,
+            edge_zone=self.edge_zone,
+            finite_edge_size=self.finite_edge_size,
+            finite_edge_zone=self.finite_edge_zone,
+            face_size=self.face_size,
+            growth=self.growth,
+            receptor_size=self.receptor_size,
+            largest_size=self.largest_size,
+            indentation_increments=self.indentation_increments,
+            stimulus_increments=self.stimulus_increments,
+            newton_tolerance=self.newton_tolerance,
+        )
+        require(self.max_cuts >= 0, f"numerics: max_cuts {self.max_cuts} < 0")
+
+    def edges(self, kinematics: Kinematics) -> tuple[float, float]:
+        """Element size at an actuator's edge, and how far from it that holds [mm]."""
+        if kinematics is Kinematics.FINITE:
+            return self.finite_edge_size, self.finite_edge_zone
+        return self.edge_size, self.edge_zone
+
+    def coarsened(self, factor: float) -> Numerics:
+        """Element sizes, everywhere, and load increments `factor` times as large; finer below 1."""
+        return replace(
+            self,
+            edge_size=factor * self.edge_size,
+            finite_edge_size=factor * self.finite_edge_size,
+            face_size=factor * self.face_size,
+            growth=factor * self.growth,
+            receptor_size=factor * self.receptor_size,
+            largest_size=factor * self.largest_size,
+            indentation_increments=max(round(self.indentation_increments / factor), 1),
+            stimulus_increments=max(round(self.stimulus_increments / factor), 1),
+        )
+
+
+@dataclass(frozen=True)
+class Skips:
+    """What a scene may skip; each switch turns one saving off for comparison (docs/skipping.md).
+
+    halved_condensation: the section mirrors, so half of it is condensed. equal_stimuli: conditions with the same
+    stimulus are solved once. shared_indentation: pre-indentation, the same for all conditions, is solved once where one
+    process solves several. mirrored_half: pre-indentation of a row that mirrors solves one half. frictionless_path:
+    without friction the path leaves no trace, so it is followed in a few increments. inactive_nodes: an increment
+    takes only nodes in contact or about to be.
+    """
+
+    halved_condensation: bool
+    equal_stimuli: bool
+    shared_indentation: bool
+    mirrored_half: bool
+    frictionless_path: bool
+    inactive_nodes: bool

@@ -1,0 +1,71 @@
+"""What is read at the receptors, where, and how it is filtered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..requirements import require_positive
+
+CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
+
+
+def is_constant(values: FloatArray) -> bool:
+    """Whether all values (n,) count as equal."""
+    return bool(np.ptp(values) <= CONSTANT * np.abs(values).max())
+
+
+class Readout(StrEnum):
+    """What is read at the receptors: SA-1 proxy (strain) or RA-1 proxy (change of strain)."""
+
+    STRAIN = "strain"
+    CHANGE_OF_STRAIN = "change_of_strain"
+
+
+READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}  # where people read it
+
+
+class Side(StrEnum):
+    """From which side of the epidermis/dermis interface the strain is read."""
+
+    DERMIS = "dermis"
+    EPIDERMIS = "epidermis"
+
+
+@dataclass(frozen=True)
+class ReadoutRule:
+    """Where receptors are read (interface above which layer, which side) and over which span the score runs.
+
+    layer_above: name of the layer above the receptor line. side: of the interface. span_margin: length [mm] added to
+    the actuator row's span on each side for the area under the curve.
+    """
+
+    layer_above: str
+    side: Side
+    span_margin: float
+
+
+@dataclass(frozen=True)
+class GaborFilter:
+    """Gabor filter: wavelength [mm] of each read-out, width sigma [mm], largest grid spacing [mm]."""
+
+    wavelength_strain: float
+    wavelength_change: float
+    sigma: float
+    spacing: float
+
+    def __post_init__(self) -> None:
+        require_positive(
+            "filter",
+            wavelength_strain=self.wavelength_strain,
+            wavelength_change=self.wavelength_change,
+            sigma=self.sigma,
+            spacing=self.spacing,
+        )
+
+    def wavelength(self, readout: Readout) -> float:
+        """Wavelength [mm] for a read-out."""
+        return self.wavelength_strain if readout is Readout.STRAIN else self.wavelength_change

@@ -1,0 +1,102 @@
+"""A scene: a model of finger, contact and read-out, and a device on it, frozen and validated.
+
+Units are mm, N, MPa, s throughout. The finger pad points down: x runs along the row of actuators, y points into
+the finger, and the lowest point of the undeformed pad is the origin. Positive normal displacement of an actuator
+is +y, into the skin; positive tangential displacement is +x.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ..requirements import require
+from .contact_law import ContactLaw
+from .device import Condition, Device
+from .finger import Finger
+from .numerics import Numerics, Skips
+from .readout import GaborFilter, ReadoutRule
+from .tissue_law import Kinematics, TissueLaw
+from .vibration_rule import VibrationRule
+
+
+@dataclass(frozen=True)
+class Model:
+    """Everything but the device: finger, tissue, contact, filter, read-out, vibration, numerics and what is skipped."""
+
+    finger: Finger
+    tissue: TissueLaw
+    contact: ContactLaw
+    gabor: GaborFilter
+    readout: ReadoutRule
+    vibration: VibrationRule
+    numerics: Numerics
+    skips: Skips
+
+    def __post_init__(self) -> None:
+        names = [layer.name for layer in self.finger.pad[:-1]]
+        require(
+            self.readout.layer_above in names,
+            f"readout: layer_above {self.readout.layer_above!r} must be one of {names}",
+        )
+        every = [layer.name for layer in self.finger.layers]
+        for name in self.vibration.relaxation.layers:
+            require(name in every, f"vibration: layers {name!r} must be among {every}")
+
+    @property
+    def layers_above(self) -> int:
+        """How many of the pad's layers lie above the receptor line: the index of the one below."""
+        return [layer.name for layer in self.finger.pad].index(self.readout.layer_above) + 1
+
+    @property
+    def receptor_depth(self) -> float:
+        """Depth of the receptor line below the skin [mm]."""
+        depth = 0.0
+        for layer in self.finger.pad[: self.layers_above]:
+            depth += layer.thickness
+        return depth
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A model and a device that fits it. Raises SceneError if an actuator lies beyond the finger."""
+
+    model: Model
+    device: Device
+
+    def solved_as(self, name: str) -> Condition:
+        """The condition whose solution holds for that one as well: the first with its stimulus."""
+        if not self.model.skips.equal_stimuli:
+            return self.device.condition(name)
+        return self.device.first_with_stimulus_of(name)
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """Of the tissue."""
+        return self.model.tissue.kinematics
+
+    @property
+    def computed(self) -> tuple[Kinematics, ...]:
+        """Kinematics that the workflow computes: those of the model that the device's file does not leave out."""
+        return tuple(each for each in self.model.tissue.computed if each in self.device.kinematics)
+
+    def with_kinematics(self, kinematics: Kinematics) -> Scene:
+        """The scene with other kinematics."""
+        tissue = replace(self.model.tissue, kinematics=kinematics)
+        return replace(self, model=replace(self.model, tissue=tissue))
+
+    def with_numerics(self, numerics: Numerics) -> Scene:
+        """The scene with other numerics."""
+        return replace(self, model=replace(self.model, numerics=numerics))
+
+    def coarsened(self, factor: float) -> Scene:
+        """The scene with coarser numerics."""
+        return self.with_numerics(self.model.numerics.coarsened(factor))
+
+    def __post_init__(self) -> None:
+        row = self.device.actuators
+        reach = max(abs(x) for x in row.positions) + row.width / 2.0
+        require(
+            reach < self.model.finger.width / 2.0,
+            f"{self.device.name}: an actuator reaches x = {reach:g} mm; it must stay below the finger's half width,"
+            f" {self.model.finger.width / 2.0:g} mm",
+        )

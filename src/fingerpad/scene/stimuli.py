@@ -1,0 +1,173 @@
+"""Kinds of stimuli: what a device file says of a drive, to the conditions of a device.
+
+A kind is a function in KINDS and a definition of the same name in `workflow/schemas/device.schema.yaml`. Nothing else
+knows the kinds (docs/adding-a-device.md shows how to add one). A file that a kind reads stands at a key `file`, so that
+rules depend on it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..arrays import ComplexArray, FloatArray
+from ..errors import SceneError
+from .device import CROSSING, Condition, Cycle
+from .recording import read_recording
+
+# The plain values under `stimulus`, the number of actuators and the device file's folder, to conditions
+Builder = Callable[[Mapping[str, Any], int, Path], list[Condition]]
+
+Displacement = TypeVar("Displacement", FloatArray, ComplexArray)
+
+ALTERNATE = "alternate"  # dispersion of a row whose neighbours differ
+# What actuators in turn move of a relative displacement [1], by what it is relative to
+SHARES = {"neighbour": (0.5, -0.5), "row": (1.0, -1.0), "leader": (0.0, -1.0)}
+# ASSUME: stimulus.playback: cycle is followed in CYCLE_STEPS straight lines
+CYCLE_STEPS = 64  # [1]; source: scores are within 0.2 % of those with 128 for Devices 1 and 2, with 16 within 1.4 %
+
+# Decimals of a lag from the peak [deg], to which lags of 60 and 300 degrees are one; source: 64 lags of up to 360 each
+# come with a rounding of 4e-12
+FOLDED = 9
+
+
+def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over one period (cycle); minus in the second
+    half-cycle, here as in all that follows.
+    """
+    conditions = []
+    for dispersion, phase, lag in _lags(stimulus, count):
+        if stimulus["playback"] == "snapshot":
+            from_peak = np.round(np.abs(np.mod(lag + 180.0, 360.0) - 180.0), FOLDED)
+            displacement = stimulus["amplitude"] * np.round(np.cos(np.radians(from_peak)), CROSSING)[None, :]
+            time = np.array([1.0])
+        else:
+            time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
+            displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + np.radians(lag))
+        directed = _directed(stimulus, displacement)
+        conditions.append(Condition(_named(dispersion, phase), dispersion, float(phase), time, **directed))
+    return conditions
+
+
+def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
+    """Actuator i at A cos(w t + k_i p)."""
+    cycles = []
+    for dispersion, phase, lag in _lags(stimulus, count):
+        amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * np.radians(lag))
+        directed = _directed(stimulus, amplitude)
+        cycles.append(Cycle(_named(dispersion, phase), dispersion, float(phase), **directed))
+    return cycles
+
+
+def _named(dispersion: str, phase: float) -> str:
+    """A condition's name: its dispersion and phase difference [deg], with as many digits as tell it from all others.
+
+    >>> _named("low", 90), _named("low", 22.5)
+    ('low_090', 'low_022_5')
+    """
+    whole, _, fraction = np.format_float_positional(phase, trim="-").partition(".")
+    return "_".join([dispersion, whole.zfill(3), *filter(None, [fraction])])
+
+
+def _lags(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float, FloatArray]]:
+    """Dispersion, phase difference p [deg] and the actuators' lags k_i p (count,) [deg] of each condition."""
+    for dispersion, groups in stimulus["dispersions"].items():
+        if len(groups) != count:
+            raise SceneError(f"stimulus.dispersions.{dispersion}: needs {count} group indices, found {len(groups)}")
+        for phase in stimulus["phases"]:
+            yield dispersion, phase, np.asarray(groups, dtype=float) * phase
+
+
+def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Actuators at their absolute displacement and shares of the relative one in turn (paper, Table 1)."""
+    return [
+        Condition(
+            _named(ALTERNATE, row["phase"]),
+            ALTERNATE,
+            float(row["phase"]),
+            np.array([1.0]),
+            **_directed(stimulus, _alternating(row, stimulus["relative_to"], count)[None, :]),
+        )
+        for row in stimulus["rows"]
+    ]
+
+
+def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
+    """Actuators at the displacements of `alternating` times cos(w t)."""
+    cycles = []
+    for row in stimulus["rows"]:
+        amplitude: ComplexArray = _alternating(row, stimulus["relative_to"], count).astype(np.complex128)
+        directed = _directed(stimulus, amplitude)
+        cycles.append(Cycle(_named(ALTERNATE, row["phase"]), ALTERNATE, float(row["phase"]), **directed))
+    return cycles
+
+
+def _alternating(row: Mapping[str, Any], relative_to: str, count: int) -> FloatArray:
+    """Displacements (count,) [mm] of a row of actuators whose neighbours differ."""
+    return np.asarray(row["absolute"] + np.resize(SHARES[relative_to], count) * row["relative"])
+
+
+def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Any path: per-actuator normal and tangential displacements at given times."""
+    conditions = []
+    for name, given in stimulus["histories"].items():
+        arrays = {}
+        for key in ("normal", "tangential"):
+            rows = given[key]
+            if any(len(row) != count for row in rows):
+                raise SceneError(f"stimulus.histories.{name}.{key}: every row needs {count} numbers (one an actuator)")
+            arrays[key] = np.asarray(rows, dtype=float)
+        time = np.asarray(given["time"], dtype=float)
+        conditions.append(Condition(name, given["dispersion"], float(given["phase"]), time, **arrays))
+    return conditions
+
+
+def measured(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
+    """Any path, from CSV files in the device file's folder."""
+    conditions = []
+    for name, given in stimulus["recordings"].items():
+        try:
+            recording = read_recording(folder / given["file"], count)
+        except SceneError as error:
+            raise SceneError(f"stimulus.recordings.{name}.file: {error}") from error
+        conditions.append(
+            Condition(
+                name=name,
+                dispersion=given["dispersion"],
+                phase_deg=float(given["phase"]),
+                time=recording.time,
+                normal=recording.normal,
+                tangential=recording.tangential,
+            )
+        )
+    return conditions
+
+
+KINDS: Mapping[str, Builder] = {
+    "phased": phased,
+    "alternating": alternating,
+    "history": history,
+    "measured": measured,
+}
+
+# The kinds that may be asked for at a `frequency_hz`: the plain values under `stimulus` and the number of actuators
+CYCLES: Mapping[str, Callable[[Mapping[str, Any], int], list[Cycle]]] = {
+    "phased": phased_cycles,
+    "alternating": alternating_cycles,
+}
+
+
+def _directed(stimulus: Mapping[str, Any], displacement: Displacement) -> dict[str, Displacement]:
+    """Displacements (..., n_actuators) [mm] of a half-cycle as normal and tangential ones; `both` is both."""
+    # ASSUME: stimulus.half_cycle: first is positive into the skin or to the right. In the second every displacement has
+    # the opposite sign, and a row that is not its own mirror image has other gaps open.
+    direction, still = stimulus["direction"], np.zeros_like(displacement)
+    shown = displacement if stimulus["half_cycle"] == "first" else still - displacement  # no -0
+    return {
+        "normal": still if direction == "lateral" else shown,
+        "tangential": still if direction == "normal" else shown,
+    }

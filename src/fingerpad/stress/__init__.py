@@ -1,0 +1,1 @@
+"""Random scenes, and what becomes of them."""

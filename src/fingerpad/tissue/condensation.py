@@ -1,0 +1,191 @@
+"""Condensation: the tissue's stiffness, factorised once, reduced to two small dense maps.
+
+With forces f on the skin that actuators can reach (`reach`), nodal forces L f, and everything else unloaded,
+    K u = L f,      u_c = L^T u = C f      displacement of the skin in contact; C compliance
+                    eps_r = B u = E f      strain along the receptor line.
+K is factorised once, and a solution for every unit force gives a column of both maps (docs/decisions/0014).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import solve_triangular
+from scipy.sparse import csc_matrix, csr_matrix, hstack
+from scipy.sparse.linalg import SuperLU
+from threadpoolctl import threadpool_limits
+
+from ..arrays import FloatArray
+from ..errors import CondensationError
+from ..scene.scene import Scene
+from .compliance import MIRROR, MIRROR_VOIGT, VOIGT, CondensedSection
+from .elasticity import displacement_basis, node_dofs, stiffness, unit_forces
+from .factors import backward_error, factorise, fill_reducing_order
+from .halves import Parts, right_half, unfold, unfolding, whole
+from .mesh import SectionMesh
+from .reach import contact_tractions
+from .receptors import arc_length, receptor_strain
+from .traction import Tractions
+
+RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
+TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
+AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
+
+
+def section_stiffness(
+    section: SectionMesh, scene: Scene, elements: np.ndarray | None = None
+) -> tuple[csc_matrix, np.ndarray]:
+    """Stiffness of the section, or of some elements [N/mm per mm], and the unknowns (2, n_nodes) of its nodes."""
+    basis = displacement_basis(section.mesh, elements)
+    layer = section.layer if elements is None else section.layer[elements]
+    return stiffness(basis, scene.model.finger.materials, layer), node_dofs(basis)
+
+
+def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
+    """Condense the finger to contact nodes and receptor line, by halves (`halves`).
+
+    Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError if too many nodes
+    may come into contact.
+    """
+    tractions = contact_tractions(section, scene)
+    halved = scene.model.skips.halved_condensation
+    parts = right_half(section, tractions) if halved else whole(section, tractions)
+    matrix, _ = section_stiffness(section, scene, parts.elements)
+    return condense_parts(section, scene, tractions, parts, matrix)
+
+
+def condense_parts(
+    section: SectionMesh,
+    scene: Scene,
+    tractions: Tractions,
+    parts: Parts,
+    matrix: csc_matrix,
+    nodal: csr_matrix | None = None,
+) -> CondensedSection:
+    """`condense_section` of tissue with any stiffness. nodal: (n_unknowns, n_unknowns) displacements of all nodes by
+    the unknowns that parts and matrix are of; None if they are these. Raises CondensationError.
+    """
+    points, strain = receptor_strain(section, scene)
+    strain = strain if nodal is None else csr_matrix(strain @ nodal)
+    if len(parts.loads) > 1:
+        columns = unfolding(tractions.position.shape[0], MIRROR)
+        rows = unfolding(points.shape[0], MIRROR_VOIGT)
+        read = strain[VOIGT * np.count_nonzero(rows.side < 0) :]
+        together, against, residual = _condensed_halves(matrix, parts, read)
+        compliance = unfold(together[0], against[0], columns, columns)
+        strain_map = unfold(together[1], against[1], rows, columns)
+    else:
+        compliance, strain_map, residual = condense(matrix, parts.dofs, parts.held[0], parts.loads[0], strain)
+    arc = arc_length(points)
+    return CondensedSection(
+        position=tractions.position,
+        weight=tractions.weight,
+        compliance=compliance,
+        receptor=points,
+        arc=arc,
+        strain=strain_map,
+        residual=residual,
+    )
+
+
+def _condensed_halves(
+    matrix: csc_matrix, parts: Parts, read: csr_matrix
+) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray], float]:
+    """Compliance and strain map under loads that mirror, the same under those that mirror with the opposite sign, and
+    the residual. Raises CondensationError.
+
+    One factorisation serves both: what the mid-line is held by are forces that take back its displacement,
+        C = C_LL - C_LH C_HH^-1 C_HL,
+    L: the loads, H: unit forces on the components that are held, as few as the mid-line has nodes.
+    """
+    mirrored, opposite = parts.loads
+    still = np.intersect1d(parts.held[0], parts.held[1])
+    axes = [unit_forces(np.setdiff1d(held, still), matrix.shape[0]) for held in parts.held]
+    across = np.flatnonzero(abs(mirrored - opposite).sum(axis=0))  # loads that reach over the mid-line
+    all_loads = csc_matrix(hstack([mirrored, opposite[:, across], *axes]))
+    compliance, strain_map, residual = condense(matrix, parts.dofs, still, all_loads, read)
+
+    ends = np.cumsum([mirrored.shape[1], across.size, *(axis.shape[1] for axis in axes)])
+    first = np.arange(ends[0])
+    second = first.copy()
+    second[across] = np.arange(ends[0], ends[1])
+    together = _holding(compliance, strain_map, first, np.arange(ends[1], ends[2]))
+    against = _holding(compliance, strain_map, second, np.arange(ends[2], ends[3]))
+    return together, against, residual
+
+
+def _holding(
+    compliance: FloatArray, strain: FloatArray, loads: np.ndarray, held: np.ndarray
+) -> tuple[FloatArray, FloatArray]:
+    """Maps of some loads (k,) while forces that belong to other columns (h,) keep their own displacements at zero.
+    Raises CondensationError.
+    """
+    try:
+        reaction = np.linalg.solve(compliance[np.ix_(held, held)], compliance[np.ix_(held, loads)])
+    except np.linalg.LinAlgError:
+        raise CondensationError("nothing holds the section's halves apart but its mid-line") from None
+    left = compliance[np.ix_(loads, loads)] - compliance[np.ix_(loads, held)] @ reaction
+    return (left + left.T) / 2.0, strain[:, loads] - strain[:, held] @ reaction
+
+
+def condense(
+    matrix: csc_matrix, dofs: np.ndarray, fixed: np.ndarray, loads: csc_matrix, strain: csr_matrix
+) -> tuple[FloatArray, FloatArray, float]:
+    """Compliance (k, k), strain map (n_rows of strain, k) and relative residual of k loads.
+
+    matrix: stiffness; dofs: (2, n_nodes) unknowns of the nodes; fixed: unknowns that do not move (loads on them are
+    borne without an answer); loads: nodal forces (n_unknowns, k) of unit forces; strain: rows that are read, as a
+    linear map of all unknowns.
+
+    Raises CondensationError if the stiffness is singular or the residual is beyond RESIDUAL_TOLERANCE.
+    """
+    order = fill_reducing_order(matrix, dofs, fixed)
+    permuted, right, read = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order]
+    return condense_ordered(permuted, factorise(permuted), right, read)
+
+
+def condense_ordered(
+    permuted: csc_matrix, factors: SuperLU, right: csc_matrix, read: csr_matrix
+) -> tuple[FloatArray, FloatArray, float]:
+    """`condense` of a stiffness already in a fill-reducing order, with its factors. Raises CondensationError."""
+    count = right.shape[1]
+    compliance, strain_map = np.zeros((count, count)), np.zeros((read.shape[0], count))
+    mix = np.random.default_rng(0).standard_normal(count)
+    mixed = np.zeros(permuted.shape[0])
+    with threadpool_limits(1):  # the factors' blocks are small: more threads take longer, and round otherwise
+        for start in range(0, count, AT_ONCE):
+            block = slice(start, start + AT_ONCE)
+            field = factors.solve(right[:, block].toarray(order="F"))
+            compliance[:, block] = right.T @ field
+            strain_map[:, block] = read @ field
+            mixed += field @ mix[block]
+    residual = backward_error(permuted, mixed, right @ mix)
+    if not residual <= RESIDUAL_TOLERANCE:
+        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
+    return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
+
+
+def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matrix) -> tuple[FloatArray, float]:
+    """Compliance (k, k) of loads (n_free, k) on the last unknowns of a stiffness, and relative residual.
+
+    The trailing block of the factors K = L D L^T is that of the stiffness condensed to the last unknowns, so that
+    C = Y^T D^-1 Y with L Y = W on that block: nothing is solved on the whole. Raises CondensationError.
+    """
+    size = permuted.shape[0] - int(loads.indices.min())
+    place = factors.perm_c[-size:] - (permuted.shape[0] - size)
+    if place.min() < 0:
+        raise CondensationError("some of the tissue hangs together with nothing that actuators can touch")
+    upper = np.asarray(factors.U[-size:, -size:].toarray())
+    pivots = np.diag(upper)[:, None]
+    last = np.empty((size, loads.shape[1]))
+    last[place] = loads[-size:].toarray()
+    carried = solve_triangular((upper / pivots).T, last, lower=True, unit_diagonal=True)
+    compliance = carried.T @ (carried / pivots)
+
+    mix = np.random.default_rng(0).standard_normal(loads.shape[1])
+    load = loads @ mix
+    field = factors.solve(load)
+    residual = backward_error(permuted, field, load)
+    residual = max(residual, float(np.abs(loads.T @ field - compliance @ mix).max() / np.abs(field).max()))
+    if not residual <= TRAILING_TOLERANCE:
+        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {TRAILING_TOLERANCE:.0e}")
+    return (compliance + compliance.T) / 2.0, residual

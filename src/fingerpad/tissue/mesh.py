@@ -1,0 +1,322 @@
+"""Mesh of the finger's section and of a deformable actuator: second-order, conforming to every layer interface.
+
+The section is meshed in logical coordinates (s, zeta): s runs along the outline from the pad's lowest point to the
+dorsal mid-line, zeta from the skin (0) to the bone. Down to the finger's parallel depth zeta is the depth [mm] along
+the outline's inward normal; from there to the bone it is that depth plus the fraction of the way [1]. Layer
+interfaces are lines of constant zeta, so refining in logical space keeps the mesh conforming. Only one half is
+meshed; the other is its mirror image, to the last bit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from scipy.special import ellipeinc
+from skfem import ElementTriP2, MeshTri, MeshTri2
+
+from ..arrays import FloatArray
+from ..errors import MeshError
+from ..scene.device import ActuatorRow
+from ..scene.finger import Finger
+from ..scene.numerics import Numerics
+from ..scene.scene import Scene
+from ..store import reading, save_arrays
+from .compliance import MIRROR
+
+MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
+MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
+ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
+JOINED = 8  # decimals of a length [mm]; nodes that agree in them are one
+SIZE_SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
+LINE_SLACK = 10.0**-ROUNDED  # mm; keeps rounding from deciding on which side of a line a node lies
+NODES = ElementTriP2.doflocs.T  # (2, 6) of a reference triangle [1]: corners, then midpoints of sides 0-1, 1-2, 2-0
+ARC_POINTS = 4001  # of the table of arc lengths [1]; source: between them it is off by less than 1e-6 mm
+
+
+@dataclass(frozen=True)
+class SectionMesh:
+    """Mesh of a section.
+
+    mesh: second-order triangles; node i is column i of `mesh.doflocs` (vertices first, then edge midpoints).
+    layer: (n_elements,) index into `layer_names`. skin: nodes on the pad's outer face, by ascending arc length.
+    receptor_facets: facets on the receptor line, by ascending arc length. fixed: nodes on the bone.
+    """
+
+    mesh: MeshTri2
+    layer: np.ndarray
+    layer_names: tuple[str, ...]
+    skin: np.ndarray
+    receptor_facets: np.ndarray
+    fixed: np.ndarray
+
+    @property
+    def unknowns(self) -> int:
+        """Number of displacement components of all nodes."""
+        return 2 * int(self.mesh.doflocs.shape[1])
+
+    def interfaces(self) -> np.ndarray:
+        """Facets (k,) between two layers."""
+        left, right = self.mesh.f2t
+        return np.flatnonzero((right >= 0) & (self.layer[left] != self.layer[right]))
+
+
+@dataclass(frozen=True)
+class _Outline:
+    """Logical-to-physical map of half a section."""
+
+    finger: Finger
+
+    @property
+    def semi_axes(self) -> tuple[float, float]:
+        return self.finger.width / 2.0, self.finger.height / 2.0
+
+    def angle_of_arc(self, arc: float) -> float:
+        """Angle [rad] from the dorsal top at which the outline's arc length [mm] from there is `arc`."""
+        a, b = self.semi_axes
+        # arc length from the end of the semi-axis b: a E(t | 1 - b^2/a^2), inverted on a table
+        table = np.linspace(0.0, np.pi, ARC_POINTS)
+        return float(np.interp(arc, a * ellipeinc(table, 1.0 - (b / a) ** 2), table))
+
+    def physical(self, logical: FloatArray) -> FloatArray:
+        """Points (2, n) [mm] of logical coordinates (2, n): outline, normal offset, then straight to the bone."""
+        a, b = self.semi_axes
+        depth = self.finger.parallel_depth
+        angle = logical[0] / a
+        sin, cos = np.sin(angle), np.cos(angle)
+        outline = np.array([a * sin, b - b * cos])
+        normal = np.array([-b * sin, a * cos]) / np.hypot(a * cos, b * sin)
+        offset = outline + np.minimum(logical[1], depth) * normal
+        centre = self.finger.pad_thickness + self.finger.bone_height / 2.0
+        bone = np.array(
+            [self.finger.bone_width / 2.0 * sin, centre - self.finger.bone_height / 2.0 * cos],
+        )
+        return np.asarray(offset + np.maximum(logical[1] - depth, 0.0) * (bone - offset))
+
+
+def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
+    """Mesh of the finger's section, graded towards the actuators' edges and the receptor line.
+
+    edges: (k, 2) intervals of |x| [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
+    size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
+    0), of the scene's kinematics. On the skin under the row it is at most face_size + growth * depth, and at most
+    receptor_size + growth * distance at the receptor line. The mesh is refined for both signs of x, and so symmetric.
+
+    Raises MeshError if an element is inverted, more than MAX_ELEMENTS are asked for, or MAX_REFINEMENTS leave some too
+    large.
+    """
+    model = scene.model
+    outline = _Outline(model.finger)
+    logical = _base(outline, model.numerics)
+    for _ in range(MAX_REFINEMENTS):
+        corners = outline.physical(logical.p)[:, logical.t]
+        size = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
+        wanted = _size(scene, edges, corners.mean(axis=1), logical.p[1, logical.t].mean(axis=0))
+        marked = np.flatnonzero(size > wanted * (1.0 + SIZE_SLACK))
+        if marked.size == 0:
+            break
+        logical = logical.refined(marked)
+        if 2 * logical.t.shape[1] > MAX_ELEMENTS:
+            raise MeshError(
+                f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try larger sizes in"
+                " numerics (edge_size, face_size, receptor_size, growth) or thicker layers"
+            )
+    else:
+        raise MeshError(f"{scene.device.name}: {MAX_REFINEMENTS} refinements leave elements larger than asked for")
+    return _mirrored(scene, outline, logical)
+
+
+def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
+    """Mesh of one deformable actuator's body: a strip on its base, face at y = 0, centred on x = 0, and placed as the
+    body says.
+
+    Graded towards both ends of the face like the skin. Raises MeshError if the row is rigid, or its body is turned
+    inside out or has another face or base than the strip.
+    """
+    if row.body is None:
+        raise MeshError("a rigid actuator has no body to mesh")
+    half = row.width / 2.0
+    count = int(np.ceil(np.log1p(numerics.growth * half / numerics.edge_size) / np.log1p(numerics.growth)))
+    distance = numerics.edge_size * np.expm1(np.arange(count + 1) * np.log1p(numerics.growth)) / numerics.growth
+    across = half * (1.0 - distance[::-1] / distance[-1])
+    rows = max(2, int(np.ceil(row.body.thickness / numerics.edge_size)))
+    down = -row.body.thickness * np.linspace(1.0, 0.0, rows + 1)
+    right = MeshTri.init_tensor(across, down)
+    # mirrored with its diagonals; joined here, as scikit-fem's + warns of its own arrays' order
+    points = np.hstack([right.p, right.p * MIRROR[:, None]]).round(JOINED)
+    _, kept, joined = np.unique(points, axis=1, return_index=True, return_inverse=True)
+    triangles = joined.ravel()[np.hstack([right.t, right.t + right.p.shape[1]])]
+    strip = MeshTri2.from_mesh(MeshTri(np.ascontiguousarray(points[:, kept]), triangles))
+    mesh = replace(strip, doflocs=row.body.placed(*strip.doflocs))
+    face, base = strip.doflocs[1] == 0.0, strip.doflocs[1] == -row.body.thickness
+    if not (
+        np.array_equal(mesh.doflocs[:, face], strip.doflocs[:, face])
+        and np.array_equal(mesh.doflocs[1, base], strip.doflocs[1, base])
+    ):
+        raise MeshError("actuator body: its face must lie where the strip's does, and its base as deep")
+    _require_valid(mesh, "actuator body")
+    return mesh
+
+
+def save_section(path: Path, section: SectionMesh) -> None:
+    """Write a section's mesh."""
+    rest = {field.name: getattr(section, field.name) for field in fields(section) if field.name != "mesh"}
+    save_arrays(path, {"nodes": section.mesh.doflocs, "triangles": section.mesh.t, **rest})
+
+
+def load_section(path: Path) -> SectionMesh:
+    """Read a section's mesh. Raises ResultError."""
+    with reading(path) as archive:
+        return SectionMesh(
+            mesh=MeshTri2(archive["nodes"], archive["triangles"]),
+            layer=archive["layer"],
+            layer_names=tuple(archive["layer_names"].tolist()),
+            skin=archive["skin"],
+            receptor_facets=archive["receptor_facets"],
+            fixed=archive["fixed"],
+        )
+
+
+def counterclockwise(mesh: MeshTri2) -> np.ndarray:
+    """Order (n_elements, 6) of each element's NODES that goes round it counter-clockwise: corners, then midpoints."""
+    return np.where(mesh.orientation()[:, None] < 0, [0, 2, 1, 5, 4, 3], np.arange(NODES.shape[1]))
+
+
+def element_nodes(mesh: MeshTri2) -> np.ndarray:
+    """Nodes (n_elements, 6) of the elements in that order."""
+    nodes = np.vstack([mesh.t, mesh.nvertices + mesh.t2f]).T
+    return np.take_along_axis(nodes, counterclockwise(mesh), axis=1)
+
+
+def _base(outline: _Outline, numerics: Numerics) -> MeshTri:
+    """Coarsest conforming mesh of half a section, in logical coordinates."""
+    finger = outline.finger
+    a, _ = outline.semi_axes
+    depths = {0.0, round(finger.parallel_depth, ROUNDED)}
+    for stack in (finger.pad, finger.dorsal):
+        depths.update(np.round(np.cumsum([layer.thickness for layer in stack[:-1]]), ROUNDED))
+    lines = np.array(sorted(depths))
+    largest = numerics.largest_size / np.sqrt(2.0)  # legs of a triangle whose longest edge is the largest size
+    soft = finger.pad_thickness - finger.parallel_depth
+    nail = a * (np.pi - outline.angle_of_arc(finger.nail_width / 2.0))
+    # thin layers want columns of their own thickness, or refinement would only make their cells flatter
+    thinnest = min(layer.thickness for layer in finger.pad)
+    column = min(max(2.0 * thinnest, numerics.receptor_size), largest)
+    along = _subdivided(np.array([0.0, nail, np.pi * a]), column)
+    fractions = np.linspace(0.0, 1.0, 1 + int(np.ceil(soft / largest)))[1:]
+    across = np.concatenate([_subdivided(lines, largest), finger.parallel_depth + fractions])
+    return MeshTri.init_tensor(along, across)
+
+
+def _subdivided(lines: FloatArray, largest: float) -> FloatArray:
+    """Lines with equal divisions in between, none longer than `largest` [mm]."""
+    pieces = [lines[:1]]
+    for start, stop in pairwise(lines):
+        pieces.append(np.linspace(start, stop, 1 + int(np.ceil((stop - start) / largest)))[1:])
+    return np.concatenate(pieces)
+
+
+def nominal_edges(row: ActuatorRow) -> FloatArray:
+    """Intervals (k, 2) of |x| [mm] under the rounded edges of a row, where undeformed skin lies."""
+    outer = np.abs(np.add.outer(np.asarray(row.positions), np.array([-1.0, 1.0]) * row.width / 2.0)).ravel()
+    inner = np.abs(np.add.outer(np.asarray(row.positions), np.array([-1.0, 1.0]) * row.half_face)).ravel()
+    return np.unique(np.round(np.sort(np.stack([inner, outer], axis=1), axis=1), ROUNDED), axis=0)
+
+
+def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray) -> FloatArray:
+    """Largest allowed element size (n,) [mm] at element centres (2, n) [mm] of logical depth zeta (n,)."""
+    finger, numerics, row = scene.model.finger, scene.model.numerics, scene.device.actuators
+    start, stop = edges.T[..., None]
+    x = np.clip(np.abs(centre[0]), start, stop)
+    to_edge = np.min(np.hypot(np.abs(centre[0]) - x, centre[1] - finger.skin_height(x)), axis=0)
+    outermost = max(abs(position) for position in row.positions) + row.width / 2.0
+    depth = np.minimum(zeta, finger.parallel_depth) + np.maximum(zeta - finger.parallel_depth, 0.0) * (
+        finger.pad_thickness - finger.parallel_depth
+    )
+    # dorsal tissue is far from the pad, however near its skin
+    depth = np.where(centre[1] > finger.height / 2.0, centre[1], depth)
+    beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
+    to_face = np.hypot(depth, beyond)
+    to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)
+    edge_size, edge_zone = numerics.edges(scene.kinematics)
+    size: FloatArray = np.minimum.reduce(
+        [
+            np.full(depth.shape, numerics.largest_size),
+            edge_size + numerics.growth * np.maximum(to_edge - edge_zone, 0.0),
+            numerics.face_size + numerics.growth * to_face,
+            numerics.receptor_size + numerics.growth * to_receptors,
+        ]
+    )
+    return size
+
+
+def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
+    """The whole section from its logical half, curved, with its layers and named lines."""
+    finger = scene.model.finger
+    half_points = logical.p
+    end = half_points[0].max()
+    on_axis = (half_points[0] == 0.0) | (half_points[0] == end)
+    right = outline.physical(half_points)
+    right[0, on_axis] = 0.0
+    count = half_points.shape[1]
+    twin = np.where(on_axis, np.arange(count), -1)
+    twin[~on_axis] = count + np.arange(np.count_nonzero(~on_axis))
+    points = np.hstack([right, right[:, ~on_axis] * MIRROR[:, None]])
+    half_of = np.concatenate([np.arange(count), np.flatnonzero(~on_axis)])
+    straight = MeshTri(points, np.hstack([logical.t, twin[logical.t]]))
+    mesh = MeshTri2.from_mesh(straight)
+
+    ends = mesh.facets
+    middle = half_points[:, half_of[ends]].mean(axis=1)
+    curved = outline.physical(middle)
+    sign = np.sign(points[0, ends].sum(axis=0))
+    curved[0] *= sign
+    mesh = replace(mesh, doflocs=np.hstack([points, curved]))
+
+    arc = np.concatenate([half_points[0, half_of], middle[0]])
+    s = np.sign(mesh.doflocs[0]) * arc
+    zeta = np.concatenate([half_points[1, half_of], middle[1]])
+    nail = (np.pi - outline.angle_of_arc(finger.nail_width / 2.0)) * outline.semi_axes[0]
+
+    layer, names = _layers(finger, arc[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
+    depth = round(scene.model.receptor_depth, ROUNDED)
+    on_pad = arc <= nail + LINE_SLACK
+    facet_nodes = points.shape[1] + np.arange(ends.shape[1])
+    level = np.all(zeta[ends] == depth, axis=0) & on_pad[facet_nodes]
+    receptor_facets = np.flatnonzero(level)
+    skin = np.flatnonzero((zeta == 0.0) & on_pad)
+    section = SectionMesh(
+        mesh=mesh,
+        layer=layer,
+        layer_names=names,
+        skin=skin[np.argsort(s[skin])],
+        receptor_facets=receptor_facets[np.argsort(s[facet_nodes[receptor_facets]])],
+        fixed=np.flatnonzero(zeta == zeta.max()),
+    )
+    _require_valid(mesh, "section mesh")
+    return section
+
+
+def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Layer index of elements by logical centre, and the layers' names (pad first)."""
+    # ASSUME: finger: off the mid-line, too, layers lie in their order, and the last of each stack fills up to the bone
+    index = np.empty(s.shape, dtype=np.int64)
+    first = 0
+    for stack, inside in ((finger.pad, s < nail), (finger.dorsal, s > nail)):
+        interfaces = np.cumsum([layer.thickness for layer in stack[:-1]])
+        index[inside] = first + np.searchsorted(interfaces, zeta[inside])
+        first += len(stack)
+    return index, tuple(layer.name for layer in finger.layers)
+
+
+def _require_valid(mesh: MeshTri2, name: str) -> None:
+    """Raise MeshError if the map of any element has a non-positive Jacobian at its corners or midpoints."""
+    gradient = mesh.mapping().DF(NODES)
+    determinant = gradient[0, 0] * gradient[1, 1] - gradient[0, 1] * gradient[1, 0]
+    sign = np.sign(determinant[:, :1])
+    bad = np.flatnonzero(np.any(determinant * sign <= 0.0, axis=1))
+    if bad.size:
+        where = mesh.doflocs[:, mesh.t[0, bad[0]]]
+        raise MeshError(f"{name}: {bad.size} inverted elements, the first near x, y = {where.round(3)} mm")

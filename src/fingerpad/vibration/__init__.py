@@ -1,0 +1,1 @@
+"""Vibration: tissue that relaxes and creeps, cycles that repeat themselves, and where inertia forbids a prediction."""

@@ -1,0 +1,91 @@
+"""Condensation of tissue that creeps: a few more small dense maps, one for each time in which it does.
+
+Under contact forces exp(s t) the tissue's compliance and strain map are those of an elastic one whose moduli are
+phi(s) times the relaxed ones (`viscoelasticity`; correspondence principle). Between s = 0 and infinity they fall from
+relaxed to instantaneous ones, and
+    C(s) = C_g + sum of C_k / (1 + s t_k),        E(s) = E_g + sum of E_k / (1 + s t_k)
+hold closely with the times t_k within the bands from relaxation to retardation times, where alone the tissue creeps.
+The C_k, E_k are found from as many real s, each a condensation as any other, and checked at one more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..errors import CondensationError
+from ..scene.scene import Scene
+from ..scene.vibration_rule import Relaxation
+from ..tissue.condensation import condense_section
+from ..tissue.mesh import SectionMesh
+from .viscoelasticity import retardation_times, stiffening
+
+IN_BAND = 2  # times t_k [1] in each band; source: maps then hold to 1e-3 on the imaginary axis (measured)
+MISFIT_LIMIT = 1e-3  # of the largest entry [1]; source: a fifth of the score error that is aimed at (0.5 %)
+
+
+@dataclass(frozen=True)
+class Creep:
+    """What creeps, of `CondensedSection`: relaxed maps are instantaneous ones and all of these together.
+
+    time: (k,) [s]. compliance: (k, 2n, 2n) [mm per N/mm]. strain: (k, 3m, 2n) [1 per N/mm].
+    """
+
+    time: FloatArray
+    compliance: FloatArray
+    strain: FloatArray
+
+
+def condense_creep(section: SectionMesh, scene: Scene) -> Creep:
+    """Condense tissue that creeps. Raises CondensationError if the maps miss a rate that they were not found from by
+    more than MISFIT_LIMIT.
+    """
+    times = creep_times(scene.model.vibration.relaxation)
+    between = 1.0 / np.sqrt(times[1:] * times[:-1])
+    rates = np.array([0.0, *between, np.inf])
+    shares = np.array([np.ones(rates.size), *(answer(rates, time) for time in times)]).T
+    found = [condense_section(section, stiffened(scene, rate)) for rate in rates]
+    inverse = np.linalg.inv(shares)
+    compliance, strain = (
+        np.tensordot(inverse, np.array(maps), 1)
+        for maps in ([each.compliance for each in found], [each.strain for each in found])
+    )
+    rate = np.array([1.0 / times[times.size // 2]])
+    there = condense_section(section, stiffened(scene, float(rate[0])))
+    share = np.array([1.0, *(answer(rate, time)[0] for time in times)])
+    misfit = max(
+        float(np.abs(np.tensordot(share, maps, 1) - exact).max() / np.abs(exact).max())
+        for maps, exact in ((compliance, there.compliance), (strain, there.strain))
+    )
+    if not misfit <= MISFIT_LIMIT:
+        raise CondensationError(f"creep: maps are off by {misfit:.1e} > {MISFIT_LIMIT:.0e}")
+    return Creep(times, compliance[1:], strain[1:])
+
+
+def creep_times(relaxation: Relaxation) -> FloatArray:
+    """Times t_k (k,) [s], ascending: IN_BAND in each band, evenly in their logarithm, the band's end among them."""
+    bands = zip(np.sort(relaxation.times), retardation_times(relaxation), strict=True)
+    return np.concatenate([np.geomspace(start, stop, IN_BAND + 1)[1:] for start, stop in bands])
+
+
+def answer(rate: FloatArray, time: float) -> FloatArray:
+    """What has crept (k,) [1] of all that will, at rates (k,) [1/s]: 1 / (1 + s t)."""
+    return np.asarray(1.0 / (1.0 + rate * time))
+
+
+def stiffened(scene: Scene, rate: complex) -> Scene:
+    """The scene with layers as stiff as they are at a rate [1/s]; of a complex modulus the real part."""
+    relaxation, finger = scene.model.vibration.relaxation, scene.model.finger
+    factor = complex(stiffening(relaxation, rate)).real
+    pad, dorsal = (
+        tuple(
+            replace(layer, material=replace(layer.material, modulus=factor * layer.material.modulus))
+            if layer.name in relaxation.layers
+            else layer
+            for layer in layers
+        )
+        for layers in (finger.pad, finger.dorsal)
+    )
+    return replace(scene, model=replace(scene.model, finger=replace(finger, pad=pad, dorsal=dorsal)))

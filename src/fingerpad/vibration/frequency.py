@@ -1,0 +1,172 @@
+"""Scores of a device's conditions as vibrations, at each frequency it is asked for.
+
+Receptors are read when the phase is zero, as in a snapshot. The RA-1 proxy is the change from the cycle's mean, as
+these afferents answer change, not what stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..contact.certificate import certify
+from ..contact.depth import depth, require_tissue
+from ..contact.linear_solution import Indented, indent_device
+from ..contact.problem import named
+from ..errors import ContactError, InertiaError
+from ..prediction.caveats import depth_caveats
+from ..prediction.scoring import Condensed
+from ..readouts.gabor import filtered_readouts
+from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
+from ..readouts.strain import maximum_principal
+from ..scene.contact_law import Interface
+from ..scene.device import Cycle
+from ..scene.readout import Readout
+from ..scene.scene import Scene
+from ..tissue.compliance import CondensedSection
+from ..tissue.mesh import SectionMesh
+from .creep import Creep
+from .cycling import vibrate
+from .inertia import condense_vibrating, highest_frequency, inertia_effect
+
+SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed
+
+
+@dataclass(frozen=True)
+class Vibrating:
+    """The finger at one frequency. frequency: [Hz]. still, moving: condensed without its mass and with it."""
+
+    frequency: float
+    still: CondensedSection
+    moving: CondensedSection
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1]; note: why there is none, or
+    what to beware of.
+    """
+
+    scores: dict[Readout, float]
+    inertia: float
+    note: str
+
+
+def condense_vibrating_at(section: SectionMesh, scene: Scene, frequency: float) -> Vibrating:
+    """The finger at a frequency [Hz]. Raises CondensationError."""
+    densities = (0.0, scene.model.vibration.density)
+    return Vibrating(frequency, *(condense_vibrating(section, scene, frequency, each) for each in densities))
+
+
+def frequency_rows(
+    scene: Scene,
+    condensed: Condensed,
+    creep: Creep,
+    vibrating: Sequence[Vibrating],
+    interface: Interface,
+    note: Callable[[], object] = lambda: None,
+) -> list[dict[str, Any]]:
+    """Rows of the frequency table for one interface, slow cycles first. note: called after each row pair.
+
+    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises ContactError if the
+    device cannot be pressed onto the finger.
+    """
+    indented = indent_device(scene, condensed.section, condensed.body, interface)
+    rows = []
+    found: dict[tuple[bytes, bytes, float], Outcome] = {}
+    for cycle in scene.device.cycles:
+        for at in (None, *vibrating):
+            frequency = at.frequency if at else SLOWLY
+            stimulus = cycle.normal.tobytes(), cycle.tangential.tobytes(), frequency
+            if stimulus not in found:
+                found[stimulus] = _outcome(scene, condensed, creep, indented, cycle, at)
+            rows += [_row(scene, cycle, frequency, interface, each, found[stimulus]) for each in Readout]
+            note()
+    return rows
+
+
+def _outcome(
+    scene: Scene,
+    condensed: Condensed,
+    creep: Creep,
+    indented: Indented,
+    cycle: Cycle,
+    at: Vibrating | None,
+) -> Outcome:
+    """What becomes of a condition at a frequency, slowly if there is none."""
+    frequency, effect = (
+        (at.frequency, inertia_effect(scene, indented, cycle, at.still, at.moving)) if at else (SLOWLY, 0.0)
+    )
+    try:
+        _require_no_inertia(scene, frequency, effect)
+        scores = vibration_scores(scene, condensed, creep, indented, cycle, frequency)
+        note = "; ".join(depth_caveats(scene, depth(indented.problem, _highest(indented, cycle))))
+        return Outcome(scores, effect, note)
+    except ContactError as error:
+        return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
+
+
+def vibration_scores(
+    scene: Scene, condensed: Condensed, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
+) -> dict[Readout, float]:
+    """Both scores [mm2] of a condition at a frequency [Hz], if all states of its last cycle have their certificate.
+    Raises ContactError, naming it.
+    """
+    speed = f"{frequency:g} Hz" if frequency > SLOWLY else "slowly"
+    with named(f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {speed}"):
+        require_tissue(indented.problem, _highest(indented, cycle), scene.model.finger.pad_thickness)
+        steps = scene.model.vibration.steps
+        vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
+        for problem, state in zip(vibration.problems, vibration.states, strict=True):
+            certify(problem, condensed.section, state)
+    filtered = filtered_readouts(condensed.resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
+    return roughness_scores(scene, filtered)
+
+
+def _highest(indented: Indented, cycle: Cycle) -> FloatArray:
+    """Where actuators (1, n_actuators, 2) [mm] stand highest in a cycle, each at its own time."""
+    amplitude = np.stack([np.zeros(cycle.normal.size), np.abs(cycle.normal)], axis=1)
+    return np.asarray(indented.state.actuator + amplitude)[None]
+
+
+def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:
+    """Both read-outs (m,) [1] at the receptors, from strains (n_times, 3m) over a cycle that ends at phase zero."""
+    measured = np.array([maximum_principal(each) for each in strain])
+    return {Readout.STRAIN: measured[-1], Readout.CHANGE_OF_STRAIN: measured[-1] - measured.mean(axis=0)}
+
+
+def _require_no_inertia(scene: Scene, frequency: float, effect: float) -> None:
+    limit = scene.model.vibration.inertia_limit
+    if effect > limit:
+        raise InertiaError(
+            f"inertia changes receptor strain by {effect:.0%} > {limit:.0%} at {frequency:g} Hz;"
+            f" try at most {highest_frequency(frequency, effect, limit):.0f} Hz"
+        )
+
+
+def _row(
+    scene: Scene,
+    cycle: Cycle,
+    frequency: float,
+    interface: Interface,
+    readout: Readout,
+    outcome: Outcome,
+) -> dict[str, Any]:
+    """One row of the frequency table."""
+    return {
+        "device": scene.device.name,
+        "condition": cycle.name,
+        "dispersion": cycle.dispersion,
+        "phase_deg": cycle.phase_deg,
+        "frequency_hz": frequency,
+        "interface": str(interface),
+        "readout": str(readout),
+        "score": outcome.scores.get(readout),
+        "unit": SCORE_UNIT,
+        "inertia": outcome.inertia,
+        "note": outcome.note,
+    }
