@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fingerpad.readout import GaborFilter
-from fingerpad.scenefile import load_scene
 
-from fingerpad.scene import Scene
+from fingerpad.scene.readout import GaborFilter
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.scenefile import load_scene
 from support import checksum, fingerprint, path_of, reached_modules
 
 ROOT = Path(__file__).parents[1]
