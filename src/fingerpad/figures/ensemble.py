@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..ensemble.alternatives import FIRST, SECOND
-from ..perception.claims import Holds, Kind
+from ..perception.statements import Kind
+from ..perception.verdicts import Holds
 from ..scene.tissue_law import Kinematics
 from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 

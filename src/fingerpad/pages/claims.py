@@ -6,7 +6,8 @@ from collections import Counter
 
 import pandas as pd
 
-from ..perception.claims import Holds, verdict_counts
+from ..perception.claims import verdict_counts
+from ..perception.verdicts import Holds
 from .filling import table
 
 

@@ -1,0 +1,128 @@
+"""Verdicts on comparisons of scores and of correlations: yes, no, or undecided.
+
+Undecided is what compares numbers that differ by less than their errors, or whose errors are not known; and what some
+ratings with the stated order would bear out and others not, where their order is all that is known of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import pairwise
+from typing import Any
+
+import pandas as pd
+
+from ..readouts.roughness import SAME
+from .ratings import RatingKind
+
+NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than their errors
+
+
+class Holds(StrEnum):
+    """Whether a statement holds; undecided where errors of scores or the choice of ratings leave it open."""
+
+    YES = "yes"
+    NO = "no"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True)
+class Score:
+    """A score and its error, in one unit; an infinite error where it is not known."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Correlation:
+    """Pearson's r [1] over all ratings that may be meant, and what errors of scores can add up to in it."""
+
+    lowest: float
+    highest: float
+    error: float
+
+
+Chain = Sequence[tuple[str, Score]]  # (label, score), in the order in which the scores should rise
+
+
+def relation(low: Score, high: Score) -> str:
+    """How two scores compare: `<`, `=` (but for the solver's tolerance), `≈` (within the larger error) or `>`."""
+    difference = abs(high.value - low.value)
+    if difference <= SAME * max(abs(low.value), abs(high.value)):
+        return "="
+    if difference < max(low.error, high.error):
+        return NEAR
+    return "<" if low.value < high.value else ">"
+
+
+def relations(chain: Chain) -> list[str]:
+    """The `relation` of every score in a chain to the one after it."""
+    return [relation(low, high) for (_, low), (_, high) in pairwise(chain)]
+
+
+def rises(steps: Sequence[str]) -> Holds:
+    """Whether each of the steps rises."""
+    if set(steps) <= {"<", NEAR}:
+        return Holds.UNDECIDED if NEAR in steps else Holds.YES
+    return Holds.NO
+
+
+def chain_text(chain: Chain) -> str:
+    """The chain as it is, right or wrong: `0°: 1.2 < 90°: 1.5 > 180°: 1.3`."""
+    texts = [f"{label}: {score.value:.4g}" for label, score in chain]
+    return " ".join([texts[0], *(f"{step} {text}" for step, text in zip(relations(chain), texts[1:], strict=True))])
+
+
+def held(holds: bool) -> Holds:
+    """The verdict on what is certain."""
+    return Holds.YES if holds else Holds.NO
+
+
+def all_hold(parts: Sequence[Holds]) -> Holds:
+    """Whether every part of a statement holds."""
+    if Holds.NO in parts:
+        return Holds.NO
+    return Holds.UNDECIDED if Holds.UNDECIDED in parts else Holds.YES
+
+
+def throughout(ends: Sequence[Holds]) -> Holds:
+    """Whether a statement holds over a range, from whether it does at its ends."""
+    return ends[0] if len(set(ends)) == 1 else Holds.UNDECIDED
+
+
+def is_less(low: float, high: float, error: float) -> Holds:
+    """Whether a number is less than another, by more than an error."""
+    if abs(high - low) < error:
+        return Holds.UNDECIDED
+    return held(low < high - SAME * abs(high))
+
+
+def slope_of(row: Mapping[str, Any]) -> int:
+    """Sign of the slope; 0 also where there is none, as for a constant score."""
+    return 0 if pd.isna(row["slope_sign"]) else int(row["slope_sign"])
+
+
+def is_surrogate(row: Mapping[str, Any]) -> bool:
+    """Whether a correlation is one with ordinal surrogates."""
+    return bool(row["rating_kind"] == RatingKind.SURROGATE.label)
+
+
+def r_of(row: Mapping[str, Any]) -> Correlation:
+    """Pearson's r [1]; of surrogates over all ratings with the stated order, without one over all there are. What
+    errors of scores can add up to in it is taken to the first order. No slope is r = 0.
+    """
+    sign = slope_of(row)
+    if sign == 0:
+        return Correlation(0.0, 0.0, 0.0)
+    error = math.inf if pd.isna(row["r_error"]) else float(row["r_error"])
+    ends = [float(row["r2"])] * 2
+    if is_surrogate(row):
+        ends = [0.0, 1.0] if pd.isna(row["r2_lowest"]) else [float(row["r2_lowest"]), float(row["r2_highest"])]
+    weakest, strongest = (sign * math.sqrt(each) for each in ends)
+    if weakest == 0.0:  # where r can vanish, it can change its sign
+        weakest = -strongest
+    return Correlation(min(weakest, strongest), max(weakest, strongest), error)
