@@ -35,7 +35,7 @@ def smallest_stiffness(tissue: Tissue, gradient: FloatArray) -> FloatArray:
     """Smallest eigenvalue (...) [MPa] of the acoustic tensor over all directions, at displacement gradients
     (2, 2, ...).
 
-    >>> from fingerpad.tissue_law import Law
+    >>> from fingerpad.scene.tissue_law import Law
     >>> at_rest = Tissue(Law.HENCKY, np.array(1.0), np.array(0.5), 2.0)
     >>> float(smallest_stiffness(at_rest, np.zeros((2, 2))).round(12))
     0.5
