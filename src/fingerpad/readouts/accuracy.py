@@ -3,9 +3,9 @@
 Elements and load increments of the second solution are COARSENING times as large, those of the third COARSEST times.
 With an order p of convergence the error of the first is |difference| / (times^p - 1). Contact fronts converge with the
 first order, strains with the second, increments with the second; the first is assumed of all (ORDER). A single
-difference may vanish by chance, so no relative estimate is below the lower median of those for the same device and
-read-out, in which conditions that share a stimulus, and so a score on either mesh, count once. A change of strain does
-not converge evenly: in that median stands the larger of what both coarser solutions say of it; nor is it known better
+difference may vanish by chance, so no relative estimate is below the lower median, for the same device and read-out, of
+the larger of what both coarser solutions say: conditions share a mesh and a pre-indentation, and so may share the
+chance. Those that share a stimulus, and so a score on either mesh, count once. Nor is a change of strain known better
 than strain, of which it is a difference. And as a device may have a single condition, none is below LEAST.
 """
 
@@ -45,7 +45,7 @@ def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[s
             continue
         coarse, coarsest = float(second[case]["score"]), second[case]["coarsest"]
         estimate[case] = larger = max(_estimated(score, coarse, COARSENING), LEAST * score)
-        if row["readout"] == Readout.CHANGE_OF_STRAIN and coarsest not in {None, ""}:
+        if coarsest not in {None, ""}:
             larger = max(larger, _estimated(score, float(coarsest), COARSEST))
         if score > 0.0:  # a stimulus that is none changes nothing, on any mesh
             relative.setdefault(_of(row, GROUP), {})[row["interface"], score, coarse] = larger / score
