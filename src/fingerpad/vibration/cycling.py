@@ -28,6 +28,7 @@ from .creep import Creep
 MAX_CYCLES = 60  # [1] before it is given up; source: usual count is 3-10 (measured)
 REPEATED = 5e-4  # change of what is read at the receptors from cycle to cycle [1]; source: a tenth of the score error
 # that is aimed at (0.5 %). Friction may let the skin walk on by less than that, which is not followed
+NOISE = 1e-8  # of strain [1], below which its change is rounding; source: ten tolerances of the contact solver
 
 
 @dataclass(frozen=True)
@@ -55,12 +56,13 @@ class Moment:
 class Vibration:
     """The last cycle of a vibration.
 
-    problems, states: of contact at the ends of its steps, the last at phase 0. strain: (n_times, 3m) at the receptors
-    then [1]. cycles: that it took.
+    problems, states: of contact at the ends of its steps, the last at phase 0. skin: (n_times, n, 2) displacement of
+    contact nodes then [mm]. strain: (n_times, 3m) at the receptors then [1]. cycles: that it took.
     """
 
     problems: list[ContactProblem]
     states: list[ContactState]
+    skin: FloatArray
     strain: FloatArray
     cycles: int
 
@@ -95,24 +97,28 @@ def vibrate(
             moments.append(moment)
         strain = _strain(section, creep, before, moments)
         then, watched = watched, [strain[-1], strain[-1] - strain.mean(axis=0)]
-        if number > 1 and all(map(_repeated, watched, then)):
+        noise = NOISE * float(np.linalg.norm(strain[-1]))
+        if number > 1 and all(_repeated(*each, noise) for each in zip(watched, then, strict=True)):
             problems = [replace(stepping.problem, free=each.free) for each in moments]
-            return Vibration(problems, [each.state for each in moments], strain, number + 1)
+            moves = [(stepping.problem.compliance @ each.state.force.ravel()).reshape(-1, 2) for each in moments]
+            skin = np.array([each.free + moved for each, moved in zip(moments, moves, strict=True)])
+            return Vibration(problems, [each.state for each in moments], skin, strain, number + 1)
         if number > 0:  # the first cycle is another than all that follow
             left = stepping.fading**steps
             for_ever = (moment.memory - left * memory) / (1.0 - left)
             # forces answer what has crept, so that less is left for ever: as much as if all tissue crept alike
             answered = np.tensordot(share, for_ever - moment.memory, 1)
             moment = replace(moment, memory=for_ever - answered)
+    why = "the skin walks on under friction, or tissue still creeps; try a smaller amplitude"
     raise CycleError(
-        f"{MAX_CYCLES} cycles at {frequency:g} Hz have not come to repeat themselves: the skin walks on under friction;"
-        " try a smaller amplitude"
+        f"{MAX_CYCLES} cycles at {frequency:g} Hz have not come to repeat themselves: "
+        + (why if problem.friction > 0.0 else "tissue still creeps")
     )
 
 
-def _repeated(now: FloatArray, then: FloatArray) -> bool:
+def _repeated(now: FloatArray, then: FloatArray, noise: float) -> bool:
     """Whether what is read in a cycle is what was read in the one before."""
-    return bool(np.linalg.norm(now - then) <= REPEATED * np.linalg.norm(now))
+    return bool(np.linalg.norm(now - then) <= REPEATED * np.linalg.norm(now) + noise)
 
 
 def displacement(cycle: Cycle, phase: float) -> FloatArray:

@@ -30,8 +30,8 @@ from ..scene.scene import Scene
 from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import SectionMesh
 from .creep import Creep
-from .cycling import vibrate
-from .inertia import condense_vibrating, highest_frequency, inertia_effect
+from .cycling import Vibration, vibrate
+from .inertia import condense_vibrating, highest_frequency, inertia_effect, slipping, stuck
 
 SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed
 
@@ -98,23 +98,27 @@ def _outcome(
     at: Vibrating | None,
 ) -> Outcome:
     """What becomes of a condition at a frequency, slowly if there is none."""
-    frequency, effect = (
-        (at.frequency, inertia_effect(scene, indented, cycle, at.still, at.moving)) if at else (SLOWLY, 0.0)
-    )
+    frequency, effect = at.frequency if at else SLOWLY, 0.0
+    sticks = indented.problem.friction > 0.0
     try:
-        _require_no_inertia(scene, frequency, effect)
-        scores = vibration_scores(scene, condensed, creep, indented, cycle, frequency)
+        if at and sticks:
+            effect = inertia_effect(scene, stuck(indented, cycle), at.still, at.moving)
+            _require_no_inertia(scene, frequency, effect)
+        vibration = certified_vibration(scene, condensed, creep, indented, cycle, frequency)
+        if at and not sticks:
+            effect = inertia_effect(scene, slipping(vibration), at.still, at.moving)
+            _require_no_inertia(scene, frequency, effect)
         note = "; ".join(depth_caveats(scene, depth(indented.problem, _highest(indented, cycle))))
-        return Outcome(scores, effect, note)
+        return Outcome(vibration_scores(scene, condensed, vibration), effect, note)
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
 
 
-def vibration_scores(
+def certified_vibration(
     scene: Scene, condensed: Condensed, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
-) -> dict[Readout, float]:
-    """Both scores [mm2] of a condition at a frequency [Hz], if all states of its last cycle have their certificate.
-    Raises ContactError, naming it.
+) -> Vibration:
+    """A condition at a frequency [Hz], if all states of its last cycle have their certificate. Raises ContactError,
+    naming it.
     """
     speed = f"{frequency:g} Hz" if frequency > SLOWLY else "slowly"
     with named(f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {speed}"):
@@ -123,6 +127,11 @@ def vibration_scores(
         vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
         for problem, state in zip(vibration.problems, vibration.states, strict=True):
             certify(problem, condensed.section, state)
+    return vibration
+
+
+def vibration_scores(scene: Scene, condensed: Condensed, vibration: Vibration) -> dict[Readout, float]:
+    """Both scores [mm2] of a vibration."""
     filtered = filtered_readouts(condensed.resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
     return roughness_scores(scene, filtered)
 
@@ -143,8 +152,8 @@ def _require_no_inertia(scene: Scene, frequency: float, effect: float) -> None:
     limit = scene.model.vibration.inertia_limit
     if effect > limit:
         raise InertiaError(
-            f"inertia changes receptor strain by {effect:.0%} > {limit:.0%} at {frequency:g} Hz;"
-            f" try at most {highest_frequency(frequency, effect, limit):.0f} Hz"
+            f"inertia changes receptor strain by {effect:.1%} > {limit:.0%} at {frequency:g} Hz;"
+            f" try about {highest_frequency(frequency, effect, limit):.2g} Hz, or less"
         )
 
 

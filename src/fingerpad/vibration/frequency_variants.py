@@ -13,7 +13,7 @@ from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..tissue.mesh import SectionMesh
 from .creep import condense_creep
-from .frequency import vibration_scores
+from .frequency import certified_vibration, vibration_scores
 
 
 def relaxation_variants(scene: Scene) -> dict[str, Scene]:
@@ -50,7 +50,8 @@ def variant_rows(
             scores: dict[Readout, float] = {}
             note = ""
             try:
-                scores = vibration_scores(variant, condensed, creep, indented, cycle, frequency)
+                vibration = certified_vibration(variant, condensed, creep, indented, cycle, frequency)
+                scores = vibration_scores(variant, condensed, vibration)
             except ContactError as error:
                 note = f"{NO_PREDICTION}: {error}"
             rows.append(
