@@ -13,6 +13,8 @@ from fingerpad.prediction import edges
 from fingerpad.prediction.edges import REACH, edge_intervals, mesh_device
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow
+from fingerpad.tissue import mesh as mesh_of
+from fingerpad.tissue.actuator_body import condense_body
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
 from fingerpad.tissue.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
 from fingerpad.tissue.reach import contact_tractions
@@ -99,6 +101,34 @@ def test_a_strip_of_many_nodes_is_no_warning(caplog: pytest.LogCaptureFixture) -
     thick = replace(row, body=replace(row.body, thickness=1.0))
     assert mesh_strip(thick, base.model.numerics).p.shape[1] > 1000
     assert not caplog.records
+
+
+@pytest.mark.parametrize("thickness", [1.0, 2.0, 6.0])
+def test_thick_bodies_have_higher_elements_far_from_the_face(thickness: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pressed and sheared as a whole, a body answers as with elements of one height, which are many more."""
+    base = scene("device3")
+    row = base.device.actuators
+    assert row.body is not None
+    given = replace(
+        base, device=replace(base.device, actuators=replace(row, body=replace(row.body, thickness=thickness)))
+    )
+    sizes, answers = [], []
+    for near in (mesh_of.NEAR, np.inf):
+        monkeypatch.setattr(mesh_of, "NEAR", near)
+        body = condense_body(given)
+        sizes.append(mesh_strip(given.device.actuators, base.model.numerics).t.shape[1])
+        along = np.tile(np.eye(2), (body.coordinate.size, 1))  # the face moves as a whole
+        answers.append(along.T @ np.linalg.solve(body.compliance, along))
+    assert sizes[0] < 0.6 * sizes[1]
+    # the source of HIGHEST: 0.4 %
+    assert np.abs(answers[0] - answers[1]).max() < 4.5e-3 * np.abs(answers[1]).max()
+
+
+def test_a_body_of_too_many_elements_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mesh_of, "MAX_ELEMENTS", 100)
+    base = scene("device3")
+    with pytest.raises(MeshError, match=r"actuator's body needs more than 100 elements; try a thinner body"):
+        mesh_strip(base.device.actuators, base.model.numerics)
 
 
 def test_strip_mirrors_and_is_fine_at_its_ends() -> None:
