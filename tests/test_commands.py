@@ -27,7 +27,7 @@ from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, UsageError
 from fingerpad.prediction import scoring as prediction
-from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats
+from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
 from fingerpad.prediction.scoring import Condensed, Solved, rows_of
 from fingerpad.readouts.resampling import resampling_to_grid
@@ -348,6 +348,16 @@ def test_caveats_of_a_solution() -> None:
     assert near == "certificate: penetration is 50% of its limit"
 
 
+def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_not() -> None:
+    """Each condition for itself: a recording in metres among others in mm."""
+    given = scene("device2").device.conditions[0]
+    still = np.zeros_like(given.normal)
+    assert stimulus_caveats(given) == []
+    assert stimulus_caveats(replace(given, normal=still, tangential=still)) == []
+    doubts = stimulus_caveats(replace(given, normal=still, tangential=1e-3 * given.tangential))
+    assert doubts == ["moves actuators by 2e-05 mm at most: are displacements in mm?"]
+
+
 def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
     """Finite strain is not."""
     given = scene("device2")
@@ -394,7 +404,11 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
         ("pitch: {value: 2.5", "pitch: {value: 4.2", "The row is wide for this finger"),
         ("pitch: {value: 2.5", "pitch: {value: 3.5", "The row is wide for this finger"),
         ("direction: {value: lateral", "direction: {value: normal", None),
-        ("tude: {value: 0.020", "tude: {value: 0.00002", "No stroke is longer than 0.1 micrometres"),
+        (
+            "tude: {value: 0.020",
+            "tude: {value: 0.00002",
+            "alternate_000 moves actuators by 2e-05 mm at most: are displacements in mm?",
+        ),
         ("absolute: {value: 0.188", "absolute: {value: 4.0", "A lateral stroke takes an actuator beside the finger"),
         (
             "amplitude: {value: 0.020",

@@ -22,7 +22,7 @@ from fingerpad.contact.increment import GIVING
 from fingerpad.contact.indentation import END_TOLERANCE
 from fingerpad.contact.linear_solution import follow_condition, indent_device, indented_state, solve_condition
 from fingerpad.contact.path import follow
-from fingerpad.contact.problem import contact_problem
+from fingerpad.contact.problem import contact_problem, named_stimulus
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError
 from fingerpad.prediction.edges import mesh_device
@@ -215,7 +215,7 @@ def test_a_row_too_wide_says_what_helps() -> None:
     still = lateral("still", [0.0, 0.0])
     row = replace(base.device.actuators, positions=(-7.0, 7.0))
     wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,)))
-    advice = r"a narrower row needs less indentation, and so does contact\.criterion: touch \(in config/config\.yaml"
+    advice = r"a narrower row needs less indentation, and so may contact\.criterion: touch \(in config/config\.yaml"
     with pytest.raises(ContactError, match=advice):
         solve_anew(wide.coarsened(4.0), still)
 
@@ -390,6 +390,8 @@ def test_a_stimulus_through_the_tissue_is_refused(interface: Interface) -> None:
     deep = Condition("deep", "test", 0.0, np.array([1.0]), np.array([[0, 0, room + 0.01, 0]]), np.zeros((1, 4)))
     with pytest.raises(DepthError, match=r"5\.01 mm deep, into 5 mm of tissue"):
         follow_condition(base, pressed.problem, pressed.state, deep)
+    with pytest.raises(DepthError, match=r"displacements are in mm$"), named_stimulus(base, deep, interface):
+        follow_condition(base, pressed.problem, pressed.state, deep)  # nothing else that could be left out helps
 
 
 def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:

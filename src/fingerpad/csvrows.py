@@ -51,6 +51,8 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
     """Lines that are not empty, with their numbers. Raises `error` if the file cannot be read or is no CSV."""
     line, lines = 0, []
     try:
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise error(f"{path}: is no file that ends; allowed: a CSV file")
         if (size := path.stat().st_size) > LARGEST_FILE:
             raise error(f"{path}: found {size} bytes; allowed: at most {LARGEST_FILE}")
         text = path.read_bytes().decode("utf-8-sig")

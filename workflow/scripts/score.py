@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.prediction.caveats import solution_caveats
+from fingerpad.prediction.caveats import solution_caveats, stimulus_caveats
 from fingerpad.readouts.roughness import score_rows
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
@@ -24,9 +24,10 @@ def main(
 ) -> None:
     """Read solution and filtered read-outs, integrate these, write one row a read-out."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    note = "; ".join(solution_caveats(scene, load(solution, Solution)))
+    tried = scene.device.condition(condition)
+    caveats = stimulus_caveats(tried) + solution_caveats(scene, load(solution, Solution))
     read = load(filtered, FilteredReadouts)
-    write_rows(score, score_rows(scene, scene.device.condition(condition), Interface(interface), read, note))
+    write_rows(score, score_rows(scene, tried, Interface(interface), read, "; ".join(caveats)))
 
 
 if __name__ == "__main__":

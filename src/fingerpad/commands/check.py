@@ -12,6 +12,7 @@ from ..errors import UsageError
 from ..figures.section import section_figure
 from ..figures.style import save_as, several
 from ..files import require_folder
+from ..prediction.caveats import stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
@@ -35,8 +36,6 @@ TOO_WIDE = (
 WIDE = 0.3
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
-TOO_SHORT = "No stroke is longer than 0.1 micrometres: are displacements in mm?"
-SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 STEPS = 3  # of the progress: mesh, figure, picture
 PICTURES = (".png", ".pdf", ".svg")
 
@@ -85,8 +84,8 @@ def described(scene: Scene) -> str:
         TOO_WIDE: deep,
         TOO_FAR: rise + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
-        TOO_SHORT: max(normal, lateral) < SHORTEST,
     }
+    doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]
     return (
         f"{device.title} ({device.name})\n"
         f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
@@ -94,7 +93,7 @@ def described(scene: Scene) -> str:
         f"{several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
         f"skin over the outermost faces lies {rise:.2g} mm above that touched first, on a pad of {pad:g} mm"
-        + "".join(f"\n{warning}" for warning, holds in warned.items() if holds)
+        + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
     )
 
 

@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager, contextmanager
 
 import numpy as np
 
-from ..errors import ContactError, CriterionError, MeshError
+from ..errors import ContactError, CriterionError, DepthError, MeshError
 from ..scene.contact_law import Criterion, Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
@@ -17,7 +17,7 @@ from .formulation import ContactProblem
 
 FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
-TOUCH = ", and so does contact.criterion: touch (in config/config.yaml, where it changes every device)"
+TOUCH = ", and so may contact.criterion: touch (in config/config.yaml, where it changes every device)"
 SMALL_ALONE = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
 SHEAR_ALONE = "; `interfaces: shear` in the device's file leaves out what is without friction"
 
@@ -59,11 +59,11 @@ def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
 
 @contextmanager
 def named(what: str, advice: str = "") -> Iterator[None]:
-    """Name in every ContactError what was being solved, and say what else may help."""
+    """Name in every ContactError what was being solved, and say what else may help; nothing else does against depth."""
     try:
         yield
     except ContactError as error:
-        raise type(error)(f"{what}: {error}{advice}") from error
+        raise type(error)(f"{what}: {error}{'' if isinstance(error, DepthError) else advice}") from error
 
 
 def left_out(scene: Scene, interface: Interface) -> str:

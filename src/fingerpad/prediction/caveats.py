@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..readouts.roughness import KEY, SAME
+from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 
@@ -25,6 +26,14 @@ RIVAL = 0.98
 DEEP = 0.5
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
+SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
+
+
+def stimulus_caveats(condition: Condition) -> list[str]:
+    """Strokes so short that they may be in other units than mm."""
+    stroke = condition.stroke
+    tiny = 0.0 < stroke < SHORTEST
+    return [f"moves actuators by {stroke:.2g} mm at most: are displacements in mm?"] if tiny else []
 
 
 def solution_caveats(scene: Scene, solution: Solution) -> list[str]:

@@ -27,7 +27,7 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import SectionMesh, mesh_section
 from ..tissue.receptors import arc_length, receptor_strain
-from .caveats import solution_caveats
+from .caveats import solution_caveats, stimulus_caveats
 
 Result = TypeVar("Result")
 Unsolved = ContactError | CondensationError  # why there is no solution, though there is a mesh
@@ -181,8 +181,9 @@ def rows_of(
     """
     if isinstance(solved.solution, Unsolved):
         return unscored_rows(scene, solved.condition, solved.interface, f"{unsolved}{solved.solution}")
-    read, note = read_out(scene, condensed, solved.solution), "; ".join(solution_caveats(scene, solved.solution))
-    return score_rows(scene, solved.condition, solved.interface, read, note)
+    caveats = stimulus_caveats(solved.condition) + solution_caveats(scene, solved.solution)
+    read = read_out(scene, condensed, solved.solution)
+    return score_rows(scene, solved.condition, solved.interface, read, "; ".join(caveats))
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

@@ -141,6 +141,11 @@ class Condition:
         """Displacements (n_times, n_actuators, 2) [mm], tangential and normal."""
         return np.stack([self.tangential, self.normal], axis=2)
 
+    @property
+    def stroke(self) -> float:
+        """Farthest [mm] that it moves an actuator along x or y."""
+        return float(np.abs(self.moves).max())
+
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""
         return (
@@ -195,7 +200,8 @@ class Device:
                 f" the device has {count}",
             )
             for time, tangential in zip(condition.time, condition.tangential, strict=True):
-                self._require_apart(f"condition {condition.name}, time {time:g} s", -np.diff(tangential))
+                when = f", time {time:g} s" if condition.time.size > 1 else ""
+                self._require_apart(f"condition {condition.name}{when}", -np.diff(tangential))
         for cycle in self.cycles:
             self._require_apart(f"condition {cycle.name}, as a vibration", np.abs(np.diff(cycle.tangential)))
 
