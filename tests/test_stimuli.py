@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import re
 from pathlib import Path
@@ -100,7 +101,7 @@ def test_a_phase_may_have_decimals() -> None:
 
 @pytest.mark.parametrize("playback", ["snapshot", "cycle"])
 def test_a_snapshot_does_not_tell_where_a_wave_runs(playback: str) -> None:
-    """At phases p and 360 - p pins with lags 0, 1, 2, ... are in one place, to the last digit, at the first one's peak;
+    """At phases p and 360 - p pins ahead by 0, 1, 2, ... are in one place, to the last digit, at the first one's peak;
     they are not on the way there.
     """
     count, phases = 64, [37.3, 60, 120, 240, 300, 322.7]
@@ -200,6 +201,16 @@ def test_measured_device_is_the_one_with_that_history(tmp_path: Path) -> None:
 def test_recording_lies_with_the_device(tmp_path: Path, file: str) -> None:
     with pytest.raises(SceneError, match=r"stimulus.recordings.tap.file.value: found .* in the device file's folder"):
         check_device(device(tmp_path, file), SCHEMAS, CONFIG)
+
+
+def test_a_recording_that_never_ends_is_no_recording(tmp_path: Path) -> None:
+    """Files without an end are not read: a link to a device, or a pipe that waits for its writer."""
+    pipe, link = tmp_path / "pipe.csv", tmp_path / "zero.csv"
+    os.mkfifo(pipe)
+    link.symlink_to("/dev/zero")
+    for path in (pipe, link):
+        with pytest.raises(SceneError, match=r"\.csv: is no file that ends; allowed: a CSV file"):
+            read_recording(path, 4)
 
 
 def test_mistake_names_device_file_key_and_recording(tmp_path: Path) -> None:

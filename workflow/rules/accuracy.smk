@@ -1,9 +1,9 @@
 # How far the library is off closed forms: contact, partial slip, layers, near incompressibility, orders of convergence.
 # And how far scores are off a reference of 20 times the unknowns, and whether their stated errors are honest.
-# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (an hour of one core, 6 GB).
+# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (two hours of one core, 8 GB).
 # REQUIRED INPUTS: scene files, results/scores.csv.
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms{_finite}.{png,pdf},
-# results/accuracy/scores.csv
+# results/accuracy/{increments,scores}.csv, results/{kinematics}/{device}/reference.csv
 
 
 rule accuracy:

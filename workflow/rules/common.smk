@@ -67,10 +67,10 @@ def scene_of(wildcards):
 def condition_of(wildcards):
     """The condition of the wildcards; an unknown one is an error that names the known ones."""
     device = scene_of(wildcards).device
-    names = [condition.name for condition in device.conditions]
-    if wildcards.condition not in names:
-        raise WorkflowError(f"{device.name} has no condition {wildcards.condition!r}: there are {', '.join(names)}")
-    return device.condition(wildcards.condition)
+    try:
+        return device.condition(wildcards.condition)
+    except FingerpadError as error:
+        raise WorkflowError(str(error)) from None
 
 
 def device_file(wildcards):

@@ -67,14 +67,19 @@ class DeckSettings:
     def __post_init__(self) -> None:
         for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
             if not 0 < getattr(self, name) < math.inf:
-                raise SceneError(f"deck: {name} must be positive and finite, found {getattr(self, name)}")
+                raise SceneError(f"deck: {_told(name)} must be positive and finite, found {getattr(self, name)}")
         if self.rest_increments < 0:
-            raise SceneError(f"deck: rest_increments must not be negative, found {self.rest_increments}")
+            raise SceneError(f"deck: {_told('rest_increments')} must not be negative, found {self.rest_increments}")
 
     @property
     def steps_a_move(self) -> int:
         """Steps [1] of each move of the actuators: the move, and the rest after it if there is one."""
         return 2 if self.rest_increments else 1
+
+
+def _told(name: str) -> str:
+    """A setting's name as one says it."""
+    return name.replace("_", " ")
 
 
 @dataclass(frozen=True)

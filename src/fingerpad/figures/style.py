@@ -6,12 +6,12 @@ Nothing rests on colour alone: phases differ in colour, lightness and marker, di
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, TypeVar
 
 import matplotlib as mpl
 import numpy as np
@@ -29,6 +29,9 @@ from ..scene.tissue_law import Kinematics
 
 if TYPE_CHECKING:
     import pandas as pd
+
+Arguments = ParamSpec("Arguments")
+Drawn = TypeVar("Drawn")
 
 MM = 1.0 / 25.4  # inch
 NARROW, MIDDLE, WIDE = 87.0, 114.0, 178.0  # column widths [mm]; source: PNAS
@@ -137,7 +140,7 @@ class Styles:
     spreads: list[Line2D]
 
 
-def styled(function: Any) -> Any:
+def styled(function: Callable[Arguments, Drawn]) -> Callable[Arguments, Drawn]:
     """Decorator of figure functions: the style holds while they run, and nothing global is left changed."""
     return mpl.rc_context(RC)(function)
 

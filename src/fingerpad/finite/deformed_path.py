@@ -1,8 +1,8 @@
 """Stimuli on tissue that deforms much: paths on the condensed tangent, corrected by what the tissue really bears.
 
 About the pre-indented state u_0 with tangent K, a path on the condensed maps ends with forces f and the displacement
-    u' = u + K^-1 (L f - R(u))
-of the tissue. Where R(u') is not L f, the contact nodes' displacement without forces, free = L^T (u - K^-1 R(u)), is
+    u' = u + K^-1 (W f - R(u))
+of the tissue. Where R(u') is not W f, the contact nodes' displacement without forces, free = W^T (u - K^-1 R(u)), is
 another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
 the way from u_0, where K is exact, and evenly from elsewhere; without friction the way leaves no trace, and only its
 end is found anew. So the tissue is in equilibrium wherever a move ends.
@@ -60,7 +60,7 @@ class Spring:
     """A spring that makes the softest mode v of the contact nodes as stiff as the next.
 
     With C v = c v and the next eigenvalue c', C' = C - (c - c') v v^T is the compliance of contact nodes, and
-    K^-1 - (c - c')/c^2 g g^T with g = K^-1 L v that of the tissue (Sherman and Morrison). Only corrections feel it.
+    K^-1 - (c - c')/c^2 g g^T with g = K^-1 W v that of the tissue (Sherman and Morrison). Only corrections feel it.
     field: (n_free,) g. share: (c - c')/c^2. compliance: C'.
     """
 

@@ -2,7 +2,7 @@
 
 Pre-indentation is solved by `deformed`, on the right half of the section where everything mirrors. About the state
 (u, f) in which it ends, with tangent K, contact forces f' move the contact nodes by
-    L^T u' = L^T u + C (f' - f),        C = L^T K^-1 L,
+    W^T u' = W^T u + C (f' - f),        C = W^T K^-1 W,
 so that all conditions run on a compliance that is condensed once, as on linear tissue (`deformed_path`).
 """
 

@@ -30,8 +30,8 @@ SHARES = {"neighbour": (0.5, -0.5), "row": (1.0, -1.0), "leader": (0.0, -1.0)}
 # ASSUME: stimulus.playback: cycle is followed in CYCLE_STEPS straight lines
 CYCLE_STEPS = 64  # [1]; source: scores are within 0.2 % of those with 128 for Devices 1 and 2, with 16 within 1.4 %
 
-# Decimals of a lag from the peak [deg], to which lags of 60 and 300 degrees are one; source: 64 lags of up to 360 each
-# come with a rounding of 4e-12
+# Decimals of a phase from the peak [deg], to which phases of 60 and 300 degrees are one; source: 64 times up to 360
+# each come with a rounding of 4e-12
 FOLDED = 9
 
 
@@ -40,14 +40,14 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
     half-cycle, here as in all that follows.
     """
     conditions = []
-    for dispersion, phase, lag in _lags(stimulus, count):
+    for dispersion, phase, lead in _leads(stimulus, count):
         if stimulus["playback"] == "snapshot":
-            from_peak = np.round(np.abs(np.mod(lag + 180.0, 360.0) - 180.0), FOLDED)
+            from_peak = np.round(np.abs(np.mod(lead + 180.0, 360.0) - 180.0), FOLDED)
             displacement = stimulus["amplitude"] * np.round(np.cos(np.radians(from_peak)), CROSSING)[None, :]
             time = np.array([1.0])
         else:
             time = np.arange(1, CYCLE_STEPS + 1) / CYCLE_STEPS
-            displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + np.radians(lag))
+            displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + np.radians(lead))
         directed = _directed(stimulus, displacement)
         conditions.append(Condition(_named(dispersion, phase), dispersion, float(phase), time, **directed))
     return conditions
@@ -56,8 +56,8 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
 def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     """Actuator i at A cos(w t + k_i p)."""
     cycles = []
-    for dispersion, phase, lag in _lags(stimulus, count):
-        amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * np.radians(lag))
+    for dispersion, phase, lead in _leads(stimulus, count):
+        amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * np.radians(lead))
         directed = _directed(stimulus, amplitude)
         cycles.append(Cycle(_named(dispersion, phase), dispersion, float(phase), **directed))
     return cycles
@@ -73,8 +73,10 @@ def _named(dispersion: str, phase: float) -> str:
     return "_".join([dispersion, whole.zfill(3), *filter(None, [fraction])])
 
 
-def _lags(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float, FloatArray]]:
-    """Dispersion, phase difference p [deg] and the actuators' lags k_i p (count,) [deg] of each condition."""
+def _leads(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float, FloatArray]]:
+    """Dispersion and phase difference p [deg] of each condition, and by how much k_i p (count,) [deg] actuators are
+    ahead.
+    """
     for dispersion, groups in stimulus["dispersions"].items():
         if len(groups) != count:
             raise SceneError(f"stimulus.dispersions.{dispersion}: needs {count} group indices, found {len(groups)}")

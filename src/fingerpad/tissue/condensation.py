@@ -1,7 +1,7 @@
 """Condensation: the tissue's stiffness, factorised once, reduced to two small dense maps.
 
-With forces f on the skin that actuators can reach (`reach`), nodal forces L f, and everything else unloaded,
-    K u = L f,      u_c = L^T u = C f      displacement of the skin in contact; C compliance
+With forces f on the skin that actuators can reach (`reach`), nodal forces W f, and everything else unloaded,
+    K u = W f,      u_c = W^T u = C f      displacement of the skin in contact; C compliance
                     eps_r = B u = E f      strain along the receptor line.
 K is factorised once, and a solution for every unit force gives a column of both maps (docs/decisions/0014).
 """
