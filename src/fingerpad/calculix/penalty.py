@@ -99,7 +99,7 @@ def follow_penalties(
 
     weight: (n,) length of skin of each node [mm]. Raises ConvergenceError.
     """
-    solve: SolveIncrement[PenaltyState] = partial(_increment, weight, law)
+    solve: SolveIncrement[PenaltyState, None] = partial(_increment, weight, law)
     return advance(problem, state, target, increments, None, solve)[0]
 
 

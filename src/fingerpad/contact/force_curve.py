@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,16 +12,19 @@ from ..scene.scene import Scene
 from .formulation import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .indentation import raise_until
-from .path import SolveIncrement, State
+from .patch import Patch
+from .path import Carried, SolveIncrement, State
 from .problem import increments
 
 RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction
 
 
-def recording(solve: SolveIncrement[State], note: Callable[[State], object]) -> SolveIncrement[State]:
+def recording(solve: SolveIncrement[State, Carried], note: Callable[[State], object]) -> SolveIncrement[State, Carried]:
     """An increment's solver that shows every state it finds."""
 
-    def solve_and_note(problem: ContactProblem, start: State, actuator: FloatArray, carried: Any) -> tuple[State, Any]:
+    def solve_and_note(
+        problem: ContactProblem, start: State, actuator: FloatArray, carried: Carried
+    ) -> tuple[State, Carried]:
         state, left = solve(problem, start, actuator, carried)
         note(state)
         return state, left
@@ -61,7 +63,7 @@ def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:
     """The curve (k, 2) of a scene with small kinematics. Raises ContactError."""
     states: list[ContactState] = []
     touch = touching_height(problem)
-    solve = recording(solve_increment, states.append)
+    solve: SolveIncrement[ContactState, Patch | None] = recording(solve_increment, states.append)
     limit, (count, _) = scene.model.finger.pad_thickness, increments(scene, problem)
     end = raise_until(problem, scene.model.contact.criterion, count, limit, rest(problem, touch), solve)
     return curve_of(states, touch, end)

@@ -11,7 +11,7 @@ from ..errors import CriterionError
 from ..scene.contact_law import Criterion
 from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
-from .path import SolveIncrement, advance
+from .path import Carried, SolveIncrement, advance
 from .profile import profile
 
 State = TypeVar("State", bound=ContactState)
@@ -34,7 +34,7 @@ def raise_until(
     increments: int,
     limit: float,
     state: State,
-    solve: SolveIncrement[State],
+    solve: SolveIncrement[State, Carried | None],
 ) -> State:
     """Raise all actuators together until the criterion holds.
 
@@ -45,7 +45,7 @@ def raise_until(
     Raises CriterionError if the criterion is not met within the limit.
     """
     touch = float(state.actuator[0, 1])
-    carried = None
+    carried: Carried | None = None
     over_face = np.abs(state.place) <= problem.row.half_face
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
     stride = max(rise / increments, END_STEP)

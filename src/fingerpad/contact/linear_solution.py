@@ -46,7 +46,7 @@ def follow_condition(
     problem: ContactProblem,
     before: ContactState,
     condition: Condition,
-    solve: SolveIncrement[ContactState] = solve_increment,
+    solve: SolveIncrement[ContactState, Patch | None] = solve_increment,
 ) -> list[ContactState]:
     """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
     require_tissue(problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)

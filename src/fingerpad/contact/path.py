@@ -27,6 +27,7 @@ class PathState(Protocol):
 
 
 State = TypeVar("State", bound=PathState)
+Carried = TypeVar("Carried")  # what an increment leaves to use again, as a patch; or None
 
 NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 times it is rounding
 # Distances of the closest nodes [1] to which increments grow again once one was halved, as fronts that cross many nodes
@@ -35,14 +36,14 @@ CROSSED = 2.0
 CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
 
 
-class SolveIncrement(Protocol[State]):
+class SolveIncrement(Protocol[State, Carried]):
     """Solves one increment: from a problem, a state, where the actuators go, and what the last increment left to use
     again. Raises NotConvergedError.
     """
 
     def __call__(
-        self, problem: ContactProblem, start: State, actuator: FloatArray, carried: Any, /
-    ) -> tuple[State, Any]: ...
+        self, problem: ContactProblem, start: State, actuator: FloatArray, carried: Carried, /
+    ) -> tuple[State, Carried]: ...
 
 
 def follow(problem: ContactProblem, state: ContactState, target: FloatArray, increments: int) -> ContactState:
@@ -59,10 +60,10 @@ def advance(
     state: State,
     target: FloatArray,
     increments: int,
-    carried: Any,
-    solve: SolveIncrement[State],
+    carried: Carried,
+    solve: SolveIncrement[State, Carried],
     drifting: bool = False,
-) -> tuple[State, Any]:
+) -> tuple[State, Carried]:
     """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
     and giving the last of it back. Where the actuators stand there is nothing to solve, unless nodes are `drifting`.
     """
@@ -102,7 +103,7 @@ def advance(
 
 def drifting_to(
     last: FloatArray, begin: FloatArray, target: FloatArray, power: int = 1
-) -> SolveIncrement[ContactState]:
+) -> SolveIncrement[ContactState, Patch | None]:
     """What solves an increment of a line from `begin` to `target` (n_actuators, 2) [mm] along which contact nodes
     without forces drift from the problem's place to `last` (n, 2) [mm], with a power of the way.
     """

@@ -118,7 +118,7 @@ def increments_of(count: int) -> tuple[int, int]:
     return tissue, -(-count // tissue)
 
 
-def solver_on(part: TissuePart, increments: int) -> SolveIncrement[DeformedState]:
+def solver_on(part: TissuePart, increments: int) -> SolveIncrement[DeformedState, Tangent | None]:
     """What solves an increment on that tissue, for a path, in so many of contact."""
     return partial(solve_deformed_increment, part, increments)
 

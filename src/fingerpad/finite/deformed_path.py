@@ -208,7 +208,7 @@ def _followed(
     last: FloatArray,
     power: int,
     patch: Patch | None,
-) -> tuple[ContactState, Patch]:
+) -> tuple[ContactState, Patch | None]:
     """State at the end of a move along which contact nodes without forces drift from `first` to `last` (m, 2) [mm], and
     the last patch.
     """

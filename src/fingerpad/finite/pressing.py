@@ -39,6 +39,7 @@ from ..tissue.traction import Tractions
 from .deformation import elements_of
 from .deformed import (
     DeformedState,
+    Tangent,
     TissuePart,
     contact_state,
     deformed_state,
@@ -147,7 +148,9 @@ def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, inter
     )
 
 
-def _recorded(section: SectionMesh, start: _Start) -> tuple[SolveIncrement[DeformedState], list[ContactState]]:
+def _recorded(
+    section: SectionMesh, start: _Start
+) -> tuple[SolveIncrement[DeformedState, Tangent | None], list[ContactState]]:
     """What solves an increment, of skin that may not cross itself, and the states that it will have found."""
     states: list[ContactState] = []
     skin = skin_of(section, start.parts.dofs, start.mirrored)
