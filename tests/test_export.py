@@ -266,7 +266,7 @@ def test_command_refuses_settings_that_make_no_deck(
     flag: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([*export(tmp_path, CONDITION), flag, "0"]) == FAILED
-    assert f"{flag[2:].replace('-', '_')} must be positive" in capsys.readouterr().err
+    assert f"{flag[2:].replace('-', ' ')} must be positive" in capsys.readouterr().err
 
 
 def test_help_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:
