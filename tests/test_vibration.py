@@ -292,6 +292,18 @@ def test_next_to_no_vibration_comes_to_repeat_itself(amplitude: float) -> None:
         assert vibration(interface, normal(amplitude), 40.0).cycles < 10
 
 
+def test_what_rests_has_neither_score_nor_inertia() -> None:
+    """Of rounding a share as large as any would be inertia's."""
+    given = coarse()
+    asked = Scene(given.model, replace(given.device, frequencies=(80.0,), cycles=(normal(0.0),)))
+    condensed = condense_mesh(given, mesh(("device2", False)))
+    vibrating = [condense_vibrating_at(mesh(("device2", False)), asked, 80.0)]
+    rows = frequency_rows(asked, condensed, creeping(), vibrating, Interface.FRICTIONLESS)
+    assert [row["inertia"] for row in rows] == [0.0] * 4
+    # a billionth of the others' 3e-3
+    assert all(abs(row["score"]) < 1e-12 for row in rows if row["readout"] == Readout.CHANGE_OF_STRAIN)
+
+
 def test_table_says_where_inertia_forbids_a_prediction() -> None:
     given = coarse()
     device = replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1])

@@ -100,6 +100,7 @@ def _outcome(
     """What becomes of a condition at a frequency, slowly if there is none."""
     frequency, effect = at.frequency if at else SLOWLY, 0.0
     sticks = indented.problem.friction > 0.0
+    at = at if np.any(cycle.normal) or np.any(cycle.tangential) else None  # what rests has no inertia
     try:
         if at and sticks:
             effect = inertia_effect(scene, stuck(indented, cycle), at.still, at.moving)
