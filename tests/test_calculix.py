@@ -11,7 +11,6 @@ import pytest
 from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
-from fingerpad.calculix import run as calculix
 from fingerpad.calculix.crosscheck import (
     ContactModel,
     calculix_outcome,
@@ -23,7 +22,7 @@ from fingerpad.calculix.crosscheck import (
 )
 from fingerpad.calculix.deck import DeckSettings, input_deck, material_lines
 from fingerpad.calculix.deformed_crosscheck import deformed_outcome
-from fingerpad.calculix.run import read_printed, run
+from fingerpad.calculix.run import installed, read_printed, run
 from fingerpad.errors import CalculixError, ContactError
 from fingerpad.finite.deformation import elements_of, internal_force
 from fingerpad.finite.hyperelasticity import tissue_of
@@ -64,7 +63,7 @@ PRINTED = """
 LAWS = [Law.GREEN, Law.NEO_HOOKEAN, Law.OGDEN]  # that CalculiX has
 MATERIAL, EXPONENT = Material(0.08, 0.48), 9.0
 RECORDED = Path(__file__).with_name("expected") / "calculix_laws.csv"
-needs_calculix = pytest.mark.skipif(not calculix.installed(), reason="not installed: ccx (Debian: calculix-ccx)")
+needs_calculix = pytest.mark.skipif(not installed(), reason="not installed: ccx (Debian: calculix-ccx)")
 
 
 def printed(tmp_path: Path, values: list[float]) -> Path:

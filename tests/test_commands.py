@@ -26,7 +26,7 @@ from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, UsageError
-from fingerpad.prediction import scoring as prediction
+from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
 from fingerpad.prediction.scoring import Condensed, Solved, rows_of
@@ -262,7 +262,7 @@ def test_what_cannot_be_solved_leaves_the_rest(
     coarse: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """One interface that cannot be pressed, one condition that cannot be followed: the table says so, below it why."""
-    begin, follow = prediction.indent_device, prediction.stimulate
+    begin, follow = scoring.indent_device, scoring.stimulate
 
     def pressed(scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface) -> Indented:
         if interface is Interface.FRICTIONLESS:
@@ -274,8 +274,8 @@ def test_what_cannot_be_solved_leaves_the_rest(
             raise ContactError("too far")
         return follow(scene, section, indented, condition)
 
-    monkeypatch.setattr(prediction, "indent_device", pressed)
-    monkeypatch.setattr(prediction, "stimulate", moved)
+    monkeypatch.setattr(scoring, "indent_device", pressed)
+    monkeypatch.setattr(scoring, "stimulate", moved)
     assert main(["predict", "config/devices/device2.yaml"]) == 0
     said = capsys.readouterr().out
     lines = [line.split() for line in said.splitlines()]

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from fingerpad.errors import RatingError
-from fingerpad.perception import correlation as perception
+from fingerpad.perception import correlation
 from fingerpad.perception.correlation import correlation_table, extreme_ratings, r2_range, up_sets
 from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
@@ -382,12 +382,12 @@ def test_columns_and_one_row_for_each_device_interface_and_readout() -> None:
         [make_scores("device2", [1.0, 2.0, 4.0]), make_scores("device2", [1.0, 2.0, 4.0], interface="frictionless")]
     )
     table = make_table(scores)
-    assert list(table.columns) == perception.COLUMNS
+    assert list(table.columns) == correlation.COLUMNS
     assert table[["device", "interface", "readout"]].to_numpy().tolist() == [
         ["device2", "shear", "strain"],
         ["device2", "frictionless", "strain"],
     ]
-    assert list(make_table(scores.iloc[:0]).columns) == perception.COLUMNS
+    assert list(make_table(scores.iloc[:0]).columns) == correlation.COLUMNS
 
 
 @pytest.mark.parametrize("note", ["no prediction", "", math.nan])
