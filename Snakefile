@@ -46,7 +46,7 @@ include: "workflow/rules/pages.smk"
 
 for custom in sorted((BASE / "workflow" / "rules" / "custom").glob("*.smk")):
 
-    include: custom  # rules of a device that needs its own (docs/adding-a-device.md)
+    include: custom  # rules of a device that needs its own (docs/extending.md)
 
 
 rule all:

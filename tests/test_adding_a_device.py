@@ -1,4 +1,4 @@
-"""`docs/adding-a-device.md`, followed to the letter: every command is run, and every edit is made."""
+"""`docs/adding-a-device.md` and `docs/extending.md`, followed to the letter: every command is run, every edit made."""
 
 from __future__ import annotations
 
@@ -9,13 +9,16 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from conftest import LONGEST_RUN, ROOT, Job, Project
 
-PAGE = ROOT / "docs" / "adding-a-device.md"
+PAGES = [ROOT / "docs" / name for name in ("adding-a-device.md", "extending.md")]
 CASE = ["condition", "interface", "readout"]
+# Last digits that pages show: of five in scores, of two in errors. Other kernels move either by far less
+SCORE_DIGIT, ERROR_DIGIT = 1e-4, 0.1
 # `predict` and the workflow's jobs do the same arithmetic; a sum in another order moves a score by far less than this
 ROUNDING = 1e-9
 
@@ -30,9 +33,18 @@ class Block:
 
 
 def blocks() -> list[Block]:
-    """All fenced blocks of the page, in order."""
-    found = re.findall(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    """All fenced blocks of the pages, in order."""
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    found = re.findall(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     return [Block(*each) for each in found]
+
+
+def assert_printed(shown: str, printed: str) -> None:
+    """That a command printed what a page shows, up to the last digits of numbers."""
+    number = r"\d+\.\d+(?:e-?\d+)?"
+    assert re.sub(rf" *{number}", " #", printed) == re.sub(rf" *{number}", " #", shown)
+    for found, said in zip(*(re.findall(number, text) for text in (printed, shown)), strict=True):
+        assert float(found) == pytest.approx(float(said), rel=ERROR_DIGIT if "e" in said else SCORE_DIGIT)
 
 
 def replaced(text: str, block: str) -> str:
@@ -111,7 +123,11 @@ def test_the_page_does_what_it_says(changeable: Project, tmp_path: Path) -> None
     reader = Reader(changeable, tmp_path)
     shipped = changeable.files("results/small/device2")
     printed: dict[str, str] = {}
+    said = ""
     for block in blocks():
+        if block.language == "text":
+            assert_printed(block.text, said)
+            continue
         said = reader.follow(block)
         printed[block.text] = said
         if block.text == "snakemake all\n":  # ratings follow later on the page
@@ -127,6 +143,8 @@ def test_the_page_does_what_it_says(changeable: Project, tmp_path: Path) -> None
     for name in scores["condition"]:
         assert f"\n{name} " in predicted
     assert (scores["score_error"] > 0.0).all()
+    pressed = np.load(reader.folder / "results/small/mydevice/alternate_000/shear/solution.npz")["indentation"]
+    assert f"{pressed:.2f} mm here" in PAGES[0].read_text(encoding="utf-8")
     given = printed[next(block.text for block in blocks() if block.language == "python")]
     assert "alternate_090" in given
 

@@ -362,7 +362,7 @@ def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
     """Finite strain is not."""
     given = scene("device2")
     deep = replace(solved("device2", "alternate_090", Interface.SHEAR), depth=4.34)
-    assert solution_caveats(given, deep) == ["actuators go 87% of the pad deep: small strain does not hold"]
+    assert solution_caveats(given, deep) == ["actuators indent 87% of the pad: small strain is invalid"]
     assert solution_caveats(given.with_kinematics(Kinematics.FINITE), deep) == []
 
 
@@ -390,7 +390,7 @@ def test_caveats_are_notes_of_scores() -> None:
 def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixture[str]) -> None:
     """As high as skin nodes of the mesh over their ends."""
     assert main(["check", str(ROOT / "config" / "devices" / "device2.yaml")]) == 0
-    (rise,) = re.findall(r"outermost faces lies (\S+) mm above that touched first", capsys.readouterr().out)
+    (rise,) = re.findall(r"outermost faces is (\S+) mm above first contact", capsys.readouterr().out)
     x, y = condensed("device2")[0].position.T
     row = scene("device2").device.actuators
     ends = row.positions[2] - row.half_face, row.positions[3] + row.half_face
@@ -461,7 +461,8 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
         assert not solution.pressure.any()
         caveats = solution_caveats(scene("device2"), solution)
         assert not [caveat for caveat in caveats if "certificate" in caveat]
-        assert "actuators that leave the skin, counted from the left: 1, 2, 3, 4; positive normal is into it" in caveats
+        left = "actuators that leave the skin, counted from the left: 1, 2, 3, 4; positive normal points into it"
+        assert left in caveats
 
 
 def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
@@ -491,7 +492,7 @@ def test_a_single_pin_that_touches_alone_presses_on_nothing() -> None:
     given = Scene(model, replace(base.device, actuators=row, conditions=(beside,), cycles=())).coarsened(4.0)
     rows = forecast(given, error=False)
     assert [row["score"] for row in rows] == [0.0] * 4
-    idle = "actuators that press on nothing where pre-indentation ends, counted from the left: 1"
+    idle = "actuators without force after pre-indentation, counted from the left: 1"
     assert [row["caveats"] for row in rows] == [[idle]] * 4
 
 

@@ -227,7 +227,7 @@ def test_page_holds_no_path_of_this_machine(html: str, tmp_path: Path) -> None:
 def test_page_says_what_the_tables_say(html: str) -> None:
     text = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
     assert "0.4321 ± 0.0012" in text
-    assert "With small strain, of n = 1 statements 1 are borne out, 0 are not" in text
+    assert "With small strain, of n = 1 statements 1 are supported, 0 are not" in text
     assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, n = 3" in text  # noqa: RUF001  # as typeset
     assert text.count("no prediction") > 12
     assert "Ratings are ordinal surrogates." in text

@@ -256,7 +256,7 @@ def test_failures_name_device_condition_and_interface() -> None:
         solve("device2", far, Interface.FRICTIONLESS)
     base = scene("device2")
     problem = contact_problem(base, *condensed("device2"), Interface.SHEAR)
-    for beyond, what in ((3.6, r"[\d.]+ mm are missing"), (2.6, "an actuator touches no skin")):
+    for beyond, what in ((3.6, r"[\d.]+ mm short"), (2.6, "an actuator touches no skin")):
         lifted = np.where(np.abs(problem.position[:, [0]]) > beyond, [0.0, 30.0], [0.0, 0.0])
         with pytest.raises(
             ContactError, match=rf"pre-indentation did not reach 'full' contact within 5 mm from first touch: {what} at"

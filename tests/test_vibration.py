@@ -219,9 +219,9 @@ def test_every_state_of_the_last_cycle_is_certified() -> None:
 def test_cycles_that_do_not_repeat_say_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two cycles are too few for any: nothing can have been repeated. Without friction none walks on."""
     monkeypatch.setattr(fingerpad.vibration.cycling, "MAX_CYCLES", 2)
-    with pytest.raises(CycleError, match=r"2 cycles at 80 Hz have not come to repeat.*; try a smaller amplitude"):
+    with pytest.raises(CycleError, match=r"no periodic state after 2 cycles at 80 Hz: .*; try a smaller amplitude"):
         vibration(Interface.SHEAR, coarse().device.cycles[2], 80.0)
-    with pytest.raises(CycleError, match=r"2 cycles at 80 Hz have not come to repeat themselves: tissue still creeps$"):
+    with pytest.raises(CycleError, match=r"no periodic state after 2 cycles at 80 Hz: tissue still creeps$"):
         vibration(Interface.FRICTIONLESS, coarse().device.cycles[2], 80.0)
 
 

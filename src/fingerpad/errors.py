@@ -26,7 +26,7 @@ class CondensationError(FingerpadError):
 
 
 class ContactError(FingerpadError):
-    """A frictional contact path could not be followed, or a solution failed its certificate."""
+    """A frictional contact path did not converge, or a solution failed its certificate."""
 
 
 class CalculixError(FingerpadError):
@@ -46,7 +46,7 @@ class InvertedError(ContactError):
 
 
 class SnapError(ContactError):
-    """Tissue has no stable state near: it would snap to one far away, or two ways branch off."""
+    """Tissue has no stable state nearby: it would snap to one far away, or two ways branch off."""
 
 
 class EllipticityError(ContactError):

@@ -1,4 +1,4 @@
-"""Sliders for a design in a notebook: every change draws pressure, receptor strain and scores anew."""
+"""Sliders for a design in a notebook: every change draws pressure, receptor strain and scores again."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class Explorer:
             with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
                 found = self._answer(**values)
         except FingerpadError as error:
-            self.message.value = f"No answer: {escape(str(error))}. The picture is that of the design before."
+            self.message.value = f"No answer: {escape(str(error))}. The picture is that of the previous design."
         else:
             self._drawing.show(found, self._shown)
             self.picture.value = self._drawing.png()

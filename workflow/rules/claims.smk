@@ -1,4 +1,4 @@
-# Which of the paper's statements the computed tables bear out.
+# Which of the paper's statements the computed tables support.
 # REQUIRED INPUTS: results/scores.csv, results/correlations.csv. OUTPUTS: results/claims.csv
 
 

@@ -99,7 +99,7 @@ def mode_of(wildcards):
 
 
 def scored_of(wildcards):
-    """What all scores of the wildcard device hang on: neither its title nor its vibrations."""
+    """What all scores of the wildcard device depend on: neither its title nor its vibrations."""
     model, device = scene_of(wildcards).model, scene_of(wildcards).device
     parts = model.finger, tissue_of(wildcards), model.contact, model.gabor, model.readout, model.numerics, model.skips
     return support.fingerprint(*parts, device.interfaces(), device.actuators, device.conditions)

@@ -1,4 +1,4 @@
-# Which statements hang on which assumption: each varied alone, in either half-cycle of the stimuli, with all kinematics.
+# Which statements depend on which assumption: each varied alone, in either half-cycle of the stimuli, with all kinematics.
 # Not part of `all`: ask for it with `snakemake ensemble` (some ten minutes of one core with small kinematics, an hour with finite ones).
 # REQUIRED INPUTS: config/ensemble.yaml, results/scores.csv, data/.
 # OUTPUTS: results/ensemble/{kinematics}/{member}/{half_cycle}/ with scene files and scores,

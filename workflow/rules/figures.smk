@@ -2,7 +2,7 @@
 # REQUIRED INPUTS: results of solve, filter, score and correlate. OUTPUTS: results/figures/*.{png,pdf}, fields.npz
 
 DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
-# figure 6 wants a device that moves sideways and is predicted without friction as well
+# figure 6 needs a device that moves sideways and is predicted without friction as well
 COMPARED = [
     name
     for name in DEVICES

@@ -1,4 +1,4 @@
-"""Write the page of what hangs on which assumption."""
+"""Write the page of what depends on which assumption."""
 
 import shutil
 from pathlib import Path

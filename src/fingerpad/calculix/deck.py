@@ -39,7 +39,7 @@ LARGEST_COUNT = 100000  # increments [1] that a step may take, and after which i
 SMALLEST_INCREMENT = 1.0e-6  # of a step [1]; source: assumption: a thousandth of any increment that was needed
 PER_LINE = 8  # numbers a data line [1]; source: Abaqus allows 16
 READ_NODES = "RECEPTOR_NODES"
-FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on later: the keyword wants a positive one
+FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on later: the keyword needs a positive one
 
 
 @dataclass(frozen=True)

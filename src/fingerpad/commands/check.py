@@ -19,16 +19,16 @@ from ..tissue.mesh import mesh_section, nominal_edges
 from .options import add_scene_options, checked_scene
 
 DESCRIPTION = """\
-Check a device file: keys, units, ranges, and whether the device fits the finger. A mistake is answered with file, key,
-what was found and what is allowed. With -o the section is drawn with the actuators under it.
+Check a device file: keys, units, ranges, and whether the device fits the finger. Errors name the file, the key, the
+value found and what is allowed. With -o the section is drawn with the actuators under it.
 
 examples:
   fingerpad check config/devices/device2.yaml
   fingerpad check config/devices/device2.yaml -o device2.png
 """
 TOO_WIDE = (
-    "The row is wide for this finger: until all faces are covered it is pressed about half of the pad deep, or more,"
-    " which takes minutes and may have no solution. A narrower row, or contact.criterion: touch, goes less deep."
+    "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
+    " minutes to solve and may have no solution. A narrower row, or contact.criterion: touch, needs less."
 )
 # Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
 # of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
@@ -92,7 +92,7 @@ def described(scene: Scene) -> str:
         f" at x = {places} mm\n"
         f"{several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
-        f"skin over the outermost faces lies {rise:.2g} mm above that touched first, on a pad of {pad:g} mm"
+        f"skin over the outermost faces is {rise:.2g} mm above first contact; pad thickness {pad:g} mm"
         + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
     )
 

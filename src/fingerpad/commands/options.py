@@ -51,7 +51,7 @@ def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interfa
     scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
     condition, interface = scene.device.condition(options.condition), Interface(options.interface)
     if interface not in scene.device.interfaces():
-        why = "a device that controls force moves nothing without friction, `interfaces: shear` leaves that out"
+        why = "the device controls force, or `interfaces` in its file skips the frictionless case"
         allowed = f"{listed(scene.device.interfaces())} ({why})"
         raise UsageError(f"{scene.device.name}: found the interface '{interface}'; allowed: {allowed}")
     return scene, condition, interface

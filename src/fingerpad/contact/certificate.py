@@ -132,6 +132,6 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
         moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
         advice = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
         raise ReachError(
-            f"certificate: contact at the actuator at x = {problem.row.positions[own[node]]:g} mm reaches the last skin"
-            f" node that was considered; skin there has moved {aside:.2g} mm sideways{advice}"
+            f"certificate: contact at the actuator at x = {problem.row.positions[own[node]]:g} mm reaches the edge of"
+            f" the modelled contact zone; skin there has moved {aside:.2g} mm sideways{advice}"
         )

@@ -23,6 +23,6 @@ def require_tissue(problem: ContactProblem, actuators: FloatArray, thickness: fl
     deepest = depth(problem, actuators)
     if deepest > thickness:
         raise DepthError(
-            f"the stimulus presses an actuator {deepest:.3g} mm deep, into {thickness:g} mm of tissue; try less of it,"
-            " or see whether its displacements are in mm"
+            f"the stimulus presses an actuator {deepest:.3g} mm deep, into {thickness:g} mm of tissue; reduce it,"
+            " or check that its displacements are in mm"
         )

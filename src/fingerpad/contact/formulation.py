@@ -245,7 +245,7 @@ def face_compliance(problem: ContactProblem, there: FloatArray, nodes: np.ndarra
 
 
 def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
-    """Gaps (n,) [mm] computed anew from a state's forces, with the actuators' compliance where the skin now is."""
+    """Gaps (n,) [mm] computed again from a state's forces, with the actuators' compliance where the skin now is."""
     there = touch(problem, state.place)
     x, y = (unloaded(problem, state.actuator) + displacement(problem, state.force, there)).T
     return np.asarray(y + profile(problem.row, x)[0])

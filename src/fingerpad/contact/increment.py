@@ -1,7 +1,7 @@
 """One increment of a path: states foreseen from the last one, settled on a patch, and what they mean for all nodes.
 
 `active_set` settles the states of a `patch`. If skin then overlaps a face elsewhere, or deformable faces give way
-elsewhere than foreseen, the patch is made anew.
+elsewhere than foreseen, the patch is made again.
 """
 
 from __future__ import annotations

@@ -100,13 +100,13 @@ def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion)
 
 def _lacking(missing: float) -> str:
     """In words what is missing [mm]."""
-    return f"{missing:.3g} mm are missing" if np.isfinite(missing) else "an actuator touches no skin"
+    return f"{missing:.3g} mm short" if np.isfinite(missing) else "an actuator touches no skin"
 
 
 def _nearest(least: float, height: float, touch: float) -> str:
     """In words at which height least was missing [mm]."""
     if not np.isfinite(least):
-        return ", nor did all touch any at once before"
+        return ", and all never touched at once"
     return f", at best {least:.3g} mm at {height - touch:.3g} mm"
 
 

@@ -92,10 +92,10 @@ def advance(
                 missed = failure.residual > problem.tolerance
                 residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
                 raise kind(
-                    f"contact could not be followed: {done:.1%} of the way from {_located(start)} to"
+                    f"contact did not converge {done:.1%} of the way from {_located(start)} to"
                     f" {_located(target)} mm, increment {int(done * increments) + 1}/{increments} halved"
-                    f" {halvings} times{residual}; {advice}"
-                    f"{', stiffer bodies' if problem.body else ''} or a finer mesh at the actuators' edges"
+                    f" {halvings} times{residual}; {advice} or"
+                    f" {'stiffer bodies' if problem.body else 'a finer mesh at the edges (numerics.edge_size)'}"
                 ) from failure
             longest = min(longest, max(step, CROSSED * problem.spacing / length))
     return state, carried
@@ -127,12 +127,12 @@ def _stand(begin: FloatArray, target: FloatArray) -> bool:
 def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     """Class and advice of the error that ends a path."""
     if failure.inverted:
-        return InvertedError, f"{failure.inverted}; try less indentation or movement"
+        return InvertedError, f"{failure.inverted}; try less indentation, less movement"
     if failure.snaps:
-        return SnapError, "there the tissue has no stable state near, and would snap; try less indentation or movement"
+        return SnapError, "the tissue has no stable state nearby and would snap; try less indentation, less movement"
     if failure.turned:
-        return UniquenessError, "there the states of contact have no unique solution; try less friction, less movement"
-    return ConvergenceError, "try more increments"
+        return UniquenessError, "the states of contact have no unique solution there; try less friction, less movement"
+    return ConvergenceError, "try larger numerics.indentation_increments and numerics.stimulus_increments"
 
 
 def _located(actuator: FloatArray) -> str:

@@ -18,8 +18,8 @@ from .formulation import ContactProblem
 FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
 TOUCH = ", and so may contact.criterion: touch (in config/config.yaml, where it changes every device)"
-SMALL_ALONE = "; `kinematics: small` in the device's file leaves finite strain out (docs/troubleshooting.md)"
-SHEAR_ALONE = "; `interfaces: shear` in the device's file leaves out what is without friction"
+SMALL_ALONE = "; `kinematics: {value: small, ...}` in the device file skips finite strain (docs/troubleshooting.md)"
+SHEAR_ALONE = "; `interfaces: {value: shear, ...}` in the device file skips the frictionless case"
 
 
 def contact_problem(

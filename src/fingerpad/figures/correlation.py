@@ -46,13 +46,13 @@ MOST_NAMES = 8  # lines of conditions' names that fit a panel's height
 TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
-    "{interface}n: conditions; those with one and the same stimulus have one score.{rated}"
-    " spread: of the scores, over their mean. Bars: estimated discretisation error of a score."
+    "{interface}n: conditions; identical stimuli share one score.{rated}"
+    " spread: range of scores over their mean. Bars: estimated discretisation error of a score."
 )
 RATED = " Line: least squares. Ratings: {kinds}.{range}{open} τ: Kendall's.{p}"
 RANGE = " range: of R² over all ratings with the stated order."
 P = " p: two-sided, of R² over distinct conditions."
-UNRATED = " Devices without ratings: an order of scores is a prediction, and no comparison with perception."
+UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."
 
 
 @styled

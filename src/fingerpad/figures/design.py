@@ -1,4 +1,4 @@
-"""What a design does to the skin, and how rough it feels, at a glance: laid out once, drawn anew at every change."""
+"""What a design does to the skin, and how rough it feels, at a glance: laid out once, drawn again at every change."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class DesignPicture:
             handles=[
                 Line2D([], [], color=BLUE, label="pressure"),
                 Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear"),
-                Line2D([], [], color=GREY, linewidth=THIN, label="design before"),
+                Line2D([], [], color=GREY, linewidth=THIN, label="previous design"),
             ],
             loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=3, borderaxespad=0.0,
         )  # fmt: skip

@@ -4,10 +4,10 @@ About a displacement u, with tangent K and internal force R(u), the tissue answe
 W f) by
     u' = u + K^-1 (W f - R(u)),        and its contact nodes by  W^T u' = free + C f,   C = W^T K^-1 W,
 which is the condensed problem of `contact` with free = W^T (u - K^-1 R(u)): a path is followed on it, u' is where the
-tissue is linearised next, and the path is followed anew from where it began, until u' = u. An older K serves as long as
+tissue is linearised next, and the path is followed again from its start, until u' = u. An older K serves as long as
 Anderson's acceleration brings u' - u down fast enough with it: only R(u) is then new.
 
-Friction wants shorter increments than tissue does, so one increment of the tissue holds several of contact. On the way
+Friction needs shorter increments than tissue does, so one increment of the tissue holds several of contact. On the way
 free = W^T u - C f drifts from what it is at the start to what R(u) says at the end.
 """
 

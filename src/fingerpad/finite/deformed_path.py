@@ -3,9 +3,9 @@
 About the pre-indented state u_0 with tangent K, a path on the condensed maps ends with forces f and the displacement
     u' = u + K^-1 (W f - R(u))
 of the tissue. Where R(u') is not W f, the contact nodes' displacement without forces, free = W^T (u - K^-1 R(u)), is
-another at the end of the path than at its start, and the path is followed anew while it moves there, with the square of
-the way from u_0, where K is exact, and evenly from elsewhere; without friction the way leaves no trace, and only its
-end is found anew. So the tissue is in equilibrium wherever a move ends.
+another at the end of the path than at its start, and the path is followed again while it moves there, with the square
+of the way from u_0, where K is exact, and evenly from elsewhere; without friction the way leaves no trace, and only its
+end is found again. So the tissue is in equilibrium wherever a move ends.
 
 Any K leads there. Without friction a pressed finger can all but sway freely, and corrections on its tangent go astray
 with the softest mode: there K is the tangent and a spring on that mode.
@@ -119,7 +119,7 @@ def move(
 ) -> Equilibrium:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm].
 
-    problem: condensed about the tissue's displacement. Where corrections do not settle the move is made anew, with new
+    problem: condensed about the tissue's displacement. Where corrections do not settle the move is made again, with new
     tangents. Raises what `path.advance` raises.
     """
     if np.array_equal(target, start.state.actuator):

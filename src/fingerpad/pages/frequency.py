@@ -1,4 +1,4 @@
-"""The page of vibrations: scores at each frequency, and what they hang on."""
+"""The page of vibrations: scores at each frequency, and what they depend on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The page of what hangs on which assumption: tables of the ensemble's claims and correlations."""
+"""The page of what depends on which assumption: tables of the ensemble's claims and correlations."""
 
 from __future__ import annotations
 

@@ -45,13 +45,13 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     found = depth_caveats(scene, solution.depth)
     pressing = _pressing(scene, solution)
     if idle := _numbers(pressing[0] <= 0.0):
-        found.append(f"actuators that press on nothing where pre-indentation ends, counted from the left: {idle}")
+        found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
-        found.append(f"actuators that leave the skin, counted from the left: {left}; positive normal is into it")
+        found.append(f"actuators that leave the skin, counted from the left: {left}; positive normal points into it")
     if solution.rival_peak > RIVAL:
         found.append(
-            f"at another time strain changes by {solution.rival_peak:.1%} of what is read, elsewhere or otherwise:"
-            " which of them is read may hang on the mesh, and the error does not know of it"
+            f"at another time strain changes by {solution.rival_peak:.1%} as much, in a different pattern: the mesh may"
+            " decide which is read, and the error does not cover that"
         )
     elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
     if elements < FEW:
@@ -85,7 +85,7 @@ def depth_caveats(scene: Scene, depth: float) -> list[str]:
     """Whether actuators go too deep [mm] for small strain."""
     share = depth / scene.model.finger.pad_thickness
     deep = scene.kinematics is Kinematics.SMALL and share > DEEP
-    return [f"actuators go {share:.0%} of the pad deep: small strain does not hold"] if deep else []
+    return [f"actuators indent {share:.0%} of the pad: small strain is invalid"] if deep else []
 
 
 def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:

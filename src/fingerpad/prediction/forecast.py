@@ -16,8 +16,8 @@ from .caveats import score_caveats
 from .edges import edge_intervals
 from .scoring import coarser_rows, prepared, rows_of, solve_scene
 
-SILENT = "the device controls forces: without friction its displacements would be others, and none are known"
-LEFT_OUT = "left out by `interfaces: shear` in the device's file"
+SILENT = "the device controls forces: its displacements without friction are unknown"
+LEFT_OUT = "skipped by `interfaces` in the device file"
 
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:

@@ -1,6 +1,6 @@
 """Scores of solved conditions under other read-outs: another measure, side of the interface or wavelength.
 
-Contact does not know how it is read, so nothing is solved anew.
+Contact does not know how it is read, so nothing is solved again.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ def _receptors(results: Results) -> Words:
     )
     return Words(
         "Strain and change of strain at the receptors",
-        "Curves of strain (left) and change of strain (right) along the receptors, a row a device and dispersion.",
+        "Curves of strain (left) and change of strain (right) along the receptors, one row per device and dispersion.",
         f"Maximum principal strain and its change from pre-indentation, with shear. {counts}."
         " Grey: under a face before the stimulus.",
     )
@@ -147,7 +147,7 @@ def _correlation(results: Results) -> Words:
     parts = "; ".join(_correlated(results, scene.device.name, Interface.SHEAR) for scene in results.scenes)
     return Words(
         "Scores against perceived roughness",
-        "Perceived roughness over the strain score (left) and the change-of-strain score (right), one row a device.",
+        "Perceived roughness over the strain score (left) and the change-of-strain score (right), one row per device.",
         f"With shear. {parts}.{_range(results)} Ratings: {_kinds(results)}. {ERROR_BARS}",
     )
 

@@ -1,7 +1,7 @@
 """Kinds of bodies that a device file may give its actuators.
 
 A kind is a class in BODIES and a definition of the same name in `workflow/schemas/device.schema.yaml`, whose keys are
-modulus, poisson and the class's fields. Nothing else knows the kinds (docs/adding-a-device.md shows how to add one).
+modulus, poisson and the class's fields. Nothing else knows the kinds (docs/extending.md shows how to add one).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Kinds of stimuli: what a device file says of a drive, to the conditions of a device.
 
 A kind is a function in KINDS and a definition of the same name in `workflow/schemas/device.schema.yaml`. Nothing else
-knows the kinds (docs/adding-a-device.md shows how to add one). A file that a kind reads stands at a key `file`, so that
+knows the kinds (docs/extending.md shows how to add one). A file that a kind reads stands at a key `file`, so that
 rules depend on it.
 """
 

@@ -1,7 +1,7 @@
 """Random valid scenes, each told by its number.
 
 Scenes come in groups that share a finger, whose mesh is coarse, so that most cost no more than a path of contact.
-Within a group everything else is drawn anew: actuators, friction, criterion, increments and stimulus. The ranges are
+Within a group everything else is redrawn: actuators, friction, criterion, increments and stimulus. The ranges are
 wider than any use: they ask for an answer or a named error, not for a sensible device.
 """
 
@@ -203,7 +203,7 @@ def _row(rng: np.random.Generator, span: float) -> ActuatorRow:
 
 
 def _finished(rng: np.random.Generator, row: ActuatorRow) -> ActuatorRow:
-    """The row with edges, from sharp to a cylinder's, and bodies drawn anew."""
+    """The row with edges, from sharp to a cylinder's, and bodies, redrawn."""
     edge = float(rng.choice([0.0, row.width / 2.0, row.width / 2.0 * rng.random()]))
     body = None
     if rng.random() < 0.3:

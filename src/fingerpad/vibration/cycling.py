@@ -109,9 +109,9 @@ def vibrate(
             # forces answer what has crept, so that less is left for ever: as much as if all tissue crept alike
             answered = np.tensordot(share, for_ever - moment.memory, 1)
             moment = replace(moment, memory=for_ever - answered)
-    why = "the skin walks on under friction, or tissue still creeps; try a smaller amplitude"
+    why = "friction ratchets the skin, or tissue still creeps; try a smaller amplitude"
     raise CycleError(
-        f"{MAX_CYCLES} cycles at {frequency:g} Hz have not come to repeat themselves: "
+        f"no periodic state after {MAX_CYCLES} cycles at {frequency:g} Hz: "
         + (why if problem.friction > 0.0 else "tissue still creeps")
     )
 
