@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fingerpad.errors import RatingError
 from fingerpad.perception import correlation
-from fingerpad.perception.correlation import correlation_table, extreme_ratings, r2_range, up_sets
+from fingerpad.perception.correlation import correlation_table, error_in_r, extreme_ratings, r2_range, up_sets
 from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
 Array = NDArray[np.float64]
@@ -334,6 +334,24 @@ def test_correlation_of_three_points_in_closed_form() -> None:
     assert (row["published_r2"], row["published_slope"]) == (0.989, 1)
     assert row["rating_kind"] == "ordinal surrogate"
     assert row["note"] == ""
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_errors_move_r_as_far_as_is_said_and_no_farther(seed: int) -> None:
+    """Over all corners of the box of errors; what is said holds to the first order, so errors are small."""
+    random = np.random.default_rng(seed)
+    score, rating, error = random.uniform(1.0, 2.0, 5), random.uniform(0.0, 1.0, 5), random.uniform(0.0, 1e-5, 5)
+    corners = score + error * np.array(list(itertools.product((-1.0, 1.0), repeat=5)))
+    moved = np.abs([np.corrcoef(corner, rating)[0, 1] - np.corrcoef(score, rating)[0, 1] for corner in corners]).max()
+    assert error_in_r(score, rating, error) == pytest.approx(moved, rel=1e-3)
+
+
+@pytest.mark.parametrize("scale", [0.5, 0.99, 1.01, 2.0])
+def test_errors_beyond_r_leave_the_slope_open_and_others_do_not(scale: float) -> None:
+    """Scores 1, 3, 2 with ratings 1, 2, 3: the slope vanishes as soon as the outer ones come closer by their distance,
+    each by 0.5."""
+    score, rating = np.array([1.0, 3.0, 2.0]), np.array([1.0, 2.0, 3.0])
+    assert (error_in_r(score, rating, np.full(3, 0.5 * scale)) > 0.5) is (scale > 1.0)
 
 
 def test_a_falling_score_has_a_negative_slope() -> None:

@@ -32,6 +32,7 @@ COLUMNS = [
     "r_error",
     "r2_lowest",
     "r2_highest",
+    "range_error",
     "kendall_tau",
     "p",
     "published_r2",
@@ -119,8 +120,32 @@ def r2_range(score: FloatArray, at_most: BoolArray) -> tuple[float, float]:
     >>> r2_range(np.array([0.0, 1.0, 2.0]), np.triu(np.ones((3, 3), dtype=bool)))
     (0.75, 1.0)
     """
-    lowest, highest = (round(float(_unit(y) @ _unit(score)) ** 2, 12) for y in extreme_ratings(score, at_most))
+    lowest, highest = (_r2(score, rating) for rating in extreme_ratings(score, at_most))
     return lowest, highest
+
+
+def _r2(score: FloatArray, rating: FloatArray) -> float:
+    """R² [1] of a score and a rating (n,), rounded to 12 decimals."""
+    return round(float(_unit(rating) @ _unit(score)) ** 2, 12)
+
+
+def error_in_r(score: FloatArray, rating: FloatArray, error: FloatArray) -> float:
+    """What errors (n,) of scores (n,) can add up to in r with ratings (n,) [1]; not a number if they are not known.
+
+    With x, y centred and scaled to norm 1, |S| the norm of the centred scores and errors d_i, that is to first order
+        sum |y_i - r x_i| d_i / |S|;
+    and the slope can change its sign if and only if sum |y_i| d_i / |S| > |r|: then the error is the larger of both,
+    else at most |r|.
+
+    >>> round(error_in_r(np.array([1.0, 3.0, 2.0]), np.array([1.0, 2.0, 3.0]), np.full(3, 0.25)), 12)
+    0.25
+    """
+    x, y, share = _unit(score), _unit(rating), error / np.linalg.norm(score - score.mean())
+    r = float(x @ y)
+    first, turning = float(np.abs(y - r * x) @ share), float(np.abs(y) @ share)
+    if turning > abs(r):
+        return max(first, turning)
+    return first if math.isnan(first) else min(first, abs(r))
 
 
 def _unit(values: FloatArray) -> FloatArray:
@@ -159,10 +184,10 @@ def correlation_table(
 
     Returns the columns COLUMNS:
     n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what
-    errors of scores can add up to in r, to the first order, larger than |r| where they leave the slope's sign open;
-    empty if they are not known.
+    errors of scores can add up to in r (`error_in_r`), larger than |r| where they leave the slope's sign open; empty if
+    they are not known.
     r2_lowest, r2_highest: over all ratings that agree with the stated order (`r2_range`), whichever way the slope
-    then is; empty without an order.
+    then is; range_error: as r_error, the larger of those at both ends; empty without an order.
     kendall_tau: tau-b; scores that only rounding tells apart are tied. p: two-sided p of the Pearson correlation over
     distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count once with the
     mean of their ratings (the note then says how many are distinct).
@@ -179,7 +204,7 @@ def correlation_table(
     computed = pd.DataFrame(rows, columns=[column for column in COLUMNS if column not in PUBLISHED])
     same = KEY[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
-    numbers = ("r2", "r_error", "r2_lowest", "r2_highest", "kendall_tau", "p", "published_r2")
+    numbers = ("r2", "r_error", "r2_lowest", "r2_highest", "range_error", "kendall_tau", "p", "published_r2")
     signs = dict.fromkeys(("slope_sign", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
@@ -224,19 +249,21 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     distinct = np.bincount(which, x) / np.bincount(which)
     if distinct.size < x.size:
         notes.append(f"{distinct.size} of {x.size} conditions are distinct")
+    error = scores["score_error"].to_numpy(float)
     if len(order):
         at_most = order_matrix(list(score.index), order)
-        found["r2_lowest"], found["r2_highest"] = r2_range(x, at_most)
+        ends = extreme_ratings(x, at_most)
+        found["r2_lowest"], found["r2_highest"] = (_r2(x, rating) for rating in ends)
+        found["range_error"] = max(error_in_r(x, rating, error) for rating in ends)
         if np.any(at_most & (y[:, None] > y[None, :])):
             notes.append("ratings contradict the stated order")
     r = float(pearsonr(x, y).statistic)
     mean_rating = np.bincount(which, y) / np.bincount(which)
-    weight, spread, error = np.abs(y - y.mean()), x - x.mean(), scores["score_error"].to_numpy(float)
     return {
         **found,
         "slope_sign": int(np.sign(r)),
         "r2": r**2,
-        "r_error": float(weight @ error) / math.sqrt(float(weight @ weight) * float(spread @ spread)),
+        "r_error": error_in_r(x, y, error),
         "kendall_tau": float(kendalltau(which, y).statistic),
         "p": float(pearsonr(distinct, mean_rating).pvalue) if distinct.size > 2 and np.ptp(mean_rating) > 0.0 else None,
         "note": "; ".join(notes),

@@ -204,24 +204,23 @@ def _correlates_less(device: str, interface: Interface, readout: Readout, than: 
     def check(tables: Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
         r = r_of(row)
-        strengths = [abs(r.lowest), abs(r.highest)] if r.lowest * r.highest > 0.0 else [0.0, max(-r.lowest, r.highest)]
-        ends = [is_less(strength, than, r.error) for strength in strengths]
+        ends = [is_less(strength, than, r.error) for strength in r.strengths]
         return throughout(ends), f"{READOUT_NAME[readout]}, {_described(row)}."
 
     return check
 
 
 def _device2_weaker(tables: Tables) -> Verdict:
-    """Pearson's r is lower without shear."""
+    """|r| is smaller without shear, whichever way the slopes are."""
     off, on = (
         tables.correlation("device2", interface, Readout.CHANGE_OF_STRAIN)
         for interface in (Interface.FRICTIONLESS, Interface.SHEAR)
     )
     without, with_shear = r_of(off), r_of(on)
-    error = max(without.error, with_shear.error)
+    (weakest, strongest), error = without.strengths, without.error + with_shear.error
     ends = [
         is_less(low, high, error)
-        for low, high in ((without.lowest, with_shear.highest), (without.highest, with_shear.lowest))
+        for low, high in zip((weakest, strongest), reversed(with_shear.strengths), strict=True)
     ]
     return throughout(ends), f"Change of strain, {_described(off)}; {_described(on)}."
 
@@ -246,7 +245,7 @@ def _device2_slides(tables: Tables) -> Verdict:
         f"{phase:g}° {without.value:.4g} without shear, {with_shear.value:.4g} with it"
         for phase, (without, with_shear) in zip(PHASES, pairs, strict=True)
     )
-    parts = [is_less(low.value, high.value, max(low.error, high.error)) for low, high in pairs]
+    parts = [is_less(low.value, high.value, low.error + high.error) for low, high in pairs]
     return all_hold(parts), f"Scores [{on.unit}]: {shown}."
 
 
@@ -268,7 +267,7 @@ def _device2_spread(tables: Tables) -> Verdict:
     off, on = _both(tables, "device2")
     ordered = [sorted((s["alternate", phase] for phase in PHASES), key=lambda score: score.value) for s in (off, on)]
     without, with_shear = (scores[-1].value - scores[0].value for scores in ordered)
-    error = max(score.error for scores in ordered for score in (scores[0], scores[-1]))
+    error = sum(score.error for scores in ordered for score in (scores[0], scores[-1]))
     return is_less(without, with_shear, error), (
         f"Largest less smallest change-of-strain score [{on.unit}]: {without:.4g} without shear,"
         f" {with_shear:.4g} with it."
@@ -283,14 +282,16 @@ def _effect_of_shear(tables: Tables, device: str, dispersions: Sequence[str]) ->
     if total == 0.0:
         raise AbsentError
     effect = sum(abs(off[c].value - on[c].value) for c in conditions)
-    return Score(effect / total, sum(max(off[c].error, on[c].error) for c in conditions) / total)
+    # the sum of scores in the denominator has an error, too
+    error = sum(off[c].error + on[c].error * (1.0 + effect / total) for c in conditions)
+    return Score(effect / total, error / total)
 
 
 def _device1_insensitive(tables: Tables) -> Verdict:
     """The device that moves normally depends less on shear than the one that moves laterally."""
     one = _effect_of_shear(tables, "device1", DISPERSIONS)
     two = _effect_of_shear(tables, "device2", ["alternate"])
-    return is_less(one.value, two.value, max(one.error, two.error)), (
+    return is_less(one.value, two.value, one.error + two.error), (
         "Leaving out shear changes the change-of-strain scores, relative to their mean, on average by"
         f" {one.value:.3g} for Device 1 and {two.value:.3g} for Device 2."
     )

@@ -18,7 +18,7 @@ import pandas as pd
 from ..readouts.roughness import SAME
 from .ratings import RatingKind
 
-NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than their errors
+NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than the sum of their errors
 
 
 class Holds(StrEnum):
@@ -45,16 +45,22 @@ class Correlation:
     highest: float
     error: float
 
+    @property
+    def strengths(self) -> tuple[float, float]:
+        """Smallest and largest |r| [1]."""
+        ends = abs(self.lowest), abs(self.highest)
+        return (min(ends) if self.lowest * self.highest > 0.0 else 0.0), max(ends)
+
 
 Chain = Sequence[tuple[str, Score]]  # (label, score), in the order in which the scores should rise
 
 
 def relation(low: Score, high: Score) -> str:
-    """How two scores compare: `<`, `=` (but for the solver's tolerance), `≈` (within the larger error) or `>`."""
+    """How two scores compare: `<`, `=` (but for the solver's tolerance), `≈` (within the sum of both errors) or `>`."""
     difference = abs(high.value - low.value)
     if difference <= SAME * max(abs(low.value), abs(high.value)):
         return "="
-    if difference < max(low.error, high.error):
+    if difference < low.error + high.error:
         return NEAR
     return "<" if low.value < high.value else ">"
 
@@ -118,11 +124,11 @@ def r_of(row: Mapping[str, Any]) -> Correlation:
     sign = slope_of(row)
     if sign == 0:
         return Correlation(0.0, 0.0, 0.0)
-    error = math.inf if pd.isna(row["r_error"]) else float(row["r_error"])
-    ends = [float(row["r2"])] * 2
+    error, ends = row["r_error"], [float(row["r2"])] * 2
     if is_surrogate(row):
+        error = row["range_error"]
         ends = [0.0, 1.0] if pd.isna(row["r2_lowest"]) else [float(row["r2_lowest"]), float(row["r2_highest"])]
     weakest, strongest = (sign * math.sqrt(each) for each in ends)
     if weakest == 0.0:  # where r can vanish, it can change its sign
         weakest = -strongest
-    return Correlation(min(weakest, strongest), max(weakest, strongest), error)
+    return Correlation(min(weakest, strongest), max(weakest, strongest), math.inf if pd.isna(error) else float(error))

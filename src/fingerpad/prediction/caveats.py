@@ -89,7 +89,7 @@ def depth_caveats(scene: Scene, depth: float) -> list[str]:
 
 
 def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
-    """For each row of the score table: which conditions' scores are closer than the larger of the two errors.
+    """For each row of the score table: which conditions' scores are closer than the sum of both errors.
 
     Scores that are equal are equal stimuli, and no caveat. Rows without a score or an error have none.
     """
@@ -100,7 +100,7 @@ def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
             for other in rows
             if all(row[column] == other[column] for column in KEY) and _indistinct(row, other)
         ]
-        found.append([f"error is larger than the difference to {', '.join(close)}"] if close else [])
+        found.append([f"errors are larger than the difference to {', '.join(close)}"] if close else [])
     return found
 
 
@@ -108,4 +108,4 @@ def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     if any(each.get("score_error") is None for each in (row, other)):
         return False
     difference = abs(row["score"] - other["score"])
-    return bool(SAME * abs(row["score"]) < difference < max(row["score_error"], other["score_error"]))
+    return bool(SAME * abs(row["score"]) < difference < row["score_error"] + other["score_error"])
