@@ -34,7 +34,6 @@ from fingerpad.pages.frequency import frequency_values
 from fingerpad.pages.skipping import skipping_values
 from fingerpad.prediction.edges import edge_intervals, mesh_device
 from fingerpad.prediction.scoring import rows_at
-from fingerpad.readouts.accuracy import with_errors
 from fingerpad.scene.device import Condition, Control
 from fingerpad.scene.numerics import Skips
 from fingerpad.scene.readout import Readout
@@ -55,8 +54,7 @@ def coarse() -> Scene:
 @pytest.fixture(scope="module")
 def stated(coarse: Scene) -> list[dict[str, Any]]:
     """Score rows of the coarse scene with their errors, as text like those of a file."""
-    coarser = [row | {"coarsest": None} for row in rows_at(coarse, 1.5, edge_intervals(coarse))]
-    rows = with_errors(rows_at(coarse, 1.0, edge_intervals(coarse)), coarser)
+    rows = [{**row, "score_error": 0.05 * row["score"]} for row in rows_at(coarse, 1.0, edge_intervals(coarse))]
     nothing = {"condition": at_rest(coarse).name, "readout": "change_of_strain", "score": 0.0, "score_error": 0.0}
     return [{key: str(value) for key, value in row.items()} for row in [*rows, rows[0] | nothing]]
 

@@ -29,7 +29,7 @@ from fingerpad.errors import ContactError, UsageError
 from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
-from fingerpad.prediction.scoring import Condensed, Solved, rows_of
+from fingerpad.prediction.scoring import Condensed, Solved, read_out, rows_of
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import Condition
@@ -325,8 +325,8 @@ def test_scores_closer_than_their_errors_are_told() -> None:
         for name, score in (("a", 1.0), ("b", 1.005), ("c", 2.0), ("same", 2.0))
     ]
     assert score_caveats(rows) == [
-        ["error is larger than the difference to b"],
-        ["error is larger than the difference to a"],
+        ["errors are larger than the difference to b"],
+        ["errors are larger than the difference to a"],
         [],
         [],
     ]
@@ -382,7 +382,8 @@ def test_caveats_are_notes_of_scores() -> None:
     section, body = condensed("device2")
     reading = Condensed(section, body, resampling_to_grid(section.arc, given.model.gabor.spacing))
     condition = given.device.condition("alternate_090")
-    strain, change = rows_of(given, reading, Solved(condition, Interface.SHEAR, solution))
+    read = read_out(given, reading, solution)
+    strain, change = rows_of(given, Solved(condition, Interface.SHEAR, solution), solution, read)
     assert strain["note"] == change["note"]
     assert strain["note"] == "increments were halved 3 times; 11 increments did not settle at once"
 

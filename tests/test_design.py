@@ -13,9 +13,7 @@ from fingerpad.errors import SceneError
 from fingerpad.figures.design import DesignPicture
 from fingerpad.figures.style import SCORE_SCALE
 from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
-from fingerpad.prediction.edges import edge_intervals
-from fingerpad.prediction.scoring import condense_scene, predicted_rows, rows_at
-from fingerpad.readouts.accuracy import COARSENING, with_errors
+from fingerpad.prediction.forecast import forecast
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
 from scenes import scene
@@ -52,10 +50,7 @@ def test_scene_is_that_of_the_device() -> None:
 def expected() -> dict[tuple[str, str, str], dict[str, Any]]:
     """Rows of the workflow's table, with errors, by condition, interface and read-out."""
     base = scene(DEVICE)
-    scored = predicted_rows(base, condense_scene(base, edge_intervals(base)))
-    coarser = [row | {"coarsest": None} for row in rows_at(base, COARSENING, edge_intervals(base))]
-    rows = with_errors(scored, coarser)
-    return {(row["condition"], row["interface"], row["readout"]): row for row in rows}
+    return {(row["condition"], row["interface"], row["readout"]): row for row in forecast(base)}
 
 
 @pytest.mark.parametrize("interface", list(Interface))

@@ -22,7 +22,7 @@ def predict(
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank` and `caveats` (see `forecast`).
 
-    error: whether to solve two coarser scenes as well, for `score_error`. kinematics: "small" or "finite". config,
+    error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or "finite". config,
     schemas: those of the checkout around the working folder if not given. Raises SceneError and what `forecast` raises.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())

@@ -105,6 +105,18 @@ def scored_of(wildcards):
     return support.fingerprint(*parts, device.interfaces(), device.actuators, device.conditions)
 
 
+def cases_of(wildcards):
+    """Conditions and interfaces of the wildcard device."""
+    device = scene_of(wildcards).device
+    return [(condition.name, str(interface)) for condition in device.conditions for interface in device.interfaces()]
+
+
+def filtered_of(wildcards):
+    """Filtered read-outs of all cases of the wildcard device."""
+    folder = f"results/{wildcards.kinematics}/{wildcards.device}"
+    return [f"{folder}/{condition}/{interface}/filtered.npz" for condition, interface in cases_of(wildcards)]
+
+
 def tissue_of(wildcards):
     """What finite kinematics know of the tissue besides its layers; with small ones nothing."""
     return scene_of(wildcards).model.tissue if kinematics_of(wildcards) == Kinematics.FINITE else None

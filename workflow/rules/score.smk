@@ -1,4 +1,4 @@
-# Roughness scores: of one device, condition and interface, the same from coarser meshes, and the tidy table of all.
+# Roughness scores: of one device, condition and interface, their errors from a coarser mesh, and the tidy table of all.
 # REQUIRED INPUTS: results/{kinematics}/{device}/edges.csv, solution.npz and filtered.npz in results/{kinematics}/{device}/{condition}/{interface}.
 # OUTPUTS: score.csv beside it, results/{kinematics}/{device}/check.csv, results/scores.csv
 
@@ -37,8 +37,9 @@ rule check:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
         edges="results/{kinematics}/{device}/edges.csv",
+        filtered=filtered_of,
     output:
-        scores="results/{kinematics}/{device}/check.csv",
+        errors="results/{kinematics}/{device}/check.csv",
     log:
         "results/logs/{kinematics}/{device}/check.log",
     benchmark:
@@ -49,6 +50,7 @@ rule check:
     params:
         code=code("check.py"),
         scene=scored_of,
+        cases=cases_of,
     script:
         "../scripts/check.py"
 

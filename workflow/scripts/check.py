@@ -1,19 +1,24 @@
-"""Scores of one device from two coarser meshes and larger load increments, if they can be had."""
+"""Errors of one device's scores, from a solution on a coarser mesh with larger load increments."""
 
 from pathlib import Path
 
 from fingerpad.jobs import plain_errors
 from fingerpad.prediction.edges import load_edges
-from fingerpad.prediction.scoring import coarser_rows
+from fingerpad.prediction.scoring import error_rows
+from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.store import write_rows
+from fingerpad.store import load, write_rows
 
 
-def main(config: Path, device: Path, kinematics: str, edges: Path, scores: Path) -> None:
-    """Read the scene and its edges, solve all its conditions coarsely, twice, write their scores."""
+def main(
+    config: Path, device: Path, kinematics: str, edges: Path, filtered: dict[tuple[str, Interface], Path], errors: Path
+) -> None:
+    """Read the scene, its edges and the filtered read-outs of all cases, solve them coarsely, write errors."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    write_rows(scores, coarser_rows(scene, load_edges(edges)))
+    read = {case: load(path, FilteredReadouts) for case, path in filtered.items()}
+    write_rows(errors, error_rows(scene, load_edges(edges), read))
 
 
 if __name__ == "__main__":
@@ -24,5 +29,9 @@ if __name__ == "__main__":
             Path(job.input.device),
             job.wildcards.kinematics,
             Path(job.input.edges),
-            Path(job.output.scores),
+            {
+                (condition, Interface(interface)): Path(path)
+                for (condition, interface), path in zip(job.params.cases, job.input.filtered, strict=True)
+            },
+            Path(job.output.errors),
         )

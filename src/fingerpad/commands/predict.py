@@ -20,7 +20,7 @@ from .printing import aligned, print_csv, titled
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
-discretisation errors, from two more solutions on coarser meshes. Rank 1 is the largest score of a device, interface and
+discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
 read-out. Below the table stands what to know before believing it.
 
 examples:
@@ -41,7 +41,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
     how.add_argument("--csv", action="store_true", help="print the columns of results/scores.csv, rank and caveats")
-    parser.add_argument("--no-error", action="store_true", help="skip the coarser solutions and the errors")
+    parser.add_argument("--no-error", action="store_true", help="skip the coarser solution and the errors")
     parser.add_argument(
         "--kinematics",
         choices=[str(each) for each in Kinematics],

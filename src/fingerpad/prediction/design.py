@@ -1,9 +1,8 @@
 """Designs of a row of rigid pins, each answered in a fraction of a second on a finger that is condensed once.
 
 The finger is condensed to all skin within reach of any design, and is equally fine everywhere, as no edge has a place
-of its own. A second condensation, whose elements are twice as large, gives every
-score its error as in the workflow (`accuracy`): the difference of both, which is the error of the first order and more
-than that of any higher.
+of its own. A second condensation, whose elements are twice as large, gives every score its error as in the workflow
+(`accuracy`).
 """
 
 from __future__ import annotations
@@ -16,12 +15,13 @@ import numpy as np
 from ..contact.linear_solution import Indented, indent_device, stimulate
 from ..contact.solution import Solution
 from ..errors import ContactError
-from ..readouts.accuracy import COARSENING, with_error, with_errors
+from ..readouts.accuracy import COARSENING, score_errors, with_error
 from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import score_rows
 from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedSection
 from ..tissue.condensation import condense_section
@@ -116,8 +116,8 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
         unknown = coarse
     else:
         try:
-            coarser = [row | {"coarsest": None} for row in _moved(coarse, condition).rows]
-            return replace(found, rows=with_errors(found.rows, coarser))
+            errors = score_errors(found.scene, found.readouts, _moved(coarse, condition).readouts)
+            return replace(found, rows=[with_error(row, errors[Readout(row["readout"])]) for row in found.rows])
         except ContactError as error:
             unknown = str(error)
     return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=unknown)

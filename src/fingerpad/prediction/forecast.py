@@ -10,11 +10,12 @@ from threadpoolctl import threadpool_limits
 from ..arrays import FloatArray
 from ..readouts.accuracy import with_error, with_errors
 from ..readouts.roughness import KEY, SAME, unpredicted_rows
+from ..readouts.strain import FilteredReadouts
 from ..scene.device import Control
 from ..scene.scene import Scene
 from .caveats import score_caveats
 from .edges import edge_intervals
-from .scoring import coarser_rows, prepared, rows_of, solve_scene
+from .scoring import Case, Unsolved, error_rows, prepared, read_out, rows_of, rows_without, solve_scene
 
 SILENT = "the device controls forces: its displacements without friction are unknown"
 LEFT_OUT = "skipped by `interfaces` in the device file"
@@ -23,20 +24,19 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
 
-    What cannot be solved has no score, and a note that says why. error: whether to solve twice more, more coarsely,
-    for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called after each
-    of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
+    What cannot be solved has no score, and a note that says why. error: whether to solve once more, more coarsely, for
+    `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called after each of
+    `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
 
     Raises MeshError, CondensationError.
     """
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
-        rows = _solved_rows(scene, edges, step)
-        sought = error and any(row["score"] is not None for row in rows)
-        coarser = coarser_rows(scene, edges, step) if sought else []
+        rows, read = _solved_rows(scene, edges, step)
+        checks = error_rows(scene, edges, read, step) if error and read else []
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
-    table = with_errors(found, coarser) if sought else [with_error(row, None) for row in found]
+    table = with_errors(found, checks) if error else [with_error(row, None) for row in found]
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
     caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
@@ -47,7 +47,7 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
 
 def steps(scene: Scene, error: bool = True) -> int:
     """How often `forecast` calls its `step`: after condensation and after every condition of every solution."""
-    return (3 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
+    return (2 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
 
 
 def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
@@ -69,12 +69,19 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
     ]
 
 
-def _solved_rows(scene: Scene, edges: FloatArray, step: Callable[[], object]) -> list[dict[str, Any]]:
-    """Rows of the score table of what the device moves."""
+def _solved_rows(
+    scene: Scene, edges: FloatArray, step: Callable[[], object]
+) -> tuple[list[dict[str, Any]], dict[Case, FilteredReadouts]]:
+    """Rows of the score table of what the device moves, and filtered read-outs of the cases that have scores."""
     condensed = prepared(scene, edges)
     step()
     rows: list[dict[str, Any]] = []
+    read: dict[Case, FilteredReadouts] = {}
     for solved in solve_scene(scene, condensed):
-        rows += rows_of(scene, condensed, solved)
+        if isinstance(solved.solution, Unsolved):
+            rows += rows_without(scene, solved)
+        else:
+            read[solved.case] = read_out(scene, condensed, solved.solution)
+            rows += rows_of(scene, solved, solved.solution, read[solved.case])
         step()
-    return rows
+    return rows, read

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
@@ -13,13 +13,14 @@ from ..contact.solution import Solution
 from ..errors import CondensationError, ContactError, MeshError
 from ..finite.deformed_solution import pressed_finger, stimulate_deformed
 from ..finite.pressing import press
-from ..readouts.accuracy import COARSENING, COARSEST, case_of
+from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows, unsolved_rows
+from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows
 from ..readouts.strain import FilteredReadouts, Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.actuator_body import body_of
@@ -31,6 +32,8 @@ from .caveats import solution_caveats, stimulus_caveats
 
 Result = TypeVar("Result")
 Unsolved = ContactError | CondensationError  # why there is no solution, though there is a mesh
+Case = tuple[str, Interface]  # condition, interface
+UNKNOWN = f"{ERROR_UNKNOWN}: on a mesh of {COARSENING:g} times the sizes, "  # and the reason
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,11 @@ class Solved:
     condition: Condition
     interface: Interface
     solution: Solution | Unsolved
+
+    @property
+    def case(self) -> Case:
+        """Name of the condition, and interface."""
+        return self.condition.name, self.interface
 
 
 def prepared(scene: Scene, edges: FloatArray) -> Condensed | Meshed:
@@ -96,32 +104,43 @@ def rows_at(
     return predicted_rows(other, prepared(other, edges), interfaces)
 
 
-def coarser_rows(scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
-    """Rows of the score table on sizes and increments COARSENING times as large, for the errors of scores, and behind
-    them as `coarsest` the score on those COARSEST times as large; edges: (k, 2) [mm]. If the coarser solution cannot be
-    had, rows without scores, whose note says why; without the coarsest, None. step: called after condensation and after
-    every condition of every solution, of both.
-    """
-    coarser = _rows_if_any(scene, COARSENING, edges, step)
-    coarsest = {case_of(row): row["score"] for row in _rows_if_any(scene, COARSEST, edges, step)}
-    return [row | {"coarsest": coarsest[case_of(row)]} for row in coarser]
-
-
-def _rows_if_any(
-    scene: Scene, coarsening: float, edges: FloatArray, step: Callable[[], object]
+def error_rows(
+    scene: Scene, edges: FloatArray, read: Mapping[Case, FilteredReadouts], step: Callable[[], object] = lambda: None
 ) -> list[dict[str, Any]]:
-    """`rows_at`, without scores where they cannot be had."""
-    other, rows = scene.coarsened(coarsening), list[dict[str, Any]]()
-    unknown = f"{ERROR_UNKNOWN}: on a mesh of {coarsening:g} times the sizes, "
+    """Rows with the `score_error` of every score, from a solution with sizes and increments COARSENING times as large
+    and edges (k, 2) [mm]; None where that cannot be had, and a `note` that says why.
+
+    read: filtered read-outs of the cases that have scores. step: called after condensation and after every condition.
+    """
+    other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
     try:
         condensed = prepared(other, edges)
-        step()
-        for solved in solve_scene(other, condensed):
-            rows += rows_of(other, condensed, solved, unknown)
-            step()
     except (MeshError, CondensationError) as error:
-        return unsolved_rows(scene, f"{unknown}{error}")
+        return [row for case in read for row in _errors_of(scene, case, f"{UNKNOWN}{error}")]
+    step()
+    for solved in solve_scene(other, condensed):
+        if solved.case in read:
+            if isinstance(solved.solution, Unsolved):
+                rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")
+            else:
+                coarser = read_out(other, condensed, solved.solution)
+                rows += _errors_of(scene, solved.case, "", score_errors(scene, read[solved.case], coarser))
+        step()
     return rows
+
+
+def _errors_of(
+    scene: Scene, case: Case, note: str, errors: Mapping[Readout, float] | None = None
+) -> list[dict[str, Any]]:
+    """Rows with the errors of one case, or without."""
+    condition, interface = case
+    where = {"kinematics": str(scene.kinematics), "device": scene.device.name, "condition": condition}
+    return [
+        where
+        | {"interface": str(interface), "readout": str(each), "score_error": (errors or {}).get(each)}
+        | {"note": note}
+        for each in Readout
+    ]
 
 
 def predicted_rows(
@@ -132,7 +151,7 @@ def predicted_rows(
     for solved in solve_scene(scene, condensed, interfaces):
         if isinstance(solved.solution, Unsolved):
             raise solved.solution
-        rows += rows_of(scene, condensed, solved)
+        rows += rows_of(scene, solved, solved.solution, read_out(scene, condensed, solved.solution))
     return rows
 
 
@@ -173,17 +192,15 @@ def pressed_device(
     )
 
 
-def rows_of(
-    scene: Scene, condensed: Condensed | Meshed, solved: Solved, unsolved: str = f"{NO_PREDICTION}: "
-) -> list[dict[str, Any]]:
-    """Rows of the score table for one solution, with its caveats as their note; without one, rows without scores, whose
-    note is `unsolved` and why.
-    """
-    if isinstance(solved.solution, Unsolved):
-        return unscored_rows(scene, solved.condition, solved.interface, f"{unsolved}{solved.solution}")
-    caveats = stimulus_caveats(solved.condition) + solution_caveats(scene, solved.solution)
-    read = read_out(scene, condensed, solved.solution)
+def rows_of(scene: Scene, solved: Solved, solution: Solution, read: FilteredReadouts) -> list[dict[str, Any]]:
+    """Rows of the score table for what was solved, its solution and filtered read-outs, with caveats as their note."""
+    caveats = stimulus_caveats(solved.condition) + solution_caveats(scene, solution)
     return score_rows(scene, solved.condition, solved.interface, read, "; ".join(caveats))
+
+
+def rows_without(scene: Scene, solved: Solved) -> list[dict[str, Any]]:
+    """Rows without scores, whose note says why there is no solution."""
+    return unscored_rows(scene, solved.condition, solved.interface, f"{NO_PREDICTION}: {solved.solution}")
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

@@ -1,70 +1,63 @@
-"""Discretisation error of scores, estimated from a second, coarser solution, and a third.
+"""Discretisation error of scores, estimated from a second, coarser solution.
 
-Elements and load increments of the second solution are COARSENING times as large, those of the third COARSEST times.
-With an order p of convergence the error of the first is |difference| / (times^p - 1). Contact fronts converge with the
-first order, strains with the second, increments with the second; the first is assumed of all (ORDER). A single
-difference may vanish by chance, so no relative estimate is below the lower median, for the same device and read-out, of
-the larger of what both coarser solutions say: conditions share a mesh and a pre-indentation, and so may share the
-chance. Those that share a stimulus, and so a score on either mesh, count once. Nor is a change of strain known better
-than strain, of which it is a difference. And as a device may have a single condition, none is below LEAST.
+Elements and load increments of the second solution are COARSENING times as large. The score of what its filtered
+read-outs are off by, S(e_2 - e), is at least |S_2 - S|; unlike that it cannot vanish by chance, as whatever differs
+anywhere adds to it. With an order p of convergence the error of the first solution is S(e_2 - e) / (COARSENING^p - 1).
+Contact fronts converge with the first order, strains with the second, increments with the second: ORDER lies between
+(docs/decisions/0032). As curves may agree to more than the solver's tolerance, none is below LEAST.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from statistics import median_low
 from typing import Any
 
+import numpy as np
+
 from ..scene.readout import Readout
+from ..scene.scene import Scene
+from .roughness import roughness_score, scene_span
+from .strain import FilteredReadouts
 
 COARSENING = 2.0  # [1]; source: sizes go by halves, and 1.5 understated five scores of 54 by more than 2 (decision 23)
-COARSEST = 3.0  # [1]; source: shows where scores on twice the sizes agree by chance; 4 overstates (decision 25)
-ORDER = 1.0  # of convergence [1]; source: that of contact fronts, the lowest
+ORDER = 1.5  # of convergence [1]; source: 2 understates more than one in twenty scores of unlike devices (decision 32)
 LEAST = 1e-3  # of a score [1]; source: median of 66 errors against references (decision 25)
 # of a reference [1]: at least 20 times the unknowns, errors a thirtieth at second order; source: 4 times hid bands of
 # strain (decision 22)
 REFINEMENT = 5.6
 CASE = ("kinematics", "device", "condition", "interface", "readout")
-GROUP = ("kinematics", "device", "readout")
 REFERENCED = ("kinematics", "device", "interface")
 
 
-def with_errors(scores: Sequence[Mapping[str, Any]], coarser: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of the score table with `score_error` behind `score`, in the same unit; None where there is no score, or
-    none of the coarser solution, whose note then says why.
+def score_errors(scene: Scene, read: FilteredReadouts, coarser: FilteredReadouts) -> dict[Readout, float]:
+    """Errors [mm2] of both scores, from filtered read-outs and those of the coarser solution."""
+    span = scene_span(scene)
+    errors = {}
+    for each in Readout:
+        filtered = read.filtered(each)
+        off = np.interp(read.arc, coarser.arc, coarser.filtered(each)) - filtered
+        estimated = roughness_score(read.arc, off, span) / (COARSENING**ORDER - 1.0)
+        errors[each] = max(estimated, LEAST * roughness_score(read.arc, filtered, span))
+    return errors
 
-    coarser: rows of the coarser solution, with the score of the coarsest as `coarsest`, None without one. Raises
-    KeyError if it lacks one.
+
+def with_errors(scores: Sequence[Mapping[str, Any]], checks: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Rows of the score table with `score_error` behind `score`, in the same unit; None where there is no score, or
+    no coarser solution, whose note then says why.
+
+    checks: rows with `score_error` and `note` of every case with a score. Raises KeyError if one is missing.
     """
-    second = {case_of(row): row for row in coarser}
-    estimate: dict[tuple[str, ...], float] = {}
-    relative: dict[tuple[str, ...], dict[tuple[str, float, float], float]] = {}
-    for row in filter(_is_scored, scores):
-        case, score = case_of(row), float(row["score"])
-        if not _is_scored(second[case]):
-            continue
-        coarse, coarsest = float(second[case]["score"]), second[case]["coarsest"]
-        estimate[case] = larger = max(_estimated(score, coarse, COARSENING), LEAST * score)
-        if coarsest not in {None, ""}:
-            larger = max(larger, _estimated(score, float(coarsest), COARSEST))
-        if score > 0.0:  # a stimulus that is none changes nothing, on any mesh
-            relative.setdefault(_of(row, GROUP), {})[row["interface"], score, coarse] = larger / score
-    least = {group: median_low(values.values()) for group, values in relative.items()}
+    found = {case_of(row): row for row in checks}
     table = []
     for row in scores:
-        case = case_of(row)
-        if case in estimate:
-            groups = _of(row, GROUP), _of({**row, "readout": Readout.STRAIN}, GROUP)
-            share = max(least.get(group, 0.0) for group in groups)
-            table.append(with_error(row, max(estimate[case], share * float(row["score"]))))
-        else:
-            table.append(with_error(row, None) | ({"note": _joined(row, second[case])} if _is_scored(row) else {}))
+        if not _is_scored(row):
+            table.append(with_error(row, None))
+            continue
+        check = found[case_of(row)]
+        known = check["score_error"] not in {None, ""}
+        error = float(check["score_error"]) if known else None
+        table.append(with_error(row, error) | ({} if known else {"note": _joined(row, check)}))
     return table
-
-
-def _estimated(score: float, coarser: float, times: float) -> float:
-    """Error of a score, from that of a solution whose elements are so many times as large [1]."""
-    return abs(coarser - score) / (float(times**ORDER) - 1.0)
 
 
 def with_error(row: Mapping[str, Any], error: float | None) -> dict[str, Any]:

@@ -27,6 +27,11 @@ def score_span(row: ActuatorRow, margin: float) -> tuple[float, float]:
     return row.positions[0] - row.width / 2.0 - margin, row.positions[-1] + row.width / 2.0 + margin
 
 
+def scene_span(scene: Scene) -> tuple[float, float]:
+    """The span of a scene's scores."""
+    return score_span(scene.device.actuators, scene.model.readout.span_margin)
+
+
 def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, float]) -> float:
     """Area [mm2] of |g * s| over the span: the trapezoidal integral of |filtered| ds.
 
@@ -47,8 +52,7 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
 
 def roughness_scores(scene: Scene, readouts: FilteredReadouts) -> dict[Readout, float]:
     """Scores [mm2] of both filtered read-outs over a scene's row."""
-    span = score_span(scene.device.actuators, scene.model.readout.span_margin)
-    return {each: roughness_score(readouts.arc, readouts.filtered(each), span) for each in Readout}
+    return {each: roughness_score(readouts.arc, readouts.filtered(each), scene_span(scene)) for each in Readout}
 
 
 def score_rows(
