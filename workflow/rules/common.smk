@@ -98,11 +98,24 @@ def mode_of(wildcards):
     return MODES[wildcards.mode]
 
 
+def scored(name, kinematics=Kinematics.SMALL):
+    """What all scores of a device depend on with those kinematics: neither its title nor its vibrations."""
+    model, device = SCENE[name].model, SCENE[name].device
+    parts = model.finger, model.contact, model.gabor, model.readout, model.numerics, model.skips
+    return support.fingerprint(
+        *parts, tissue_law(name, kinematics), device.interfaces(), device.actuators, device.conditions
+    )
+
+
 def scored_of(wildcards):
-    """What all scores of the wildcard device depend on: neither its title nor its vibrations."""
-    model, device = scene_of(wildcards).model, scene_of(wildcards).device
-    parts = model.finger, tissue_of(wildcards), model.contact, model.gabor, model.readout, model.numerics, model.skips
-    return support.fingerprint(*parts, device.interfaces(), device.actuators, device.conditions)
+    """`scored` of the wildcard device."""
+    return scored(scene_of(wildcards).device.name, kinematics_of(wildcards))
+
+
+def tissue_law(name, kinematics):
+    """What finite kinematics know of the tissue of a device's scene besides its layers; with small ones nothing."""
+    tissue = SCENE[name].model.tissue
+    return (tissue.law, tissue.ogden_exponent) if kinematics == Kinematics.FINITE else None
 
 
 def cases_of(wildcards):
@@ -118,8 +131,14 @@ def filtered_of(wildcards):
 
 
 def tissue_of(wildcards):
-    """What finite kinematics know of the tissue besides its layers; with small ones nothing."""
-    return scene_of(wildcards).model.tissue if kinematics_of(wildcards) == Kinematics.FINITE else None
+    """`tissue_law` of the wildcard device."""
+    return tissue_law(scene_of(wildcards).device.name, kinematics_of(wildcards))
+
+
+def receptors_of(wildcards):
+    """Where the wildcard device's receptors are read."""
+    readout = scene_of(wildcards).model.readout
+    return readout.layer_above, readout.side
 
 
 def solution_of(wildcards):

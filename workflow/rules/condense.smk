@@ -22,7 +22,7 @@ rule condense:
         code=code("condense.py"),
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
-            scene_of(w).model.readout,
+            receptors_of(w),
             scene_of(w).model.skips.halved_condensation,
             scene_of(w).device.actuators,
             scene_of(w).device.stroke,

@@ -23,7 +23,7 @@ rule mesh:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             tissue_of(w),
-            scene_of(w).model.readout,
+            receptors_of(w),
             scene_of(w).model.gabor.spacing,
             scene_of(w).model.contact,
             scene_of(w).model.numerics,

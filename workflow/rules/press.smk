@@ -4,6 +4,14 @@
 # force against indentation, of small kinematics too: results/indentation.csv
 
 
+def pressing_of(wildcards):
+    """What pressing the wildcard device depends on, and so does every stimulus from there."""
+    model, device = scene_of(wildcards).model, scene_of(wildcards).device
+    tissue = tissue_law(device.name, Kinematics.FINITE)
+    parts = model.finger, tissue, receptors_of(wildcards), model.contact, model.numerics, model.skips
+    return *parts, device.actuators, device.stroke
+
+
 rule press:
     input:
         config=ancient(CONFIG),
@@ -22,16 +30,7 @@ rule press:
         ENVIRONMENT
     params:
         code=code("press.py"),
-        scene=lambda w: support.fingerprint(
-            scene_of(w).model.finger,
-            scene_of(w).model.tissue,
-            scene_of(w).model.readout,
-            scene_of(w).model.contact,
-            scene_of(w).model.numerics,
-            scene_of(w).model.skips,
-            scene_of(w).device.actuators,
-            scene_of(w).device.stroke,
-        ),
+        scene=lambda w: support.fingerprint(*pressing_of(w)),
     script:
         "../scripts/press.py"
 
@@ -55,7 +54,7 @@ rule stimulate:
         ENVIRONMENT
     params:
         code=code("stimulate.py"),
-        path=lambda w: support.fingerprint(support.path_of(condition_of(w))),
+        scene=lambda w: support.fingerprint(*pressing_of(w), support.path_of(condition_of(w))),
     script:
         "../scripts/stimulate.py"
 
