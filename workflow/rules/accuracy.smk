@@ -5,6 +5,8 @@
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms{_finite}.{png,pdf},
 # results/accuracy/{increments,scores}.csv, results/{kinematics}/{device}/reference.csv
 
+LAYERED = SCENE[DEVICES[0]]  # the closed forms of layers are on its finger, which all devices have
+
 
 rule accuracy:
     input:
@@ -56,8 +58,8 @@ rule reference:
 rule increments:
     input:
         config=ancient(CONFIG),
-        devices=DEVICE_FILES,
-        recordings=ALL_RECORDINGS,
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
     output:
         table="results/accuracy/increments.csv",
@@ -67,6 +69,7 @@ rule increments:
         ENVIRONMENT
     params:
         code=code("increments.py"),
+        scenes=[scored(name) for name in DEVICES],
         multiples=[2, 4, 16],
     script:
         "../scripts/increments.py"
@@ -75,8 +78,8 @@ rule increments:
 rule closed_forms:
     input:
         config=ancient(CONFIG),
-        device=ancient(SCENES / "devices" / f"{DEVICES[0]}.yaml"),
-        recordings=ancient(RECORDINGS[DEVICES[0]]),
+        device=ancient(SCENES / "devices" / f"{LAYERED.device.name}.yaml"),
+        recordings=ancient(RECORDINGS[LAYERED.device.name]),
     output:
         table="results/accuracy/closed_forms.csv",
     log:
@@ -87,7 +90,13 @@ rule closed_forms:
         ENVIRONMENT
     params:
         code=code("closed_forms.py"),
-        scene=support.fingerprint(SCENE[DEVICES[0]].model, SCENE[DEVICES[0]].device.actuators),
+        scene=support.fingerprint(
+            LAYERED.model.finger,
+            LAYERED.model.readout.layer_above,
+            LAYERED.model.numerics,
+            tissue_law(LAYERED.device.name, Kinematics.FINITE),
+            LAYERED.device.actuators,
+        ),
     script:
         "../scripts/closed_forms.py"
 

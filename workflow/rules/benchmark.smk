@@ -5,6 +5,7 @@
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
 LADDERS = [each for each in KINEMATICS if "device2" in DEVICES_WITH[each]]
+SKIPPING_FINITE = [path for path in files_with(Kinematics.FINITE) if path.stem == "device2"]
 
 
 rule benchmark:
@@ -18,10 +19,10 @@ rule benchmark:
 
 rule benchmark_steps:
     input:
-        config=CONFIG,
-        devices=DEVICE_FILES,
-        finite=files_with(Kinematics.FINITE),
-        recordings=ALL_RECORDINGS,
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        finite=ancient(files_with(Kinematics.FINITE)),
+        recordings=ancient(ALL_RECORDINGS),
     output:
         timings="results/benchmark/timings.csv",
     log:
@@ -34,6 +35,7 @@ rule benchmark_steps:
         runtime=60,
     params:
         code=code("benchmark_steps.py"),
+        scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each]],
         repeats={"small": 9, "finite": 3},
     script:
         "../scripts/benchmark_steps.py"
@@ -63,9 +65,9 @@ rule benchmark_graph:
 
 rule benchmark_ladder:
     input:
-        config=CONFIG,
-        device=SCENES / "devices" / "device2.yaml",
-        recordings=lambda w: RECORDINGS["device2"],
+        config=ancient(CONFIG),
+        device=ancient(SCENES / "devices" / "device2.yaml"),
+        recordings=ancient(lambda w: RECORDINGS["device2"]),
         reference="results/small/device2/reference.csv",
     output:
         table="results/benchmark/ladder.csv",
@@ -80,6 +82,7 @@ rule benchmark_ladder:
         runtime=60,
     params:
         code=code("benchmark_ladder.py"),
+        scenes=lambda w: [scored("device2", each) for each in LADDERS],
         condition="alternate_180",
         kinematics=LADDERS,
         finest=0.5,
@@ -101,9 +104,9 @@ rule benchmark_ladder:
 
 rule benchmark_growth:
     input:
-        config=CONFIG,
-        device=SCENES / "devices" / "device2.yaml",
-        recordings=lambda w: RECORDINGS["device2"],
+        config=ancient(CONFIG),
+        device=ancient(SCENES / "devices" / "device2.yaml"),
+        recordings=ancient(lambda w: RECORDINGS["device2"]),
     output:
         sizes="results/benchmark/growth.csv",
         fits="results/benchmark/exponents.csv",
@@ -117,6 +120,7 @@ rule benchmark_growth:
         runtime=60,
     params:
         code=code("benchmark_growth.py"),
+        scene=lambda w: scored("device2"),
         factors=[2.0, 1.4, 1.0, 0.7, 0.5],
         counts=[4, 8, 16, 32, 64],
         repeats=3,
@@ -126,10 +130,10 @@ rule benchmark_growth:
 
 rule skipping:
     input:
-        config=CONFIG,
-        devices=DEVICE_FILES,
-        finite=[path for path in files_with(Kinematics.FINITE) if path.stem == "device2"],
-        recordings=ALL_RECORDINGS,
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        finite=ancient(SKIPPING_FINITE),
+        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
     output:
         switches="results/benchmark/skipping.csv",
@@ -144,6 +148,10 @@ rule skipping:
         runtime=60,
     params:
         code=code("skipping.py"),
+        scenes=[
+            *(scored(name) for name in DEVICES),
+            *(scored(path.stem, Kinematics.FINITE) for path in SKIPPING_FINITE),
+        ],
         repeats={"small": 5, "finite": 2},
     script:
         "../scripts/skipping.py"

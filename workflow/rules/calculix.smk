@@ -29,9 +29,9 @@ CALCULIX_FINITE_CASE = CALCULIX_CASE | {"kinematics": "finite", "law": "neo_hook
 
 rule calculix:
     input:
-        config=CONFIG,
-        device=SCENES / "devices" / "device2.yaml",
-        recordings=lambda w: RECORDINGS["device2"],
+        config=ancient(CONFIG),
+        device=ancient(SCENES / "devices" / "device2.yaml"),
+        recordings=ancient(lambda w: RECORDINGS["device2"]),
     output:
         table="results/accuracy/calculix.csv",
         decks=directory("results/calculix"),
@@ -45,6 +45,8 @@ rule calculix:
         runtime=120,
     params:
         code=code("calculix.py"),
+        scene=lambda w: scored("device2"),
+        ogden_exponent=lambda w: SCENE["device2"].model.tissue.ogden_exponent,
         condition="alternate_180",
         limit=1800,
         cases={

@@ -4,7 +4,7 @@
 from difflib import get_close_matches
 
 from fingerpad.scene.contact_law import Interface
-from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
+from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, named_alternative, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.scenefile import recordings

@@ -6,9 +6,16 @@
 
 ENSEMBLE = BASE / "config" / "ensemble.yaml"
 try:
-    MEMBERS = [slug(AS_CONFIGURED), *(slug(each.name) for each in read_ensemble(ENSEMBLE))]
+    ALTERNATIVES = read_ensemble(ENSEMBLE)
 except FingerpadError as error:
     raise WorkflowError(str(error)) from None
+MEMBERS = [slug(AS_CONFIGURED), *(slug(each.name) for each in ALTERNATIVES)]
+
+
+def varied_of(wildcards):
+    """What the wildcard member varies, whatever the source; nothing as configured."""
+    alternative = named_alternative(ALTERNATIVES, wildcards.member)
+    return alternative and (alternative.part, alternative.key, alternative.value, alternative.times)
 
 
 rule ensemble:
@@ -24,7 +31,7 @@ rule ensemble_member:
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
         ensemble=ancient(ENSEMBLE),
-        schemas=[PROJECT / "workflow" / "schemas" / f"{name}.schema.yaml" for name in ("config", "device")],
+        schemas=ancient([SCHEMAS / f"{name}.schema.yaml" for name in ("config", "device")]),
     output:
         scenes=directory("results/ensemble/{kinematics}/{member}/{half_cycle}/scenes"),
         scores="results/ensemble/{kinematics}/{member}/{half_cycle}/scores.csv",
@@ -40,8 +47,8 @@ rule ensemble_member:
         runtime=30,
     params:
         code=code("ensemble_member.py"),
-        scenes=support.fingerprint([(SCENE[name].model, SCENE[name].device) for name in DEVICES]),
-        ensemble=support.fingerprint(read_ensemble(ENSEMBLE)),
+        scenes=lambda w: [scored(name, w.kinematics) for name in DEVICES_WITH[w.kinematics]],
+        varied=lambda w: support.fingerprint(varied_of(w)),
     script:
         "../scripts/ensemble_member.py"
 

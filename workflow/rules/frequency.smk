@@ -36,7 +36,10 @@ rule vibrate:
         runtime=20,
     params:
         code=code("vibrate.py"),
-        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+        scene=scored_of,
+        vibration=lambda w: support.fingerprint(
+            scene_of(w).model.vibration, scene_of(w).device.cycles, scene_of(w).device.frequencies
+        ),
     script:
         "../scripts/vibrate.py"
 
@@ -63,7 +66,10 @@ rule frequency_variants:
         runtime=20,
     params:
         code=code("frequency_variants.py"),
-        scene=lambda w: support.fingerprint(scene_of(w).model, scene_of(w).device),
+        scene=scored_of,
+        vibration=lambda w: support.fingerprint(
+            scene_of(w).model.vibration.relaxation, scene_of(w).model.vibration.steps, scene_of(w).device.cycles
+        ),
         frequency=VARIED_AT,
     script:
         "../scripts/frequency_variants.py"

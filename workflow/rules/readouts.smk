@@ -28,6 +28,6 @@ rule readouts:
         ENVIRONMENT
     params:
         code=code("readouts.py"),
-        scenes=support.fingerprint([(SCENE[name].model, SCENE[name].device) for name in DEVICES]),
+        scenes=[scored(name) for name in DEVICES],
     script:
         "../scripts/readouts.py"
