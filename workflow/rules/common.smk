@@ -4,7 +4,7 @@
 from difflib import get_close_matches
 
 from fingerpad.scene.contact_law import Interface
-from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, named_alternative, read_ensemble, slug
+from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.scenefile import recordings
@@ -18,6 +18,7 @@ if unknown := [name for name in config if name not in SETTINGS]:
 
 SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
+RULE_FILES = sorted((BASE / "workflow" / "rules").rglob("*.smk"))  # with those in rules/custom
 SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
@@ -139,6 +140,14 @@ def receptors_of(wildcards):
     """Where the wildcard device's receptors are read."""
     readout = scene_of(wildcards).model.readout
     return readout.layer_above, readout.side
+
+
+def pressing_of(wildcards):
+    """What pressing the wildcard device depends on, and so does every stimulus from there."""
+    model, device = scene_of(wildcards).model, scene_of(wildcards).device
+    tissue = tissue_law(device.name, Kinematics.FINITE)
+    parts = model.finger, tissue, receptors_of(wildcards), model.contact, model.numerics, model.skips
+    return *parts, device.actuators, device.stroke
 
 
 def solution_of(wildcards):

@@ -4,18 +4,15 @@
 # OUTPUTS: results/ensemble/{kinematics}/{member}/{half_cycle}/ with scene files and scores,
 # results/ensemble_{claims,correlations}.csv, results/figures/ensemble.{png,pdf}
 
+from dataclasses import replace
+
 ENSEMBLE = BASE / "config" / "ensemble.yaml"
 try:
     ALTERNATIVES = read_ensemble(ENSEMBLE)
 except FingerpadError as error:
     raise WorkflowError(str(error)) from None
-MEMBERS = [slug(AS_CONFIGURED), *(slug(each.name) for each in ALTERNATIVES)]
-
-
-def varied_of(wildcards):
-    """What the wildcard member varies, whatever the source; nothing as configured."""
-    alternative = named_alternative(ALTERNATIVES, wildcards.member)
-    return alternative and (alternative.part, alternative.key, alternative.value, alternative.times)
+# what each member varies, whatever the source
+MEMBERS = {slug(AS_CONFIGURED): None} | {slug(each.name): replace(each, source="") for each in ALTERNATIVES}
 
 
 rule ensemble:
@@ -48,7 +45,7 @@ rule ensemble_member:
     params:
         code=code("ensemble_member.py"),
         scenes=lambda w: [scored(name, w.kinematics) for name in DEVICES_WITH[w.kinematics]],
-        varied=lambda w: support.fingerprint(varied_of(w)),
+        varied=lambda w: support.fingerprint(MEMBERS[w.member]),
     script:
         "../scripts/ensemble_member.py"
 
@@ -58,7 +55,7 @@ rule ensemble_tables:
         members=expand(
             "results/ensemble/{kinematics}/{member}/{half_cycle}/scores.csv",
             kinematics=KINEMATICS,
-            member=MEMBERS,
+            member=list(MEMBERS),
             half_cycle=HALF_CYCLES,
         ),
         scores="results/scores.csv",

@@ -4,14 +4,6 @@
 # force against indentation, of small kinematics too: results/indentation.csv
 
 
-def pressing_of(wildcards):
-    """What pressing the wildcard device depends on, and so does every stimulus from there."""
-    model, device = scene_of(wildcards).model, scene_of(wildcards).device
-    tissue = tissue_law(device.name, Kinematics.FINITE)
-    parts = model.finger, tissue, receptors_of(wildcards), model.contact, model.numerics, model.skips
-    return *parts, device.actuators, device.stroke
-
-
 rule press:
     input:
         config=ancient(CONFIG),
