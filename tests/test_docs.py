@@ -15,7 +15,7 @@ from fingerpad.pages.codemap import dotted, imported, levels, page, summary, uni
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "fingerpad"
-RULES = sorted((ROOT / "workflow" / "rules").glob("*.smk"))
+RULES = sorted((ROOT / "workflow" / "rules").rglob("*.smk"))  # with those in rules/custom
 SCRIPTS = sorted((ROOT / "workflow" / "scripts").glob("*.py"))
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md")), ROOT / "data" / "README.md"]
 MODEL = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")

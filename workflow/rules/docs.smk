@@ -31,7 +31,7 @@ rule assumptions:
 rule code_map:
     input:
         package=[SOURCE / "fingerpad" / "__init__.py", *sorted((SOURCE / "fingerpad").rglob("*.py"))],
-        rules=sorted((BASE / "workflow" / "rules").glob("*.smk")),
+        rules=RULE_FILES,
         scripts=sorted((BASE / "workflow" / "scripts").glob("*.py")),
     output:
         page="docs/map.md",

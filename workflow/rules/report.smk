@@ -36,7 +36,8 @@ rule rule_graph:
     input:
         config=ancient(CONFIG),
         snakefile=BASE / "Snakefile",
-        rules=sorted((BASE / "workflow" / "rules").glob("*.smk")),
+        rules=RULE_FILES,
+        support=BASE / "workflow" / "support.py",
     output:
         graph="results/rule_graph.csv",
     log:
@@ -45,7 +46,7 @@ rule rule_graph:
         ENVIRONMENT
     params:
         code=code("rule_graph.py"),
-        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
+        scene=support.fingerprint([SCENE[name].device for name in DEVICES], DEVICES_WITH),
     script:
         "../scripts/rule_graph.py"
 
