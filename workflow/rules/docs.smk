@@ -1,7 +1,7 @@
 # Pages and pictures of docs/ that follow from scene files and from `all`: `snakemake docs`. Those that say what was measured
 # are in pages.smk.
 # REQUIRED INPUTS: scene files, the code, results/claims.csv, results/figures/figure_5_correlation.png.
-# OUTPUTS: docs/assumptions.md, docs/map.md, docs/claims.md, docs/figures/figure_5_correlation.png
+# OUTPUTS: docs/assumptions.md, docs/map.md, docs/claims.md; docs/figures/{figure}.png, also for the pages of pages.smk
 
 
 rule docs:
@@ -63,11 +63,13 @@ rule claims_page:
 
 rule shown_figure:
     input:
-        figure="results/figures/figure_5_correlation.png",
+        figure="results/figures/{figure}.png",
     output:
-        figure="docs/figures/figure_5_correlation.png",
+        figure="docs/figures/{figure}.png",
     log:
-        "results/logs/shown_figure.log",
+        "results/logs/shown_figure_{figure}.log",
+    wildcard_constraints:
+        figure=r"\w+",
     conda:
         ENVIRONMENT
     shell:

@@ -1,8 +1,6 @@
 # Pages of docs/ that say what was measured. They need every long target; not part of `all`: `snakemake pages`.
 # REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble, results/scores.csv.
-# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/robustness.md, docs/figures/*.png
-
-MEASURED_FIGURES = ["accuracy_closed_forms.png", "accuracy_closed_forms_finite.png", "benchmark.png"]
+# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/robustness.md
 
 
 rule pages:
@@ -25,10 +23,11 @@ rule accuracy_page:
         ladder="results/benchmark/ladder.csv",
         exponents="results/benchmark/exponents.csv",
         graph="results/benchmark/graph.csv",
-        figures=expand("results/figures/{name}", name=MEASURED_FIGURES),
+        figures=expand(
+            "docs/figures/{name}.png", name=["accuracy_closed_forms", "accuracy_closed_forms_finite", "benchmark"]
+        ),
     output:
         page="docs/accuracy.md",
-        figures=expand("docs/figures/{name}", name=MEASURED_FIGURES),
     log:
         "results/logs/accuracy_page.log",
     conda:
@@ -62,10 +61,9 @@ rule frequency_page:
         table="results/frequency.csv",
         variants="results/frequency_variants.csv",
         scores="results/scores.csv",
-        figure="results/figures/frequency.png",
+        figure="docs/figures/frequency.png",
     output:
         page="docs/frequency.md",
-        figure="docs/figures/frequency.png",
     log:
         "results/logs/frequency_page.log",
     conda:
@@ -81,10 +79,9 @@ rule robustness_page:
         template=BASE / "workflow" / "pages" / "robustness.md",
         claims="results/ensemble_claims.csv",
         correlations="results/ensemble_correlations.csv",
-        figure="results/figures/ensemble.png",
+        figure="docs/figures/ensemble.png",
     output:
         page="docs/robustness.md",
-        figure="docs/figures/ensemble.png",
     log:
         "results/logs/robustness_page.log",
     conda:

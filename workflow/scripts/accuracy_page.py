@@ -1,6 +1,5 @@
 """Write the page on accuracy, stability and run time from what was measured."""
 
-import shutil
 from pathlib import Path
 
 import pandas as pd
@@ -10,12 +9,10 @@ from fingerpad.pages.accuracy import accuracy_values
 from fingerpad.pages.filling import filled
 
 
-def main(template: Path, tables: dict[str, Path], figures: dict[Path, Path], page: Path) -> None:
-    """Read template and tables, write the page, and copy its figures to where it shows them."""
+def main(template: Path, tables: dict[str, Path], page: Path) -> None:
+    """Read template and tables, write the page."""
     values = accuracy_values({name: pd.read_csv(path) for name, path in tables.items()})
     write_text(page, filled(template.read_text(encoding="utf-8"), values))
-    for source, copy in figures.items():
-        shutil.copyfile(source, copy)
 
 
 if __name__ == "__main__":
@@ -24,6 +21,5 @@ if __name__ == "__main__":
     main(
         Path(job.input.template),
         {name: Path(job.input[name]) for name in names},
-        dict(zip(map(Path, job.input.figures), map(Path, job.output.figures), strict=True)),
         Path(job.output.page),
     )

@@ -4,12 +4,14 @@ from pathlib import Path
 
 import pandas as pd
 
+from fingerpad.files import write_text
 from fingerpad.perception.claims import claims_table
 
 
 def main(scores: Path, correlations: Path, claims: Path) -> None:
     """Read both tables, check every claim, write the verdicts with their evidence."""
-    claims_table(pd.read_csv(scores), pd.read_csv(correlations)).to_csv(claims, index=False, lineterminator="\n")
+    table = claims_table(pd.read_csv(scores), pd.read_csv(correlations))
+    write_text(claims, table.to_csv(index=False, lineterminator="\n"))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from fingerpad.files import write_text
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
@@ -13,12 +14,13 @@ def main(
     scores: Path, ratings: Path, order: Path, published: Path, conditions: dict[str, list[str]], correlations: Path
 ) -> None:
     """Read scores and literature data, correlate, write the table. conditions: of every known device."""
-    correlation_table(
+    table = correlation_table(
         pd.read_csv(scores),
         read_ratings(ratings, conditions),
         read_stated_order(order, conditions),
         read_published(published),
-    ).to_csv(correlations, index=False, lineterminator="\n")
+    )
+    write_text(correlations, table.to_csv(index=False, lineterminator="\n"))
 
 
 if __name__ == "__main__":

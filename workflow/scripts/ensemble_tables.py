@@ -6,6 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.ensemble.members import ensemble_tables
+from fingerpad.files import write_text
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
 
@@ -30,7 +31,7 @@ def main(
         read_published(published),
     )
     for table, path in zip(tables, (claims, correlations), strict=True):
-        table.to_csv(path, index=False, lineterminator="\n")
+        write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 """Write the page of scores against frequency."""
 
-import shutil
 from pathlib import Path
 
 import pandas as pd
@@ -10,11 +9,10 @@ from fingerpad.pages.filling import filled
 from fingerpad.pages.frequency import frequency_values
 
 
-def main(template: Path, table: Path, variants: Path, scores: Path, figure: Path, page: Path, shown: Path) -> None:
-    """Read template and tables, write the page, and the figure beside it."""
+def main(template: Path, table: Path, variants: Path, scores: Path, page: Path) -> None:
+    """Read template and tables, write the page."""
     values = frequency_values(pd.read_csv(table), pd.read_csv(variants), pd.read_csv(scores))
     write_text(page, filled(template.read_text(encoding="utf-8"), values))
-    shutil.copyfile(figure, shown)
 
 
 if __name__ == "__main__":
@@ -24,7 +22,5 @@ if __name__ == "__main__":
         Path(job.input.table),
         Path(job.input.variants),
         Path(job.input.scores),
-        Path(job.input.figure),
         Path(job.output.page),
-        Path(job.output.figure),
     )

@@ -1,6 +1,5 @@
 """Write the page of what depends on which assumption."""
 
-import shutil
 from pathlib import Path
 
 import pandas as pd
@@ -10,11 +9,10 @@ from fingerpad.pages.filling import filled
 from fingerpad.pages.robustness import robustness_values
 
 
-def main(template: Path, claims: Path, correlations: Path, figure: Path, page: Path, shown: Path) -> None:
-    """Read template and tables, write the page, and the figure beside it."""
+def main(template: Path, claims: Path, correlations: Path, page: Path) -> None:
+    """Read template and tables, write the page."""
     values = robustness_values(pd.read_csv(claims), pd.read_csv(correlations))
     write_text(page, filled(template.read_text(encoding="utf-8"), values))
-    shutil.copyfile(figure, shown)
 
 
 if __name__ == "__main__":
@@ -23,7 +21,5 @@ if __name__ == "__main__":
         Path(job.input.template),
         Path(job.input.claims),
         Path(job.input.correlations),
-        Path(job.input.figure),
         Path(job.output.page),
-        Path(job.output.figure),
     )
