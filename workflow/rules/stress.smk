@@ -26,6 +26,8 @@ rule stress_scenes:
         "results/logs/stress_scenes_{chunk}.log",
     benchmark:
         "results/benchmarks/stress_scenes_{chunk}.tsv"
+    wildcard_constraints:
+        chunk=r"\d+",
     conda:
         ENVIRONMENT
     resources:
@@ -46,6 +48,8 @@ rule stress_finite:
         "results/logs/stress_finite_{chunk}.log",
     benchmark:
         "results/benchmarks/stress_finite_{chunk}.tsv"
+    wildcard_constraints:
+        chunk=r"\d+",
     conda:
         ENVIRONMENT
     resources:

@@ -1,6 +1,7 @@
 """Execute a notebook in the folder of the results and render it to a page."""
 
 import os
+import tempfile
 from pathlib import Path
 
 from fingerpad.files import write_text
@@ -36,5 +37,6 @@ def main(notebook: Path, scenes: Path, page: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    os.environ["IPYTHONDIR"] = str(Path(job.output.page).parent / ".ipython")
-    main(Path(job.input.notebook), Path(job.input.config).parent, Path(job.output.page))
+    with tempfile.TemporaryDirectory() as folder:  # jobs run beside each other, and IPython keeps a database there
+        os.environ["IPYTHONDIR"] = folder
+        main(Path(job.input.notebook), Path(job.input.config).parent, Path(job.output.page))
