@@ -19,6 +19,7 @@ from fingerpad.scene.device import Condition
 
 PACKAGE = "fingerpad"
 THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+LEFT_BEHIND = {"__pycache__", ".ipynb_checkpoints", f"{PACKAGE}.egg-info"}  # folders that Python and Jupyter make
 
 
 def reached_modules(script: Path, source: Path) -> list[str]:
@@ -74,6 +75,12 @@ def checksum(files: Iterable[str]) -> str:
     """Of what the files say, whatever their names and times."""
     digests = (hashlib.sha256(Path(file).read_bytes()).digest() for file in files)
     return hashlib.sha256(b"".join(digests)).hexdigest()
+
+
+def files_in(paths: Iterable[Path]) -> list[Path]:
+    """The files at these paths and in the folders there, sorted, without LEFT_BEHIND."""
+    files = (file for path in paths for file in (path, *path.rglob("*")) if file.is_file())
+    return sorted(file for file in files if not LEFT_BEHIND & set(file.parts))
 
 
 def fingerprint(*parts: Any) -> str:

@@ -5,6 +5,8 @@
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
 LADDERS = [each for each in KINEMATICS if "device2" in DEVICES_WITH[each]]
+# what a run needs of the project
+COPIED = ["Snakefile", "workflow", "src", "config", "data", "notebooks", "profiles", "environment.yml"]
 SKIPPING_FINITE = [path for path in files_with(Kinematics.FINITE) if path.stem == "device2"]
 
 
@@ -44,8 +46,7 @@ rule benchmark_steps:
 rule benchmark_graph:
     input:
         snakefile=BASE / "Snakefile",
-        scripts=sorted((BASE / "workflow").glob("**/*.*")),
-        code=sorted(SOURCE.glob("**/*.py")),
+        files=support.files_in(BASE / name for name in COPIED),
     output:
         graph="results/benchmark/graph.csv",
     log:
