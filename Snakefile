@@ -14,8 +14,9 @@ SOURCE = BASE / "src"
 sys.path[:0] = [str(PROJECT / "src"), str(PROJECT / "workflow")]
 import support
 
-# jobs find the library; one thread each: results do not depend on the machine's cores, and jobs run beside each other
-os.environ |= {"PYTHONPATH": str(PROJECT / "src"), **dict.fromkeys(support.THREAD_VARIABLES, "1")}
+# jobs find the library. Snakemake gives the matrix library as many threads as a rule says, one where it says nothing: so
+# results do not depend on the machine's cores, and jobs run beside each other
+os.environ |= {"PYTHONPATH": str(PROJECT / "src")}
 
 
 # priorities: 3 for the longest, 2 for what the tables wait for, 1 for what is long or what long jobs wait for; so that no

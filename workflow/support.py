@@ -18,7 +18,6 @@ import numpy as np
 from fingerpad.scene.device import Condition
 
 PACKAGE = "fingerpad"
-THREAD_VARIABLES = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 LEFT_BEHIND = {"__pycache__", ".ipynb_checkpoints", f"{PACKAGE}.egg-info"}  # folders that Python and Jupyter make
 
 

@@ -2,7 +2,10 @@
 
 from pathlib import Path
 
+from threadpoolctl import threadpool_limits
+
 from fingerpad.benchmark.growth import exponents, growth
+from fingerpad.jobs import plain_errors
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
@@ -18,12 +21,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        job.params.factors,
-        job.params.counts,
-        job.params.repeats,
-        Path(job.output.sizes),
-        Path(job.output.fits),
-    )
+    # the rule takes all cores to be alone on the machine, and results are those of one thread
+    with plain_errors(job.log), threadpool_limits(1):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            job.params.factors,
+            job.params.counts,
+            job.params.repeats,
+            Path(job.output.sizes),
+            Path(job.output.fits),
+        )

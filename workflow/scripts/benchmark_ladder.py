@@ -4,9 +4,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
 from fingerpad.calculix.run import installed
+from fingerpad.jobs import plain_errors
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.scoring import rows_at
 from fingerpad.scene.device import Condition
@@ -61,17 +64,19 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.reference),
-        [Kinematics(each) for each in job.params.kinematics],
-        job.params.finest,
-        job.params.condition,
-        job.params.factors,
-        job.params.cases,
-        job.params.limit,
-        job.params.repeats,
-        Path(job.output.decks),
-        Path(job.output.table),
-    )
+    # the rule takes all cores to be alone on the machine, and results are those of one thread
+    with plain_errors(job.log), threadpool_limits(1):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.reference),
+            [Kinematics(each) for each in job.params.kinematics],
+            job.params.finest,
+            job.params.condition,
+            job.params.factors,
+            job.params.cases,
+            job.params.limit,
+            job.params.repeats,
+            Path(job.output.decks),
+            Path(job.output.table),
+        )

@@ -3,8 +3,11 @@
 from pathlib import Path
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
 from fingerpad.calculix.run import installed
+from fingerpad.jobs import plain_errors
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
@@ -29,12 +32,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        job.params.condition,
-        job.params.cases,
-        job.params.limit,
-        Path(job.output.decks),
-        Path(job.output.table),
-    )
+    # the rule takes all cores to be alone on the machine, and results are those of one thread
+    with plain_errors(job.log), threadpool_limits(1):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            job.params.condition,
+            job.params.cases,
+            job.params.limit,
+            Path(job.output.decks),
+            Path(job.output.table),
+        )

@@ -2,7 +2,10 @@
 
 from pathlib import Path
 
+from threadpoolctl import threadpool_limits
+
 from fingerpad.benchmark.skipping import always_rows, skip_rows
+from fingerpad.jobs import plain_errors
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
@@ -30,12 +33,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        [Path(path) for path in job.input.finite],
-        Path(job.input.scores),
-        job.params.repeats,
-        Path(job.output.switches),
-        Path(job.output.always),
-    )
+    # the rule takes all cores to be alone on the machine, and results are those of one thread
+    with plain_errors(job.log), threadpool_limits(1):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            [Path(path) for path in job.input.finite],
+            Path(job.input.scores),
+            job.params.repeats,
+            Path(job.output.switches),
+            Path(job.output.always),
+        )

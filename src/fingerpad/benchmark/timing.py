@@ -9,7 +9,6 @@ from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 Result = TypeVar("Result")
 MEBIBYTE = 2.0**20  # bytes in one
@@ -17,15 +16,12 @@ COUNTED_IN = 1.0 if sys.platform == "darwin" else 1024.0  # bytes in which the s
 
 
 def timed(repeats: int, work: Callable[[], Result]) -> tuple[Result, list[float]]:
-    """What the work returns, and the wall seconds of each repetition, on one thread of the matrix library, as in the
-    jobs and commands.
-    """
+    """What the work returns, and the wall seconds of each repetition."""
     seconds = []
-    with threadpool_limits(1):  # a job that takes all cores, to be alone, is given as many threads
-        for _ in range(repeats):
-            start = time.perf_counter()
-            result = work()
-            seconds.append(time.perf_counter() - start)
+    for _ in range(repeats):
+        start = time.perf_counter()
+        result = work()
+        seconds.append(time.perf_counter() - start)
     return result, seconds
 
 
