@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.ensemble.alternatives import named_alternative, read_ensemble, write_scenes
 from fingerpad.ensemble.members import member_scores
+from fingerpad.jobs import plain_errors
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
@@ -31,14 +32,15 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        Path(job.input.ensemble),
-        Path(job.input.schemas[0]).parent,
-        job.wildcards.member,
-        job.wildcards.half_cycle,
-        job.wildcards.kinematics,
-        Path(job.output.scenes),
-        Path(job.output.scores),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            Path(job.input.ensemble),
+            Path(job.input.schemas[0]).parent,
+            job.wildcards.member,
+            job.wildcards.half_cycle,
+            job.wildcards.kinematics,
+            Path(job.output.scenes),
+            Path(job.output.scores),
+        )

@@ -9,6 +9,7 @@ from fingerpad.fields.recovery import recover_displacement
 from fingerpad.fields.states import deformed_states, states_fields
 from fingerpad.finite.deformed_solution import pressed_finger
 from fingerpad.finite.pressing import Pressed
+from fingerpad.jobs import plain_errors
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -48,13 +49,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        job.wildcards.kinematics,
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.mesh),
-        Path(job.input.body) if job.input.body else None,
-        Path(job.input.pressed) if job.input.pressed else None,
-        [Path(path) for path in job.input.solutions],
-        Path(job.output.fields),
-    )
+    with plain_errors(job.log):
+        main(
+            job.wildcards.kinematics,
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.mesh),
+            Path(job.input.body) if job.input.body else None,
+            Path(job.input.pressed) if job.input.pressed else None,
+            [Path(path) for path in job.input.solutions],
+            Path(job.output.fields),
+        )

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
+from fingerpad.jobs import plain_errors
 from fingerpad.prediction.variants import agreement, variant_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Side
@@ -57,12 +58,13 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        [Path(path) for path in job.input.meshes],
-        [Path(path) for path in job.input.condensed],
-        [Path(path) for path in job.input.solutions],
-        Path(job.output.table),
-        Path(job.output.agreement),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            [Path(path) for path in job.input.meshes],
+            [Path(path) for path in job.input.condensed],
+            [Path(path) for path in job.input.solutions],
+            Path(job.output.table),
+            Path(job.output.agreement),
+        )

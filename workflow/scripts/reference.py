@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fingerpad.jobs import plain_errors
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.scoring import rows_at
 from fingerpad.readouts.accuracy import REFINEMENT
@@ -23,10 +24,11 @@ def main(config: Path, device: Path, kinematics: Kinematics, interfaces: list[In
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Kinematics(job.wildcards.kinematics),
-        [Interface(each) for each in job.params.interfaces],
-        Path(job.output.scores),
-    )
+    with plain_errors(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Kinematics(job.wildcards.kinematics),
+            [Interface(each) for each in job.params.interfaces],
+            Path(job.output.scores),
+        )
