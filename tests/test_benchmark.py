@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import re
 from dataclasses import fields, replace
 from pathlib import Path
@@ -39,6 +40,7 @@ from fingerpad.scene.numerics import Skips
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.store import read_rows
 from fingerpad.tissue.condensation import condense_section
 from scenes import scene
 
@@ -311,3 +313,31 @@ def test_benchmark_figure_shows_every_solver_and_where_they_are_compared() -> No
     assert {str(line.get_label()).partition(",")[0].partition(" for ")[0] for line in climbed} == set(solvers)
     assert all(list(line.get_xdata()) == [0.01, 0.02] for line in climbed)
     assert list(compared.get_xdata()) == [COMPARED_AT, COMPARED_AT]
+
+
+def test_graph_of_jobs_is_timed_and_only_the_real_one_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In copies of its files alone."""
+    spec = importlib.util.spec_from_file_location("benchmark_graph", "workflow/scripts/benchmark_graph.py")
+    assert spec and spec.loader
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    project = tmp_path / "project"
+    files = [project / name for name in ("config/config.yaml", "workflow/scripts/solve.py")]
+    for path, text in zip(files, ("tissue:\n  kinematics: {value: both}\n", "solve()\n"), strict=True):
+        path.parent.mkdir(parents=True)
+        path.write_text(text, encoding="utf-8")
+    (project / "left.pyc").touch()
+    runs: list[tuple[bool, str]] = []
+
+    def seconds_of_all(copy: Path, cores: int) -> float:
+        copies = sorted(path.relative_to(copy) for path in copy.rglob("*") if path.is_file())
+        assert copies == [path.relative_to(project) for path in files]
+        empty = (copy / "workflow/scripts/solve.py").read_text(encoding="utf-8") == script.EMPTY_SCRIPT
+        runs.append((empty, (copy / "config/config.yaml").read_text(encoding="utf-8").split()[-1]))
+        return float(len(runs))
+
+    monkeypatch.setattr(script, "seconds_of_all", seconds_of_all)
+    script.main(project, files, 2, ["small"], 1, tmp_path / "graph.csv")
+    assert runs == [(True, "small}"), (False, "small}"), (False, "small}")]
+    (row,) = read_rows(tmp_path / "graph.csv")
+    assert (row["empty_s"], row["real_s"], row["again_s"]) == ("1.0", "2.0", "3.0")

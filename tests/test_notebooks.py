@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
+import runpy
 from pathlib import Path
+from typing import NoReturn
+from unittest.mock import MagicMock
 
 import nbformat
 import pytest
@@ -21,6 +25,25 @@ def test_notebook_is_valid_and_stored_without_outputs(path: Path) -> None:
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert cells
     assert all(not cell.outputs and cell.execution_count is None and not cell.metadata for cell in cells)
+
+
+def test_every_job_has_a_folder_of_its_own_for_ipython(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Jobs run beside each other, and IPython keeps a database there. Afterwards it is gone."""
+    folders = []
+
+    def stop(*given: object, **named: object) -> NoReturn:
+        folders.append(Path(os.environ["IPYTHONDIR"]))
+        assert folders[-1].is_dir()
+        raise InterruptedError
+
+    monkeypatch.setenv("IPYTHONDIR", "")
+    monkeypatch.setenv("SCENES", "")  # both are set for the rest of the process
+    monkeypatch.setattr(nbformat, "read", stop)
+    for _ in range(2):
+        with pytest.raises(InterruptedError):
+            runpy.run_path("workflow/scripts/notebook.py", {"snakemake": MagicMock()}, "__main__")
+    assert len(set(folders)) == 2
+    assert not any(folder.exists() for folder in folders)
 
 
 @pytest.mark.workflow

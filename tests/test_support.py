@@ -13,7 +13,7 @@ import pytest
 from fingerpad.scene.readout import GaborFilter
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
-from support import checksum, fingerprint, path_of, reached_modules
+from support import checksum, files_in, fingerprint, path_of, reached_modules
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -100,6 +100,16 @@ def test_is_sorted_and_without_repeats(code: Path) -> None:
 )
 def test_reaches_modules_of_a_package_and_the_package(code: Path, script: str) -> None:
     assert reached(code, script) == sorted(DRAWING)
+
+
+def test_files_are_those_that_a_project_has(code: Path) -> None:
+    """Not what Python and Jupyter leave beside them."""
+    for folder in ("__pycache__", ".ipynb_checkpoints", "fingerpad.egg-info"):
+        (code / "src" / folder).mkdir()
+        (code / "src" / folder / "left").touch()
+    (code / "other").touch()
+    found = [path.relative_to(code).as_posix() for path in files_in([code / "src", code / "script.py"])]
+    assert found == sorted(FILES)
 
 
 def test_fingerprint_does_not_depend_on_the_order_of_keys() -> None:

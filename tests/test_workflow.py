@@ -42,7 +42,31 @@ DIRECTIVES = [
 SOLVER = {"mesh", "condense", "condense_body", "solve", "filter", "score"}
 TABLES = {"scores", "correlate", "claims"}
 CONFIG, DEVICE = "config/config.yaml", "config/devices/device2.yaml"
+ENSEMBLE = "config/ensemble.yaml"
 NOTHING = "Nothing to be done"
+LONG = (
+    "all",
+    *("accuracy", "honesty", "calculix", "frequency", "ensemble", "readouts", "results/rule_graph.csv"),
+    *("results/benchmark/timings.csv", "results/figures/benchmark.png", "results/benchmark/skipping.csv"),
+)  # targets
+LONG_RULES = {
+    *("closed_forms", "increments", "reference", "calculix", "vibrate", "frequency_variants", "ensemble_member"),
+    *("readouts", "benchmark_steps", "benchmark_ladder", "benchmark_growth", "skipping"),
+}
+THREADS = """
+rule one:
+    output:
+        "results/one.txt",
+    shell:
+        "echo $OPENBLAS_NUM_THREADS > {output}"
+
+rule two:
+    output:
+        "results/two.txt",
+    threads: 2
+    shell:
+        "echo $OPENBLAS_NUM_THREADS > {output}"
+"""
 
 
 # What is written
@@ -99,6 +123,14 @@ def test_rule_log_and_benchmark_share_a_name(rule: Rule) -> None:
 def test_rule_that_reads_a_device_depends_on_its_recordings(rule: Rule) -> None:
     named = re.findall(r"^ *(\w+)=", rule.directives.get("input", ""), re.MULTILINE)
     assert bool({"device", "devices"} & set(named)) == ("recordings" in named)
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "workflow" / "scripts").glob("*.py")), ids=lambda path: path.stem)
+def test_scripts_write_no_table_and_copy_no_figure_in_place(path: Path) -> None:
+    """Tables are written by the library, whole or not at all; one rule copies figures."""
+    text = path.read_text(encoding="utf-8")
+    assert not re.search(r"to_csv\((?!index)", text)
+    assert "copyfile" not in text
 
 
 def test_lint_finds_nothing(project: Project) -> None:
@@ -161,6 +193,12 @@ def nothing(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("nothing")
 
 
+@pytest.fixture
+def fresh(project: Project, tmp_path: Path) -> Project:
+    """A copy of the project without results, for a test that changes it."""
+    return Project(shutil.copytree(project.folder, tmp_path / "fresh"))
+
+
 @pytest.fixture(scope="module")
 def plan(project: Project, nothing: Path) -> Run:
     """The dry run of everything, from nothing."""
@@ -199,7 +237,140 @@ def test_every_rule_is_planned_by_a_target(project: Project, nothing: Path, both
     assert set(RULES) - planned <= {"condense_body"}  # Device 2 is rigid
 
 
+def test_one_rule_copies_all_figures_that_pages_show(project: Project, nothing: Path, both_scenes: Path) -> None:
+    run = project.snakemake("-n", "docs", "pages", "--directory", nothing, "--config", f"scenes={both_scenes}")
+    assert run.status == 0, run.text
+    copies = {output: job.rule for job in run.jobs for output in job.outputs if output.startswith("docs/figures/")}
+    assert set(copies.values()) == {"shown_figure"}
+    assert copies.keys() == {f"docs/figures/{path.name}" for path in (ROOT / "docs" / "figures").iterdir()}
+
+
+def test_graph_is_timed_on_all_that_a_run_needs(fresh: Project) -> None:
+    left = fresh.folder / "workflow/scripts/__pycache__/mesh.pyc"
+    left.parent.mkdir()
+    left.touch()
+    (job,) = fresh.snakemake("-n", "results/benchmark/graph.csv").jobs
+    assert job.inputs >= {"Snakefile", "environment.yml", "profiles/default/config.yaml", CONFIG, DEVICE}
+    assert job.inputs >= {"data/ratings.csv", "notebooks/walkthrough.ipynb", "workflow/schemas/device.schema.yaml"}
+    assert not any("__pycache__" in name for name in job.inputs)
+
+
+def test_jobs_have_as_many_threads_as_their_rule_says(fresh: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the user's environment says."""
+    custom = fresh.folder / "workflow/rules/custom"
+    custom.mkdir()
+    (custom / "threads.smk").write_text(THREADS, encoding="utf-8")
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    run = fresh.snakemake("results/one.txt", "results/two.txt")
+    assert run.status == 0, run.text
+    for name, threads in (("one", "1"), ("two", "2")):
+        assert (fresh.folder / f"results/{name}.txt").read_text(encoding="utf-8").strip() == threads
+
+
 # What reruns
+
+
+@pytest.fixture(scope="module")
+def recorded(project: Project, tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The project with both kinematics and what long targets make: empty files that Snakemake records as made, so that
+    plans say what a change reruns.
+    """
+    made = Project(shutil.copytree(project.folder, tmp_path_factory.mktemp("recorded") / "fingerpad"))
+    made.edit(CONFIG, lambda text: text.replace("{value: small", "{value: both", 1))
+    run = made.snakemake("-n", *LONG)
+    assert run.status == 0, run.text
+    for name in run.outputs | set(re.findall(r"^    benchmark: (.*)$", run.text, re.MULTILINE)):
+        path = made.folder / name
+        folder = path if not path.suffix else path.parent
+        folder.mkdir(parents=True, exist_ok=True)
+        if path.suffix:
+            path.touch()
+    run = made.snakemake("--touch", "--forceall", *LONG)
+    assert run.status == 0, run.text
+    return made
+
+
+@pytest.fixture
+def long(recorded: Project, tmp_path: Path) -> Project:
+    """A copy of `recorded`, elsewhere."""
+    return Project(shutil.copytree(recorded.folder, tmp_path / "long"))
+
+
+def rules(run: Run) -> set[str]:
+    """The rules of a run's jobs that make something."""
+    return {job.rule for job in run.jobs if job.outputs}
+
+
+def test_long_jobs_do_not_rerun_for_comments_and_sources(long: Project) -> None:
+    """Nor because the project was moved."""
+    for name in (CONFIG, DEVICE, ENSEMBLE, *(f"workflow/schemas/{each}.schema.yaml" for each in ("config", "device"))):
+        long.edit(name, lambda text: f"# a remark\n{text}")
+    long.edit(ENSEMBLE, lambda text: text.replace("a flatter and a rounder fingertip", "other fingertips"))
+    assert NOTHING in long.snakemake("-n", *LONG).text
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "other", "expected", "spared"),
+    [
+        pytest.param(
+            "span_margin",
+            "1.12",
+            "1.0",
+            {"score", "check", "reference", "vibrate", "ensemble_member", "readouts", "calculix", "benchmark_ladder"},
+            {"mesh", "condense", "condense_body", "solve", "press", "stimulate", "filter", "fields", "closed_forms"},
+            id="span_margin",
+        ),
+        pytest.param("inertia_limit", "0.1", "0.2", {"vibrate"}, LONG_RULES - {"vibrate"}, id="inertia_limit"),
+        pytest.param(
+            "newton_tolerance",
+            "1.0e-9",
+            "1.0e-8",
+            LONG_RULES | {"press", "stimulate"},
+            {"figure_stimuli"},
+            id="tolerance",
+        ),
+        pytest.param("ogden_exponent", "9.0", "8.0", {"closed_forms", "calculix", "press"}, {"solve"}, id="ogden"),
+    ],
+)
+def test_edited_value_reruns_the_long_jobs_that_read_it(
+    long: Project, key: str, value: str, other: str, expected: set[str], spared: set[str]
+) -> None:
+    long.edit(CONFIG, lambda text: text.replace(f"{key}: {{value: {value}", f"{key}: {{value: {other}"))
+    found = rules(long.snakemake("-n", *LONG))
+    assert expected <= found
+    assert not spared & found
+
+
+def test_edited_alternative_reruns_its_own_members(long: Project) -> None:
+    long.edit(
+        ENSEMBLE, lambda text: text.replace("finger.height, times: [0.9, 1.1]", "finger.height, times: [0.9, 1.2]")
+    )
+    jobs = [job for job in long.snakemake("-n", "ensemble").jobs if job.rule == "ensemble_member"]
+    assert len(jobs) == 4  # two kinematics, two half-cycles
+    assert all("/finger_height_times_1_2/" in output for job in jobs for output in job.outputs)
+
+
+def test_pressed_finger_that_equals_the_old_one_hides_no_edited_increments(long: Project) -> None:
+    long.edit(CONFIG, lambda text: text.replace("stimulus_increments: {value: 4", "stimulus_increments: {value: 8"))
+    pressed, solution = (
+        f"results/finite/device2/{name}" for name in ("shear/pressed.npz", "alternate_180/shear/solution.npz")
+    )
+    run = long.snakemake("--touch", pressed)  # as if the run of everything had been interrupted here
+    assert run.status == 0, run.text
+    assert pressed not in long.snakemake("-n", pressed).outputs
+    assert solution in long.snakemake("-n", solution).outputs
+
+
+def test_graph_of_rules_follows_kinematics_and_custom_rules(long: Project) -> None:
+    graph = "results/rule_graph.csv"
+    custom = long.folder / "workflow/rules/custom/none.smk"
+    custom.parent.mkdir()
+    custom.touch()
+    assert {"rule_graph", "code_map"} <= rules(long.snakemake("-n", graph, "docs/map.md"))
+    custom.unlink()
+    assert NOTHING in long.snakemake("-n", graph).text
+    long.edit(CONFIG, lambda text: text.replace("{value: both", "{value: small"))
+    assert "rule_graph" in rules(long.snakemake("-n", graph))
 
 
 def test_second_run_does_nothing(finished: Project) -> None:
@@ -410,6 +581,15 @@ def test_unknown_device_is_refused(finished: Project) -> None:
 def test_unknown_condition_is_refused(finished: Project) -> None:
     known = "alternate_000, alternate_090, alternate_180"
     assert_refused(finished, "results/small/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
+
+
+@pytest.mark.parametrize("kind", ["scenes", "finite"])
+def test_random_scenes_of_no_number_are_refused(project: Project, nothing: Path, kind: str) -> None:
+    target = f"results/stress/{kind}_many.csv"
+    run = project.snakemake("-n", target, "--directory", nothing)
+    assert run.status != 0
+    assert f"No rule to produce {target}" in run.text
+    assert "ValueError" not in run.text
 
 
 @pytest.mark.parametrize(
