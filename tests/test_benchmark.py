@@ -316,7 +316,7 @@ def test_benchmark_figure_shows_every_solver_and_where_they_are_compared() -> No
 
 
 def test_graph_of_jobs_is_timed_and_only_the_real_one_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In copies of its files alone."""
+    """Only in copies of its files."""
     spec = importlib.util.spec_from_file_location("benchmark_graph", "workflow/scripts/benchmark_graph.py")
     assert spec and spec.loader
     script = importlib.util.module_from_spec(spec)
