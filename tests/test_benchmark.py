@@ -245,7 +245,7 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     assert "of at least 20.5 times the unknowns" in page
     assert "| c | strain | 2.04 |" in page.replace("order, ", "")
     assert "skipped: ccx not installed" in page
-    assert "takes 2.5 times as long as with small ones alone" in page
+    assert "takes 2.5 times as long as with small strain only" in page
     assert "| both | 95.0 | 10.0 | 9.5 | 3.0 |" in page
 
 

@@ -112,6 +112,18 @@ def test_a_snapshot_does_not_tell_where_a_wave_runs(playback: str) -> None:
         assert one.same_stimulus(other) is (playback == "snapshot")
 
 
+def test_a_snapshot_needs_an_actuator_whose_peak_it_is() -> None:
+    """Without one, all could be at their zero crossings, and nothing would say so."""
+    stimulus = {**PHASED, "direction": "normal", "half_cycle": "first", "dispersions": {"late": [1, 1]}}
+    with pytest.raises(
+        SceneError, match=r"stimulus\.dispersions\.late: found \[1, 1\]; allowed: at least one group index 0"
+    ):
+        phased(stimulus, 2, ROOT)
+    (made, _) = phased({**stimulus, "playback": "cycle"}, 2, ROOT)
+    assert made.time[made.settling - 1] == 1.0
+    assert made.time[-1] == 2.0
+
+
 def narrow(cycles: bool, tangential: list[list[float]]) -> Device:
     """Three actuators with gaps of 0.05 mm, as pins that move in time [1, 2] s or vibrate."""
     row, path = ActuatorRow((-2.05, 0.0, 2.05), 2.0, 0.3), np.array(tangential)

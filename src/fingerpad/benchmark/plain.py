@@ -52,7 +52,7 @@ def plain_scores(
             state, _ = advance(problem, state, start + step / count * (target - start), 1, None, solve_increment)
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
-    readouts = read_receptors(condensed.receptor_strain(forces), condensed.arc).readouts
+    readouts = read_receptors(condensed.receptor_strain(forces), condensed.arc, settling=condition.settling).readouts
     resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
     read = filtered_readouts(resampling, readouts, scene.model.gabor)
     return condensed, score_rows(scene, condition, Interface.SHEAR, read)

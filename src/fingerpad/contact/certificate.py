@@ -56,7 +56,9 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     pressure = pressing / section.weight
     largest = float(pressure.max(initial=0.0))
     excess = np.abs(shearing) - problem.friction * pressing
-    penetration = max(float(-reevaluated_gap(problem, state).min()), 0.0)
+    gap = reevaluated_gap(problem, state)
+    penetration = max(float(-gap.min()), 0.0)
+    separation = float(gap[active].max(initial=0.0))
     smallest = float(pressure[active].min()) if active.any() else 0.0
     indentation = float(np.abs(state.actuator).max())
     # what lies within the tolerance of gaps may just touch, and rounding may pull
@@ -67,6 +69,7 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     checks = {
         "contact residual": (state.residual, problem.tolerance),
         "penetration [mm]": (penetration, PENETRATION_LIMIT * indentation),
+        "gap in contact [mm]": (separation, PENETRATION_LIMIT * indentation),
         "tension [MPa]": (-smallest, max(TENSION_LIMIT * largest, slight / float(section.weight.max()))),
         "excess over the friction cone": (beyond, CONE_LIMIT),
         "negative dissipation [N mm/mm]": (-state.dissipation, DISSIPATION_LIMIT * work),
@@ -75,7 +78,7 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
         if not found <= allowed:
             raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
     require_within_reach(problem, section, state)
-    _, of_penetration, of_tension, of_cone, _ = (
+    _, of_penetration, _, of_tension, of_cone, _ = (
         found / allowed if found > 0.0 else 0.0 for found, allowed in checks.values()
     )
     return Certificate(

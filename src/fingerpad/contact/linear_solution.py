@@ -83,7 +83,7 @@ def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condi
         states = [before, *follow_condition(scene, problem, before, condition, solve)]
         certificate = worst([indented.certificate, *(certify(problem, section, state) for state in states[1:])])
     strains = section.receptor_strain(np.array([state.force for state in states]))
-    return solution(problem, section, states, strains, certificate)
+    return solution(problem, section, states, strains, certificate, condition.settling)
 
 
 def _solve_within_reach(

@@ -68,11 +68,12 @@ def solution(
     states: Sequence[ContactState],
     strains: FloatArray,
     certificate: Certificate,
+    settling: int,
 ) -> Solution:
     """Gather a solution from the pre-indented state and those at the stimulus's times, and the receptors' strains
-    (1 + n_times, 3m) [1] in them.
+    (1 + n_times, 3m) [1] in them, which may be read after so many times of settling.
     """
-    read = read_receptors(strains, section.arc)
+    read = read_receptors(strains, section.arc, settling=settling)
     before, last, shown = states[0], states[-1], states[1 + read.time]
     contact = shearing_and_pressing(problem, states)
     return Solution(

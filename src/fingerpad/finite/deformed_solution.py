@@ -87,7 +87,7 @@ def stimulate_deformed(scene: Scene, finger: PressedFinger, condition: Condition
     section = finger.pressed.section
     strains = np.array([receptor_logarithmic_strain(finger.gradient, each.displacement) for each in found])
     states = [each.state for each in found]
-    return solution(finger.problem, section, states, strains, certificate)
+    return solution(finger.problem, section, states, strains, certificate, condition.settling)
 
 
 def certified_equilibria(

@@ -11,6 +11,7 @@ from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..readouts.roughness import KEY, SAME
 from ..scene.device import Condition
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 
@@ -26,6 +27,7 @@ RIVAL = 0.98
 DEEP = 0.5
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
+COARSE = 4.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 
 
@@ -38,8 +40,8 @@ def stimulus_caveats(condition: Condition) -> list[str]:
 
 def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     """Actuators too deep for small strain, too narrow for the mesh, without force where pre-indentation ends or off the
-    skin, a peak that another time comes near to, many increments that were cut or did not settle at once, and figures
-    of the certificate near their limits.
+    skin, a filter too fine for the mesh, a peak that another time comes near to, many increments that were cut or did
+    not settle at once, and figures of the certificate near their limits.
     """
     certificate = solution.certificate
     found = depth_caveats(scene, solution.depth)
@@ -56,6 +58,9 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
     if elements < FEW:
         found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
+    waves = min(scene.model.gabor.wavelength(each) for each in Readout) / scene.model.numerics.receptor_size
+    if waves < COARSE:
+        found.append(f"the filter's wavelength is {waves:.1f} receptor elements: try a smaller numerics.receptor_size")
     if solution.cuts > MANY_CUTS:
         found.append(f"increments were halved {solution.cuts} times")
     if solution.searches > MANY_SEARCHES:

@@ -51,7 +51,8 @@ def variant_rows(
         for measure in Measure:
             of_strain = partial(measured, measure, material=material_at(scene, side))
             for (name, interface), solution in solutions.items():
-                read = read_receptors(section.receptor_strain(solution.forces), section.arc, of_strain)
+                settling = scene.device.condition(name).settling
+                read = read_receptors(section.receptor_strain(solution.forces), section.arc, of_strain, settling)
                 for factor in WAVELENGTH_FACTORS:
                     variant = _with_wavelengths(scene, factor)
                     filtered = filtered_readouts(resampling, read.readouts, variant.model.gabor)

@@ -49,23 +49,26 @@ class Reading:
 
 
 def read_receptors(
-    components: FloatArray, arc: FloatArray, measure: Callable[[FloatArray], FloatArray] = maximum_principal
+    components: FloatArray,
+    arc: FloatArray,
+    measure: Callable[[FloatArray], FloatArray] = maximum_principal,
+    settling: int = 0,
 ) -> Reading:
     """Read-outs at the time at which a measure has changed most: the largest root mean square over arc length, so that
     no mesh matters. That is the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
 
     components: (1 + n_times, 3m) strains at receptors that mirror, of the pre-indented state and along the stimulus.
-    arc: (m,) [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. Where all values count as
-    equal the change is zero.
+    arc: (m,) [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. settling: times that pass
+    before any is read. Where all values count as equal the change is zero.
     """
     # ASSUME: readout: the change of strain is that from the pre-indented state
-    before, *strains = (measure(each) for each in components)
+    before, *strains = (measure(each) for each in (components[0], *components[1 + settling :]))
     changes = np.array(strains) - before
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
     size = _size(changes, arc)
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
     time = int(np.argmax(size))
-    return Reading(time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
+    return Reading(settling + time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
 
 
 def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray) -> float:

@@ -102,7 +102,8 @@ class Condition:
     """One stimulus of a device: displacement histories relative to the pre-indented position.
 
     time: (n_times,) [s], ascending. normal, tangential: (n_times, n_actuators) [mm]; linear in between. The path
-    starts from rest, so a first row that is not zero is reached from zero.
+    starts from rest, so a first row that is not zero is reached from zero. settling: how many of the times pass before
+    receptors may be read, as friction remembers how a cycle was begun.
     """
 
     name: str
@@ -111,6 +112,7 @@ class Condition:
     time: FloatArray
     normal: FloatArray
     tangential: FloatArray
+    settling: int = 0
 
     def __post_init__(self) -> None:
         where = f"condition {self.name}"
@@ -149,7 +151,8 @@ class Condition:
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""
         return (
-            np.array_equal(self.time, other.time)
+            self.settling == other.settling
+            and np.array_equal(self.time, other.time)
             and np.array_equal(self.normal, other.normal)
             and np.array_equal(self.tangential, other.tangential)
         )
