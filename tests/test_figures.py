@@ -478,36 +478,50 @@ def test_names_of_many_conditions_are_legible(count: int, alike: bool) -> None:
     require_apart(numbers)
 
 
-def test_a_long_title_takes_no_room_from_panels(section: SectionMesh, correlations: pd.DataFrame) -> None:
-    """The longest that the schema allows, in every figure that shows panels of several devices or two of one."""
+def titled(title: str, section: SectionMesh, correlations: pd.DataFrame) -> list[Figure]:
+    """Every figure that shows panels of several devices or two of one, all of that title; figure 3, which shows none,
+    is the last.
+    """
     shear = SCORES[(SCORES["device"] == PHASED.name) & (SCORES["interface"] == "shear")]
     curves = pd.DataFrame(
         [("small", device.name, "shear", height, height, False) for device in DEVICES for height in (0.0, 1.0)],
         columns=["kinematics", "device", "interface", "indentation_mm", "force_N_per_mm", "limit_point"],
     )
+    devices = [replace(device, title=title) for device in DEVICES]
+    titles = {device.name: device.title for device in devices}
+    entries = [make_readouts(device) for device in devices]
+    return [
+        correlation_figure(SCORES, RATINGS, correlations, titles),
+        shear_figure(PHASED.name, title, SCORES, RATINGS, correlations),
+        ablation_figure(SCORES, correlations, titles),
+        kinematics_figure(SCORES, curves, titles),
+        receptor_figure(entries),
+        section_figure(MODEL, section, devices),
+        workflow_figure(entries[0], MODEL.gabor, MODEL.readout, shear),
+    ]
+
+
+def test_a_long_title_takes_no_room_from_panels(section: SectionMesh, correlations: pd.DataFrame) -> None:
+    """The longest that the schema allows."""
     schema = read_yaml(ROOT / "workflow/schemas/device.schema.yaml")
     longest = ("Pin " * 100)[: schema["properties"]["title"]["properties"]["value"]["maxLength"] - 1] + "s"
-
-    def drawn(title: str) -> list[Figure]:
-        devices = [replace(device, title=title) for device in DEVICES]
-        titles = {device.name: device.title for device in devices}
-        entries = [make_readouts(device) for device in devices]
-        return [
-            correlation_figure(SCORES, RATINGS, correlations, titles),
-            shear_figure(PHASED.name, title, SCORES, RATINGS, correlations),
-            ablation_figure(SCORES, correlations, titles),
-            kinematics_figure(SCORES, curves, titles),
-            receptor_figure(entries),
-            workflow_figure(entries[0], MODEL.gabor, MODEL.readout, shear),
-            section_figure(MODEL, section, devices),
-        ]
-
-    for short, long in zip(drawn("Pins"), drawn(longest), strict=True):
+    for short, long in zip(*(titled(title, section, correlations) for title in ("Pins", longest)), strict=True):
         require_legible(short)
         require_legible(long)
         for few, many in zip(short.axes, long.axes, strict=True):
             assert many.get_position().width > 0.9 * few.get_position().width
             assert many.get_position().height > 0.6 * few.get_position().height
+
+
+@pytest.mark.parametrize("title", [r"bad $\foo$ x", r"5 \$ or $ 6"])
+def test_a_title_is_text_and_no_mathematics(
+    title: str, section: SectionMesh, correlations: pd.DataFrame, tmp_path: Path
+) -> None:
+    """An SVG file says of its letters, which are curves, what they spell."""
+    path = tmp_path / "figure.svg"
+    for figure in titled(title, section, correlations)[:-1]:
+        save_as(figure, path)
+        assert f"<!-- {title}" in path.read_text(encoding="utf-8")
 
 
 THICK = replace(FORCED, actuators=replace(PUCKS, body=Body(Material(1.0, 0.48), 4.0)))

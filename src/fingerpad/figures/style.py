@@ -294,8 +294,8 @@ def fitted(figure: Figure, text: str, size: float = TEXT, columns: float = 1.0) 
 
 
 def as_title(figure: Figure, text: str, columns: float = 1.0) -> str:
-    """A title, broken into lines that fit one of so many columns [1] of a figure."""
-    return fitted(figure, text, BOLD * TITLE, columns)
+    """A title, broken into lines that fit one of so many columns [1] of a figure. Dollars in it are no mathematics."""
+    return fitted(figure, text, BOLD * TITLE, columns).replace("$", r"\$")
 
 
 def _legend_width(cells: Sequence[Any], columns: int) -> float:
