@@ -191,7 +191,7 @@ def require_legible(figure: Figure) -> None:
 
 
 def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -> None:
-    figure = correlation_figure(SCORES, RATINGS, correlations, TITLES)
+    figure = correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL)
     require_legible(figure)
     text = words(figure)
     for said in (
@@ -210,21 +210,21 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     assert ("Change of strain score (10⁻³ mm²)", "Perceived roughness\n(ordinal surrogate)") in axis_labels(figure)
     assert "published: poor" in text
     assert "(open)" not in text
-    open_ = words(correlation_figure(SCORES, RATINGS, correlations.assign(r_error=1.1), TITLES))
+    open_ = words(correlation_figure(SCORES, RATINGS, correlations.assign(r_error=1.1), TITLES, Kinematics.SMALL))
     assert open_.replace("\n", " ").count("ing (open)") == open_.count("R² = ") > 0
 
 
 def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) -> None:
     measured = correlation_table(SCORES, RATINGS.assign(kind="measured"), ORDER, PUBLISHED)
-    text = words(correlation_figure(SCORES, RATINGS, measured, TITLES))
+    text = words(correlation_figure(SCORES, RATINGS, measured, TITLES, Kinematics.SMALL))
     assert "surrogate" not in text
     assert "(measured)" in text
     assert ", p " in text
-    assert ", p " not in words(correlation_figure(SCORES, RATINGS, correlations, TITLES))
+    assert ", p " not in words(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL))
 
 
 def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame) -> None:
-    figure = correlation_figure(SCORES, RATINGS, correlations, {"unrated": "Histories"})
+    figure = correlation_figure(SCORES, RATINGS, correlations, {"unrated": "Histories"}, Kinematics.SMALL)
     require_legible(figure)
     for axes in figure.axes:
         assert axes.get_ylabel() == "In order of score"
@@ -234,20 +234,20 @@ def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame)
         assert [line.get_xdata()[0] for line in markers] == sorted(line.get_xdata()[0] for line in markers)
     assert "R² =" not in words(figure)
     none = correlations[correlations["device"] == "unrated"]
-    alone = words(correlation_figure(SCORES, RATINGS, none, {"unrated": "Histories"}))
+    alone = words(correlation_figure(SCORES, RATINGS, none, {"unrated": "Histories"}, Kinematics.SMALL))
     assert not [said for said in ("least squares", "Ratings:", "range:", "τ") if said in alone]
     assert "spread: range of scores" in " ".join(alone.split())
     assert "not compared with perception" in " ".join(words(figure).split())
     rated = correlations[correlations["device"] == "phased"]
     assert "not compared with perception" not in " ".join(
-        words(correlation_figure(SCORES, RATINGS, rated, {"phased": "Phased pins"})).split()
+        words(correlation_figure(SCORES, RATINGS, rated, {"phased": "Phased pins"}, Kinematics.SMALL)).split()
     )
 
 
 def test_unrated_conditions_with_one_score_share_a_place() -> None:
     scores = make_scores([UNRATED]).assign(score=0.3)
     correlations = correlation_table(scores, RATINGS[:0], ORDER[:0], PUBLISHED[:0])
-    figure = correlation_figure(scores, RATINGS[:0], correlations, {"unrated": "Histories"})
+    figure = correlation_figure(scores, RATINGS[:0], correlations, {"unrated": "Histories"}, Kinematics.SMALL)
     for axes in figure.axes:
         assert [label.get_text() for label in axes.get_yticklabels()] == ["push\nand 1 more"]
         assert {line.get_ydata()[0] for line in axes.lines} == {1.0}
@@ -257,17 +257,17 @@ def test_captions_explain_what_is_there_alone(correlations: pd.DataFrame) -> Non
     certain = correlations.assign(r_error=0.0)
     for given, is_open in ((certain, False), (certain.assign(r_error=1.1), True)):
         for figure in (
-            correlation_figure(SCORES, RATINGS, given, TITLES),
-            ablation_figure(SCORES, given, TITLES),
+            correlation_figure(SCORES, RATINGS, given, TITLES, Kinematics.SMALL),
+            ablation_figure(SCORES, given, TITLES, Kinematics.SMALL),
         ):
             assert ("open:" in words(figure)) is is_open
-    assert "range:" in words(correlation_figure(SCORES, RATINGS, correlations, TITLES))
+    assert "range:" in words(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL))
     unordered = correlation_table(SCORES, RATINGS, ORDER[:0], PUBLISHED)
-    assert "range:" not in words(correlation_figure(SCORES, RATINGS, unordered, TITLES))
+    assert "range:" not in words(correlation_figure(SCORES, RATINGS, unordered, TITLES, Kinematics.SMALL))
 
 
 def test_points_lie_where_the_tables_say(correlations: pd.DataFrame) -> None:
-    figure = correlation_figure(SCORES, RATINGS, correlations, {"forced": "Forced pucks"})
+    figure = correlation_figure(SCORES, RATINGS, correlations, {"forced": "Forced pucks"}, Kinematics.SMALL)
     strain, change = figure.axes
     dots = [line.get_xydata()[0] for line in strain.lines if line.get_linestyle() == "None"]
     np.testing.assert_allclose(dots, [[0.30, 0.0], [0.31, 1.0], [0.34, 2.0]])
@@ -277,7 +277,7 @@ def test_points_lie_where_the_tables_say(correlations: pd.DataFrame) -> None:
 
 @pytest.mark.parametrize(("device", "said"), [(PHASED, "n = 8"), (FORCED, "no prediction"), (UNRATED, "no ratings")])
 def test_shear_figure_of_any_device(device: Device, said: str, correlations: pd.DataFrame) -> None:
-    figure = shear_figure(device.name, device.title, SCORES, RATINGS, correlations)
+    figure = shear_figure(device.name, device.title, SCORES, RATINGS, correlations, Kinematics.SMALL)
     require_legible(figure)
     text = words(figure)
     assert said in text
@@ -286,7 +286,7 @@ def test_shear_figure_of_any_device(device: Device, said: str, correlations: pd.
 
 
 def test_ablation_says_where_there_is_no_prediction(correlations: pd.DataFrame) -> None:
-    figure = ablation_figure(SCORES, correlations, TITLES)
+    figure = ablation_figure(SCORES, correlations, TITLES, Kinematics.SMALL)
     require_legible(figure)
     text = words(figure)
     assert "without shear: no prediction" in text
@@ -335,7 +335,7 @@ def test_accuracy_has_a_panel_a_case_and_shows_what_is_held_to_a_tolerance() -> 
     ]
     rows.append(("Case 0, nu = 0.3", "order, displacement", 0.1, 100, 2.0, 2.0, 0.0, 0.05))
     names = ["case", "quantity", "spacing", "unknowns", "computed", "exact", "error", "tolerance"]
-    figure = accuracy_figure(pd.DataFrame(rows, columns=names))
+    figure = accuracy_figure(pd.DataFrame(rows, columns=names), Kinematics.SMALL)
     require_legible(figure)
     titles = [f"Case {number}, \N{GREEK SMALL LETTER NU} = 0.3" for number in range(5)]
     assert [axes.get_title(loc="left") for axes in figure.axes[:5]] == titles
@@ -386,7 +386,7 @@ def test_stimuli_have_a_panel_a_condition(devices: list[Device]) -> None:
 
 
 def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
-    figure = receptor_figure([make_readouts(device) for device in DEVICES])
+    figure = receptor_figure([make_readouts(device) for device in DEVICES], Kinematics.SMALL)
     require_legible(figure)
     assert len(figure.axes) == 2 * sum(len({c.dispersion for c in device.conditions}) for device in DEVICES)
     assert {label for _, label in axis_labels(figure)} == {"Strain (%)", "Change of strain (%)"}
@@ -401,10 +401,10 @@ def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
 def test_receptor_figure_explains_what_is_drawn_and_says_what_is_not() -> None:
     """Of a single pin all phases are one stimulus. Legends are read by rows, with dispersions below phases."""
     taps = [replace(make_condition(f"tap_{p}", "lone", 0.0, 1), phase_deg=p) for p in (0.0, 45.0)]
-    figure = receptor_figure([make_readouts(replace(SINGLE, conditions=tuple(taps)))])
+    figure = receptor_figure([make_readouts(replace(SINGLE, conditions=tuple(taps)))], Kinematics.SMALL)
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°", "under a face before the stimulus"]
     assert "n = 2: 45° as 0°" in words(figure)
-    figure = receptor_figure([make_readouts(device) for device in DEVICES])
+    figure = receptor_figure([make_readouts(device) for device in DEVICES], Kinematics.SMALL)
     figure.draw_without_rendering()
     boxes = [(text.get_window_extent(), text.get_text()) for text in figure.legends[0].get_texts()]
     ordered = [said for box, said in sorted(boxes, key=lambda each: (-round(each[0].y0), each[0].x0)) if said.strip()]
@@ -465,8 +465,8 @@ def test_names_of_many_conditions_are_legible(count: int, alike: bool) -> None:
     device = replace(PHASED, conditions=tuple(conditions))
     scores = make_scores([device])
     correlations = correlation_table(scores, RATINGS[:0], ORDER, PUBLISHED[:0])
-    ablation = ablation_figure(scores, correlations, {device.name: device.title})
-    ranks = correlation_figure(scores, RATINGS[:0], correlations, {device.name: device.title})
+    ablation = ablation_figure(scores, correlations, {device.name: device.title}, Kinematics.SMALL)
+    ranks = correlation_figure(scores, RATINGS[:0], correlations, {device.name: device.title}, Kinematics.SMALL)
     way = workflow_figure(make_readouts(device), MODEL.gabor, MODEL.readout, scores[scores["interface"] == "shear"])
     for figure in (ablation, way) if alike and count > 3 else (ablation, ranks, way):
         require_legible(figure)
@@ -491,11 +491,11 @@ def titled(title: str, section: SectionMesh, correlations: pd.DataFrame) -> list
     titles = {device.name: device.title for device in devices}
     entries = [make_readouts(device) for device in devices]
     return [
-        correlation_figure(SCORES, RATINGS, correlations, titles),
-        shear_figure(PHASED.name, title, SCORES, RATINGS, correlations),
-        ablation_figure(SCORES, correlations, titles),
+        correlation_figure(SCORES, RATINGS, correlations, titles, Kinematics.SMALL),
+        shear_figure(PHASED.name, title, SCORES, RATINGS, correlations, Kinematics.SMALL),
+        ablation_figure(SCORES, correlations, titles, Kinematics.SMALL),
         kinematics_figure(SCORES, curves, titles),
-        receptor_figure(entries),
+        receptor_figure(entries, Kinematics.SMALL),
         section_figure(MODEL, section, devices),
         workflow_figure(entries[0], MODEL.gabor, MODEL.readout, shear),
     ]
@@ -694,8 +694,10 @@ def test_faces_are_projected_on_the_receptor_line() -> None:
 def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd.DataFrame) -> None:
     """They hold no date, whatever the clock says, and a stem with a point keeps it."""
     for name in ("first", "second"):
-        save(correlation_figure(SCORES, RATINGS, correlations, TITLES), tmp_path / f"{name}.v1")
-        save_as(correlation_figure(SCORES, RATINGS, correlations, TITLES), tmp_path / f"{name}.v1.svg")
+        save(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL), tmp_path / f"{name}.v1")
+        save_as(
+            correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL), tmp_path / f"{name}.v1.svg"
+        )
     for suffix in ("png", "pdf", "svg"):
         first, second = (tmp_path / f"{name}.v1.{suffix}" for name in ("first", "second"))
         assert first.read_bytes() == second.read_bytes()

@@ -52,7 +52,7 @@ def ablation_figure(
     scores: pd.DataFrame,
     correlations: pd.DataFrame,
     titles: Mapping[str, str],
-    kinematics: Kinematics = Kinematics.SMALL,
+    kinematics: Kinematics,
 ) -> Figure:
     """Strain (A) and change-of-strain scores (B) of every condition with and without shear, one row a device.
 

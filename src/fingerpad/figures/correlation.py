@@ -61,7 +61,7 @@ def correlation_figure(
     ratings: pd.DataFrame,
     correlations: pd.DataFrame,
     titles: Mapping[str, str],
-    kinematics: Kinematics = Kinematics.SMALL,
+    kinematics: Kinematics,
 ) -> Figure:
     """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row a device.
 
@@ -171,7 +171,7 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     return "\n".join(part for line in lines for part in wrap(line, STATISTICS_WIDTH))
 
 
-def caption(correlations: pd.DataFrame, interface: str = "") -> str:
+def caption(correlations: pd.DataFrame, interface: str) -> str:
     """What a figure's statistics mean and what its ratings are."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""

@@ -75,7 +75,7 @@ def face_arcs(device: Device, section: CondensedSection, solution: Solution) -> 
 
 
 @styled
-def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics = Kinematics.SMALL) -> Figure:
+def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics) -> Figure:
     """Strain (A) and change of strain (B) along the receptor line for all conditions of all devices, with shear."""
     rows = [(entry, *each) for entry in devices for each in entry.device.by_dispersion.items()]
     figure = new_figure(WIDE, ROW_HEIGHT * len(rows) + LEGEND_HEIGHT)

@@ -33,7 +33,7 @@ def shear_figure(
     scores: pd.DataFrame,
     ratings: pd.DataFrame,
     correlations: pd.DataFrame,
-    kinematics: Kinematics = Kinematics.SMALL,
+    kinematics: Kinematics,
 ) -> Figure:
     """Strain (top) and change-of-strain score (bottom) against perceived roughness, without (A) and with shear (B).
 

@@ -261,7 +261,7 @@ def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, alo
         axes.vlines(x, y - error, y + error, color=GREY, linewidth=LINE, zorder=2)
 
 
-def legend_below(figure: Figure, handles: Sequence[Any], caption: str = "", below: Sequence[Any] = ()) -> None:
+def legend_below(figure: Figure, handles: Sequence[Any], caption: str, below: Sequence[Any] = ()) -> None:
     """Legend under all panels, where it covers nothing, with a caption; both fit the figure's width. It is read row by
     row. below: handles that begin a row of their own where not all fit one.
     """
