@@ -8,8 +8,8 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from fingerpad.errors import ContactError
-from fingerpad.explorer import LIMITS, START, Explorer, reach
-from fingerpad.prediction.design import Answer, answer, condense_pad
+from fingerpad.explorer import EDGE_RADIUS, LIMITS, PINS, START, Explorer, explored_pad
+from fingerpad.prediction.design import Answer, answer
 from scenes import scene
 
 PNG = b"\x89PNG"
@@ -17,12 +17,14 @@ PNG = b"\x89PNG"
 
 @pytest.fixture(scope="module")
 def explorer() -> Explorer:
-    """Sliders on Device 2's finger."""
-    return Explorer(condense_pad(scene("device2"), reach(scene("device2"))))
+    """Sliders on the shipped finger."""
+    return Explorer(explored_pad(scene("device2").model))
 
 
 def test_it_starts_with_device_2(explorer: Explorer) -> None:
     row = scene("device2").device.actuators
+    assert len(row.positions) == PINS
+    assert row.edge_radius == EDGE_RADIUS
     assert START["pitch"] == pytest.approx(row.positions[1] - row.positions[0])
     assert START["width"] == row.width
     assert START["friction"] == scene("device2").model.contact.friction

@@ -13,9 +13,10 @@ from threadpoolctl import threadpool_limits
 
 from .errors import FingerpadError
 from .figures.design import DesignPicture
-from .prediction.design import Answer, Pad, PressedRow, answer, press_row
-from .scene.scene import Scene
+from .prediction.design import Answer, Pad, PressedRow, answer, condense_pad, pins_at_rest, press_row
+from .scene.scene import Model
 
+PINS, EDGE_RADIUS = 4, 0.1  # number [1] and edges [mm] of a row's pins; Device 2
 # smallest, largest value and step of each slider, in the unit that its label names
 LIMITS = {
     "pitch": (1.4, 3.0, 0.1),
@@ -38,10 +39,12 @@ ROWS = 3  # of controls: what a pin is, and how it moves; a laptop shows them an
 KEPT = 32  # pressed rows that are remembered [1]: moving a slider back takes no time
 
 
-def reach(scene: Scene) -> float:
-    """Where the outermost pin of any design that the sliders allow ends [mm]."""
-    count = len(scene.device.actuators.positions)
-    return (count - 1) / 2.0 * LIMITS["pitch"][1] + LIMITS["width"][1] / 2.0
+def explored_pad(model: Model) -> Pad:
+    """A finger condensed to all skin under any row that the sliders allow. Raises SceneError, MeshError,
+    CondensationError.
+    """
+    scene = pins_at_rest(model, PINS, START["pitch"], START["width"], EDGE_RADIUS)
+    return condense_pad(scene, (PINS - 1) / 2.0 * LIMITS["pitch"][1] + LIMITS["width"][1] / 2.0)
 
 
 class Explorer:

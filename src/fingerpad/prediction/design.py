@@ -22,7 +22,7 @@ from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device
 from ..scene.readout import Readout
-from ..scene.scene import Scene
+from ..scene.scene import Model, Scene
 from ..tissue.compliance import CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import mesh_section
@@ -72,6 +72,13 @@ class Answer:
     unknown: str = ""
 
 
+def pins_at_rest(model: Model, count: int, pitch: float, width: float, edge_radius: float) -> Scene:
+    """A row of rigid pins [mm], evenly spaced. Raises SceneError if they overlap or numbers are out of range."""
+    positions = tuple((number - (count - 1) / 2.0) * pitch for number in range(count))
+    row = ActuatorRow(positions, width, edge_radius)
+    return Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, row, (_condition(count, 0.0, 0.0, True),)))
+
+
 def condense_pad(scene: Scene, reach: float) -> Pad:
     """Condense a finger to the skin up to |x| = reach [mm], where the outermost pin of any design may end, and ROOM.
 
@@ -90,11 +97,8 @@ def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pr
     Raises SceneError if pins overlap or numbers are out of range, ContactError if the path cannot be followed.
     """
     model, row = pad.scene.model, pad.scene.device.actuators
-    count = len(row.positions)
-    positions = tuple((number - (count - 1) / 2.0) * pitch for number in range(count))
-    pins = ActuatorRow(positions, width, row.edge_radius)
     model = replace(model, contact=replace(model.contact, friction=friction))
-    scene = Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, pins, (_condition(count, 0.0, 0.0, True),)))
+    scene = pins_at_rest(model, len(row.positions), pitch, width, row.edge_radius)
     fine = _pressed(scene, pad.fine)
     try:
         return fine, _pressed(scene.with_numerics(model.numerics.coarsened(COARSENING)), pad.coarse)
@@ -164,8 +168,7 @@ def _moved(row: PressedRow, condition: Condition) -> Answer:
 
 def _condensed(scene: Scene, reach: float) -> Condensed:
     """All skin within reach [mm], as if it lay under one wide pin."""
-    one = ActuatorRow((0.0,), 2.0 * reach, 0.0)
-    covered = Scene(scene.model, Device(NAME, NAME, Control.DISPLACEMENT, one, (_condition(1, 0.0, 0.0, True),)))
+    covered = pins_at_rest(scene.model, 1, 0.0, 2.0 * reach, 0.0)
     section = condense_section(mesh_section(covered, np.array([[0.0, reach]])), covered)
     if len(scene.device.actuators.positions) % 2 == 0:
         section = without_middle(section)
