@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
 from fingerpad.errors import MissingResultError
-from fingerpad.results import needed, results_root
+from fingerpad.results import needed, results_root, scenes
+
+CONFIG = Path(__file__).parents[1] / "config"
 
 
 def test_root_is_the_nearest_folder_with_results(tmp_path: Path) -> None:
@@ -33,3 +36,14 @@ def test_result_that_is_there_is_found(tmp_path: Path) -> None:
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "scores.csv").touch()
     assert needed(tmp_path, "results/scores.csv").is_file()
+
+
+def test_scenes_are_those_that_were_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The shipped ones, or those of the folder that a rule names."""
+    monkeypatch.delenv("SCENES", raising=False)
+    assert list(scenes()) == ["device1", "device2", "device3"]
+    (tmp_path / "devices").mkdir()
+    shutil.copy(CONFIG / "config.yaml", tmp_path)
+    shutil.copy(CONFIG / "devices" / "device3.yaml", tmp_path / "devices" / "own.yaml")
+    monkeypatch.setenv("SCENES", str(tmp_path))
+    assert {name: scene.device.name for name, scene in scenes().items()} == {"own": "own"}

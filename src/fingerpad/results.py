@@ -1,12 +1,17 @@
-"""The folder of results, for those who look inside it: where it is, and which target makes what is missing."""
+"""Results, for those who look inside them: where they are, which target makes what is missing, and their scenes."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from .errors import MissingResultError
+from .scene.scene import Scene
+from .scene.scenefile import load_scene
+from .scene.validation import known_devices
 
 FOLDER = "results"
+PROJECT = Path(__file__).parents[2]
 
 
 def results_root(start: Path) -> Path:
@@ -26,3 +31,12 @@ def needed(root: Path, result: str, target: str | None = None) -> Path:
     if not path.exists():
         raise MissingResultError(f"{result} is not there yet: make it with `snakemake {target or result}`")
     return path
+
+
+def scenes() -> dict[str, Scene]:
+    """Scenes of small kinematics by device: of the folder that SCENES in the environment names, where a rule runs a
+    notebook, or else of config/.
+    """
+    folder = Path(os.environ.get("SCENES", PROJECT / "config"))
+    devices = folder / "devices"
+    return {name: load_scene(folder / "config.yaml", devices / f"{name}.yaml") for name in known_devices(devices)}
