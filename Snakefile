@@ -57,6 +57,5 @@ rule all:
         "results/correlations.csv",
         "results/claims.csv",
         FIGURES,
-        # it follows a condition of Device 2
-        ["results/notebooks/walkthrough.html"] if "device2" in DEVICES else [],
+        "results/notebooks/walkthrough.html",
         TARGETS,

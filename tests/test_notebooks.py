@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import html
 import os
 import re
 import runpy
+import shutil
 from pathlib import Path
 from typing import NoReturn
 from unittest.mock import MagicMock
 
 import nbformat
 import pytest
+from nbclient import NotebookClient
 
-from conftest import Project
+from conftest import Project, Run, into
 
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 
@@ -46,6 +49,16 @@ def test_every_job_has_a_folder_of_its_own_for_ipython(monkeypatch: pytest.Monke
     assert not any(folder.exists() for folder in folders)
 
 
+def said(page: str) -> str:
+    """The words of a page, without its markup."""
+    return html.unescape(re.sub(r"<[^>]+>", "", page))
+
+
+def rendered(run: Run) -> set[str]:
+    """The pages that a run renders, or in a dry run would render."""
+    return {Path(output).stem for job in run.jobs if job.rule == "notebook" for output in job.outputs}
+
+
 @pytest.mark.workflow
 def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
     """A failing cell fails its job. Tables that nobody has made are named with their target. A page loads nothing."""
@@ -55,4 +68,39 @@ def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
     assert set(pages) == {path.stem for path in NOTEBOOKS}
     for target in ("honesty", "accuracy", "benchmark"):
         assert f"snakemake {target}" in pages["accuracy_and_run_time"]
+    assert "Device 2: lateral pins: alternate_180, shear" in said(pages["walkthrough"])
     assert not [name for name, page in pages.items() if re.search(r"<script[^>]*\bsrc=|unpkg", page)]
+
+
+@pytest.fixture
+def other_scenes(coarse_scenes: Path, tmp_path: Path) -> Path:
+    """One device, which is not Device 2, of other phases, slippery, and read on the other side."""
+    scenes = Project(shutil.copytree(coarse_scenes, tmp_path / "scenes"))
+    device = "devices/device2.yaml"
+    scenes.edit(device, lambda text: text.replace("value: [0, 90, 180]", "value: [0, 150, 120]"))
+    scenes.edit(device, lambda text: text.replace("Device 2: lateral pins", r"Pins of $\\phi$ and 1 $"))
+    (scenes.folder / device).rename(scenes.folder / "devices/own.yaml")
+    scenes.edit("config.yaml", lambda text: text.replace("side: {value: dermis", "side: {value: epidermis"))
+    scenes.edit("config.yaml", lambda text: text.replace("friction: {value: 0.6", "friction: {value: 0.9"))
+    return scenes.folder
+
+
+@pytest.mark.workflow
+def test_notebooks_follow_the_scenes(
+    project: Project, other_scenes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All are made, and none claims what holds for the shipped scenes alone; the cone of friction is in view."""
+    run = project.snakemake("notebooks", *into(tmp_path, other_scenes))
+    assert run.status == 0, run.text
+    assert rendered(run) == {path.stem for path in NOTEBOOKS}
+    pages = {name: said((tmp_path / f"results/notebooks/{name}.html").read_text("utf-8")) for name in rendered(run)}
+    for name in ("walkthrough", "fields"):
+        assert r"Pins of $\phi$ and 1 $: alternate_120, shear" in pages[name]
+        assert "lateral pins:" not in pages[name]
+    assert "as configured: maximum principal strain, epidermis side" in pages["ablations"]
+    walkthrough = nbformat.read(project.folder / "notebooks/walkthrough.ipynb", as_version=4)
+    (cone,) = (cell for cell in walkthrough.cells if "Coulomb's cone" in cell.source)
+    cone.source += "\nprint(axis.get_ylim()[1])"
+    monkeypatch.setenv("SCENES", str(other_scenes))
+    NotebookClient(walkthrough, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    assert 0.9 < float(cone.outputs[0].text) < 1.5

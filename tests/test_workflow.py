@@ -628,7 +628,21 @@ def test_a_shipped_device_may_be_left_out(project: Project, tmp_path: Path, left
     assert {job.device for job in run.jobs} == {None, "device1", "device2", "device3"} - set(left_out)
     rules = {job.rule for job in run.jobs}
     assert "figure_workflow" in rules
+    assert "results/notebooks/walkthrough.html" in run.outputs
     assert ("figure_shear" in rules) is ("device2" not in left_out)  # others do not move sideways without friction
+
+
+def test_other_phases_are_planned(project: Project, tmp_path: Path) -> None:
+    """The walkthrough follows the last condition."""
+    changed = Project(shutil.copytree(project.folder, tmp_path / "changed"))
+    changed.edit(DEVICE, lambda text: text.replace("value: [0, 90, 180]", "value: [0, 60, 120]"))
+    for table in ("ratings", "stated_order"):  # of the conditions that there were
+        changed.edit(f"data/{table}.csv", lambda text: re.sub(r"(?m)^device2,.*\n", "", text))
+    for target in ("all", "notebooks"):
+        run = changed.snakemake("-n", target)
+        assert run.status == 0, run.text
+        (page,) = (job for job in run.jobs if "results/notebooks/walkthrough.html" in job.outputs)
+        assert "results/small/device2/alternate_120/shear/filtered.npz" in page.inputs
 
 
 def test_a_device_with_shear_alone_has_no_jobs_without(project: Project, tmp_path: Path) -> None:

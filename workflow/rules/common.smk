@@ -7,7 +7,8 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.scene.scenefile import recordings
+from fingerpad.scene.example import compares_interfaces, example_condition, example_device
+from fingerpad.scene.scenefile import build_model, read_yaml, recordings
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError

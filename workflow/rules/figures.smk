@@ -2,15 +2,8 @@
 # REQUIRED INPUTS: results of solve, filter, score and correlate. OUTPUTS: results/figures/*.{png,pdf}, fields.npz
 
 DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
-# figure 6 needs a device that moves sideways and is predicted without friction as well
-COMPARED = [
-    name
-    for name in DEVICES
-    if Interface.FRICTIONLESS in SCENE[name].device.interfaces()
-    and any(condition.tangential.any() for condition in SCENE[name].device.conditions)
-]
-# the paper's figures 3 and 6 show Device 2; without it, the first device that both can show, or else the first
-EXAMPLE = min(DEVICES, key=lambda name: (name not in COMPARED, name != "device2"))
+COMPARED = [name for name in DEVICES if compares_interfaces(SCENE[name].device)]  # what figure 6 can show
+EXAMPLE = example_device([SCENE[name].device for name in DEVICES]).name  # what figures 3 and 6 show
 # of each kinematics, with the devices that it shows
 SHOWN = {
     "figure_4_receptors": DEVICES,

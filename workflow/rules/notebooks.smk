@@ -1,14 +1,16 @@
 # Notebooks, executed on the results and rendered to pages. `all` has the walkthrough; `snakemake notebooks` renders all.
 # REQUIRED INPUTS: notebooks/{notebook}.ipynb, the results that it reads. OUTPUTS: results/notebooks/{notebook}.html
 
-CASE = "results/small/device2/alternate_180/shear"  # the condition that notebooks look into
+# the condition that notebooks look into, which they find by the same function
+INTO, CONDITION = (each.name for each in example_condition([SCENE[name].device for name in DEVICES]))
+CASE = f"results/small/{INTO}/{CONDITION}/shear"
 # What each notebook cannot do without. Tables of accuracy and run time take long: that page shows those there are.
 READ_BY = {
     "walkthrough": [
         "results/scores.csv",
-        "results/small/device2/mesh.npz",
-        "results/small/device2/condensed.npz",
-        f"{CASE}/solution.npz",
+        f"results/small/{INTO}/mesh.npz",
+        f"results/small/{INTO}/condensed.npz",
+        f"results/small/{INTO}/{SCENE[INTO].solved_as(CONDITION).name}/shear/solution.npz",
         f"{CASE}/filtered.npz",
     ],
     "fields": [f"{CASE}/fields.vtu", f"{CASE}/states"],
@@ -39,7 +41,7 @@ rule notebook:
         ENVIRONMENT
     params:
         code=lambda w: [code("notebook.py"), code_of(BASE / "notebooks" / f"{w.notebook}.ipynb")],
-        # results are of SCENE; what notebooks design themselves begins with the shipped device
-        scene=support.fingerprint(SCENE.get("device2"), SHIPPED.get("device2")),
+        # results are of SCENE; what notebooks design themselves lies on the finger of config/
+        scene=support.fingerprint(SCENE[INTO], build_model(read_yaml(BASE / "config" / "config.yaml"))),
     script:
         "../scripts/notebook.py"
