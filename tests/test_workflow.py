@@ -632,8 +632,8 @@ def test_a_shipped_device_may_be_left_out(project: Project, tmp_path: Path, left
     assert ("figure_shear" in rules) is ("device2" not in left_out)  # others do not move sideways without friction
 
 
-def test_other_phases_are_planned(project: Project, tmp_path: Path) -> None:
-    """The walkthrough follows the last condition."""
+def test_other_phases_are_planned_and_comparisons_are_refused(project: Project, tmp_path: Path) -> None:
+    """The walkthrough follows the last condition. Nothing but what is about Device 2's alternate_180 wants it."""
     changed = Project(shutil.copytree(project.folder, tmp_path / "changed"))
     changed.edit(DEVICE, lambda text: text.replace("value: [0, 90, 180]", "value: [0, 60, 120]"))
     for table in ("ratings", "stated_order"):  # of the conditions that there were
@@ -643,6 +643,16 @@ def test_other_phases_are_planned(project: Project, tmp_path: Path) -> None:
         assert run.status == 0, run.text
         (page,) = (job for job in run.jobs if "results/notebooks/walkthrough.html" in job.outputs)
         assert "results/small/device2/alternate_120/shear/filtered.npz" in page.inputs
+    for target in ("calculix", "benchmark"):
+        run = changed.snakemake("-n", target)
+        assert run.status != 0
+        assert "compared on device2's alternate_180: config/devices has no such condition" in run.text
+        assert "KeyError" not in run.text
+    (changed.folder / DEVICE).unlink()
+    for target in ("calculix", "benchmark"):
+        run = changed.snakemake("-n", target)
+        assert "compared on device2's alternate_180: config/devices has no such condition" in run.text
+        assert "KeyError" not in run.text
 
 
 def test_a_device_with_shear_alone_has_no_jobs_without(project: Project, tmp_path: Path) -> None:

@@ -67,7 +67,7 @@ rule benchmark_graph:
 rule benchmark_ladder:
     input:
         config=ancient(CONFIG),
-        device=ancient(SCENES / "devices" / "device2.yaml"),
+        device=ancient(compared_file),
         recordings=ancient(lambda w: RECORDINGS["device2"]),
         reference="results/small/device2/reference.csv",
     output:
@@ -106,7 +106,7 @@ rule benchmark_ladder:
 rule benchmark_growth:
     input:
         config=ancient(CONFIG),
-        device=ancient(SCENES / "devices" / "device2.yaml"),
+        device=ancient(compared_file),
         recordings=ancient(lambda w: RECORDINGS["device2"]),
     output:
         sizes="results/benchmark/growth.csv",

@@ -30,7 +30,7 @@ CALCULIX_FINITE_CASE = CALCULIX_CASE | {"kinematics": "finite", "law": "neo_hook
 rule calculix:
     input:
         config=ancient(CONFIG),
-        device=ancient(SCENES / "devices" / "device2.yaml"),
+        device=ancient(compared_file),
         recordings=ancient(lambda w: RECORDINGS["device2"]),
     output:
         table="results/accuracy/calculix.csv",

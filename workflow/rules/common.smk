@@ -7,7 +7,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.scene.example import compares_interfaces, example_condition, example_device
+from fingerpad.scene.example import ALTERNATE, compares_interfaces, example_condition, example_device
 from fingerpad.scene.scenefile import build_model, read_yaml, recordings
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_config, check_device, known_devices
@@ -78,6 +78,16 @@ def condition_of(wildcards):
 def device_file(wildcards):
     """The scene file of the wildcard device."""
     return SCENES / "devices" / f"{scene_of(wildcards).device.name}.yaml"
+
+
+def compared_file(wildcards):
+    """The scene file of the device that CalculiX and run times are about; without its condition that is an error."""
+    name, condition = ALTERNATE
+    if (name, condition) not in {(each, own.name) for each in DEVICES for own in SCENE[each].device.conditions}:
+        raise WorkflowError(
+            f"CalculiX and run times are compared on {name}'s {condition}: {SCENES / 'devices'} has no such condition"
+        )
+    return SCENES / "devices" / f"{name}.yaml"
 
 
 def recordings_of(wildcards):
