@@ -72,6 +72,23 @@ def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
     assert not [name for name, page in pages.items() if re.search(r"<script[^>]*\bsrc=|unpkg", page)]
 
 
+@pytest.mark.workflow
+def test_page_is_rendered_again_once_there_is_another_table(changeable: Project) -> None:
+    """And the table itself, which takes hours, is not made anew."""
+    assert changeable.snakemake("notebooks").status == 0
+    table = changeable.folder / "results/benchmark/graph.csv"
+    table.parent.mkdir()
+    for text in ("repeat,ratio\n1,1.5371\n", "repeat,ratio\n1,1.6382\n"):
+        table.write_text(text, encoding="utf-8")
+        run = changeable.snakemake("notebooks")
+        assert run.status == 0, run.text
+        assert rendered(run) == {"accuracy_and_run_time"}
+        assert {job.rule for job in run.jobs} == {"notebook", "notebooks"}
+        page = (changeable.folder / "results/notebooks/accuracy_and_run_time.html").read_text(encoding="utf-8")
+        assert text.split(",")[-1].strip() in said(page)
+    assert not changeable.snakemake("notebooks").jobs
+
+
 @pytest.fixture
 def other_scenes(coarse_scenes: Path, tmp_path: Path) -> Path:
     """One device, which is not Device 2, of other phases, slippery, and read on the other side."""

@@ -4,7 +4,7 @@
 # the condition that notebooks look into, which they find by the same function
 INTO, CONDITION = (each.name for each in example_condition([SCENE[name].device for name in DEVICES]))
 CASE = f"results/small/{INTO}/{CONDITION}/shear"
-# What each notebook cannot do without. Tables of accuracy and run time take long: that page shows those there are.
+# What each notebook cannot do without.
 READ_BY = {
     "walkthrough": [
         "results/scores.csv",
@@ -17,6 +17,13 @@ READ_BY = {
     "design_your_own": [],
     "accuracy_and_run_time": ["results/scores.csv"],
     "ablations": ["results/scores.csv", "results/ablation_readout.csv", "results/ablation_agreement.csv"],
+}
+# What a notebook shows where it has been made. These take hours: as inputs they would be made anew once they are old.
+SHOWN_BY = {
+    "accuracy_and_run_time": [
+        *(f"results/accuracy/{name}.csv" for name in ("scores", "closed_forms")),
+        *(f"results/benchmark/{name}.csv" for name in ("timings", "ladder", "growth", "exponents", "graph")),
+    ]
 }
 
 
@@ -43,5 +50,6 @@ rule notebook:
         code=lambda w: [code("notebook.py"), code_of(BASE / "notebooks" / f"{w.notebook}.ipynb")],
         # results are of SCENE; what notebooks design themselves lies on the finger of config/
         scene=support.fingerprint(SCENE[INTO], build_model(read_yaml(BASE / "config" / "config.yaml"))),
+        shown=lambda w: support.checksum(filter(os.path.exists, SHOWN_BY.get(w.notebook, []))),
     script:
         "../scripts/notebook.py"
