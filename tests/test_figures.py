@@ -68,6 +68,7 @@ COARSE = Numerics(
     growth=0.6,
     receptor_size=0.5,
     largest_size=1.5,
+    contact_margin=0.25,
     indentation_increments=2,
     stimulus_increments=1,
     newton_tolerance=1e-9,

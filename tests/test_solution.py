@@ -496,3 +496,14 @@ def test_body_mesh_may_be_finer_than_the_skin() -> None:
     assert np.abs(other.strain - one.strain).max() < 1e-3 * np.abs(one.strain).max()
     change = other.change_of_strain - one.change_of_strain
     assert np.abs(change).max() < 0.01 * np.abs(one.change_of_strain).max()
+
+
+def test_skin_that_was_not_considered_is_asked_for_by_its_key() -> None:
+    """Under the outermost pins skin moves sideways by more than a hundredth of a millimetre: the error says which key
+    considers more of it, and with the shipped margin there is a solution."""
+    base = scene("device2").coarsened(3.0)
+    condition = base.device.condition("alternate_000")
+    narrow = base.with_numerics(replace(base.model.numerics, contact_margin=0.01))
+    with pytest.raises(ReachError, match=r"a larger numerics\.contact_margin considers more skin"):
+        solve_anew(narrow, condition)
+    assert solve_anew(base, condition).certificate.penetration_share < 1.0

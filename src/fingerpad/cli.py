@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return UNSOLVED if isinstance(error, REFUSALS) else FAILED
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
-        print(f"fingerpad: {where}{error.strerror}", file=sys.stderr)
+        print(f"fingerpad: {where}{error.strerror or error}", file=sys.stderr)
         return FAILED
     return 0
 

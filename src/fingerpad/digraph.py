@@ -65,7 +65,7 @@ def layers(edges: Iterable[Edge]) -> dict[str, int]:
     return {node: max(heights.values()) - found for node, found in heights.items()}
 
 
-def placed(edges: Iterable[Edge]) -> tuple[dict[str, tuple[float, int]], list[list[tuple[float, int]]]]:
+def placed(edges: Sequence[Edge]) -> tuple[dict[str, tuple[float, int]], list[list[tuple[float, int]]]]:
     """Places (x, layer) of nodes, and the polyline of each edge; neighbours in a layer are 1 apart or more.
 
     An edge takes a place of its own in each layer that it crosses. Layers are ordered by the mean place of neighbours

@@ -5,8 +5,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
@@ -33,18 +32,27 @@ def save_arrays(path: Path, arrays: Mapping[str, Any]) -> None:
 
 def load(path: Path, kind: type[Record]) -> Record:
     """Read a dataclass that `save` wrote. Raises ResultError."""
-    with reading(path) as archive:
+    archive = load_arrays(path)
+    try:
         return _built(kind, archive, "")
+    except (KeyError, TypeError) as error:
+        raise _foreign(path, error) from error
 
 
-@contextmanager
-def reading(path: Path) -> Iterator[Mapping[str, Any]]:
-    """The named arrays in an npz archive, read without pickles. Raises ResultError if it is none, or lacks an array."""
+def load_arrays(path: Path, *names: str) -> dict[str, Any]:
+    """The arrays in an npz archive, of these names or all, read without pickles. Raises ResultError if it is none, or
+    lacks one.
+    """
     try:
         with np.load(path, allow_pickle=False) as archive:
-            yield archive
-    except (ValueError, KeyError, EOFError, TypeError, zipfile.BadZipFile) as error:
-        raise ResultError(f"{path}: is not what fingerpad writes there ({error}); remove it, and run again") from error
+            return {name: archive[name] for name in names or archive.files}
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
+        raise _foreign(path, error) from error
+
+
+def _foreign(path: Path, error: Exception) -> ResultError:
+    """The error of a file that is not what it should be."""
+    return ResultError(f"{path}: is not what fingerpad writes there ({error}); remove it, and run again")
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import condense_scene, predicted_rows
-from ..readouts.accuracy import CASE, relative_error
+from ..readouts.accuracy import case_of, relative_error
 from ..scene.scene import Scene
 
 
@@ -22,7 +22,7 @@ def increment_rows(
     stated: rows of the score table; those without a relative error are left out.
     """
     condensed = condense_scene(scene, edge_intervals(scene))
-    errors = {_case(row): error for row in stated if not math.isnan(error := relative_error(row))}
+    errors = {case_of(row): error for row in stated if not math.isnan(error := relative_error(row))}
     numerics = scene.model.numerics
     first: dict[tuple[str, ...], float] = {}
     for multiple in (1, *multiples):
@@ -32,7 +32,7 @@ def increment_rows(
             stimulus_increments=multiple * numerics.stimulus_increments,
         )
         rows = predicted_rows(scene.with_numerics(finer), condensed)
-        scores = {_case(row): float(row["score"]) for row in rows}
+        scores = {case_of(row): float(row["score"]) for row in rows}
         if not first:
             first = scores
             continue
@@ -51,7 +51,3 @@ def increment_rows(
                 "largest_change_over_stated_error": round(max(ratios), 2),
                 "beyond_stated_error": sum(ratio > 1.0 for ratio in ratios),
             }
-
-
-def _case(row: Mapping[str, Any]) -> tuple[str, ...]:
-    return tuple(str(row[key]) for key in CASE)

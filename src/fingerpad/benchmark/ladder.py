@@ -60,9 +60,10 @@ def plain_ladder(
     """
     if scene.device.actuators.body is not None:
         raise SceneError(f"{scene.device.name}: the plain solver knows rigid actuators only")
-    condensed = condense_scene(scene, edge_intervals(scene))
+    edges = edge_intervals(scene)
+    condensed = condense_scene(scene, edges)
     indented = indent_device(scene, condensed.section, None, Interface.SHEAR)
-    depth, edges = float(indented.state.actuator[0, 1]), edge_intervals(scene)
+    depth = float(indented.state.actuator[0, 1])
     for factor in factors:
         other = scene.coarsened(factor)
         pressing, stimulating = increments(other, indented.problem)

@@ -14,7 +14,7 @@ from ..fields.recovery import recover_displacement
 from ..fields.states import states_fields
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import condense_scene, predicted_rows, prepared
-from ..readouts.accuracy import CASE, relative_error
+from ..readouts.accuracy import case_of, relative_error
 from ..readouts.strain import read_receptors
 from ..scene.contact_law import Interface
 from ..scene.numerics import Skips
@@ -131,4 +131,4 @@ def _measured(scene: Scene, edges: FloatArray) -> _Measured:
     """Set-up and conditions of one scene, once."""
     condensed, setup = fewest(1, partial(prepared, scene, edges))
     rows, conditions = fewest(1, partial(predicted_rows, scene, condensed))
-    return _Measured(setup, conditions, {tuple(str(row[key]) for key in CASE): row["score"] for row in rows})
+    return _Measured(setup, conditions, {case_of(row): row["score"] for row in rows})

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from ..calculix.deck import DeckSettings, input_deck
@@ -60,7 +61,8 @@ def run(options: argparse.Namespace) -> None:
     acting = scene.model.contact.coefficient(touching)
     indenting = acting if options.friction_from == "indentation" else 0.0
     interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS
-    with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
+    progress = tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None)
+    with threadpool_limits(1), progress as bar:  # how deep the deck goes does not depend on the number of threads
         section = mesh_device(scene)
         bar.update()
         settings = DeckSettings(

@@ -133,7 +133,8 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
         node = beyond[0]
         aside = abs(state.place[node] + centre[own[node], 0] - x[node])
         moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
-        advice = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
+        less = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
+        advice = f"{less}; a larger numerics.contact_margin considers more skin"
         raise ReachError(
             f"certificate: contact at the actuator at x = {problem.row.positions[own[node]]:g} mm reaches the edge of"
             f" the modelled contact zone; skin there has moved {aside:.2g} mm sideways{advice}"

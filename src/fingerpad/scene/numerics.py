@@ -14,9 +14,10 @@ class Numerics:
 
     edge_size: element size on the skin within edge_zone of an actuator's edge; finite_edge_size, finite_edge_zone: the
     same with finite kinematics. face_size: largest on the skin under an actuator. growth: growth of element size with
-    distance [1]. receptor_size: largest on the receptor line. largest_size: anywhere. indentation_increments,
-    stimulus_increments: load increments (per segment of a stimulus). newton_tolerance: on forces relative to the
-    largest and on gaps relative to the load. max_cuts: how often an increment may be halved.
+    distance [1]. receptor_size: largest on the receptor line. largest_size: anywhere. contact_margin: beyond actuators
+    and their strokes, in which skin may come into contact. indentation_increments, stimulus_increments: load increments
+    (per segment of a stimulus). newton_tolerance: on forces relative to the largest and on gaps relative to the load.
+    max_cuts: how often an increment may be halved.
     """
 
     edge_size: float
@@ -27,6 +28,7 @@ class Numerics:
     growth: float
     receptor_size: float
     largest_size: float
+    contact_margin: float
     indentation_increments: int
     stimulus_increments: int
     newton_tolerance: float
@@ -43,6 +45,7 @@ class Numerics:
             growth=self.growth,
             receptor_size=self.receptor_size,
             largest_size=self.largest_size,
+            contact_margin=self.contact_margin,
             indentation_increments=self.indentation_increments,
             stimulus_increments=self.stimulus_increments,
             newton_tolerance=self.newton_tolerance,

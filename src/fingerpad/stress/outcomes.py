@@ -75,14 +75,16 @@ def outcomes(numbers: Sequence[int]) -> Iterator[Outcome]:
 
     Anything but a solution or a FingerpadError goes up to the caller, warnings and invalid numbers included.
     """
-    with strict():
-        for group, members in groupby(numbers, lambda number: number // GROUP):
+    for group, members in groupby(numbers, lambda number: number // GROUP):
+        with strict():
             try:
                 section: CondensedSection | FingerpadError = condensed_group(group)
             except FingerpadError as error:
                 section = error
-            for number in members:
-                yield outcome(number, section)
+        for number in members:
+            with strict():
+                found = outcome(number, section)
+            yield found
 
 
 @contextmanager
@@ -95,9 +97,10 @@ def strict() -> Iterator[None]:
 
 def deformed_outcomes(numbers: Sequence[int]) -> Iterator[DeformedOutcome]:
     """`outcomes` of the scenes with finite kinematics of these numbers, each meshed, pressed and stimulated."""
-    with strict():
-        for number in numbers:
-            yield deformed_outcome(random_deformed_scene(number), number)
+    for number in numbers:
+        with strict():
+            found = deformed_outcome(random_deformed_scene(number), number)
+        yield found
 
 
 def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:

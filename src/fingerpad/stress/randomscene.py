@@ -50,7 +50,7 @@ ROWS = (1, 8)  # of a stimulus's history [1]
 CYCLES = 10  # most in a stimulus [1]
 ROWS_A_CYCLE = 6  # [1]
 STILL = VibrationRule(Relaxation((), (), ()), 1e-9, 1.0, 8)  # nothing vibrates
-TOLERANCE, MAX_CUTS = 1e-9, 10  # of the shipped model (config/config.yaml)
+TOLERANCE, MAX_CUTS, CONTACT_MARGIN = 1e-9, 10, 0.25  # of the shipped model (config/config.yaml)
 # with finite kinematics
 LAWS = (Law.HENCKY, Law.NEO_HOOKEAN, Law.OGDEN)
 OGDEN_EXPONENT = (1.0, 12.0)  # [1]
@@ -152,6 +152,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
         growth=1.0,
         receptor_size=width / 30.0,
         largest_size=width / 10.0,
+        contact_margin=CONTACT_MARGIN,
         indentation_increments=1,
         stimulus_increments=1,
         newton_tolerance=TOLERANCE,

@@ -24,7 +24,7 @@ from ..scene.device import ActuatorRow
 from ..scene.finger import Finger
 from ..scene.numerics import Numerics
 from ..scene.scene import Scene
-from ..store import reading, save_arrays
+from ..store import load_arrays, save_arrays
 from .compliance import MIRROR
 
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
@@ -191,15 +191,13 @@ def save_section(path: Path, section: SectionMesh) -> None:
 
 def load_section(path: Path) -> SectionMesh:
     """Read a section's mesh. Raises ResultError."""
-    with reading(path) as archive:
-        return SectionMesh(
-            mesh=MeshTri2(archive["nodes"], archive["triangles"]),
-            layer=archive["layer"],
-            layer_names=tuple(archive["layer_names"].tolist()),
-            skin=archive["skin"],
-            receptor_facets=archive["receptor_facets"],
-            fixed=archive["fixed"],
-        )
+    plain = "layer", "skin", "receptor_facets", "fixed"
+    found = load_arrays(path, "nodes", "triangles", "layer_names", *plain)
+    return SectionMesh(
+        mesh=MeshTri2(found["nodes"], found["triangles"]),
+        layer_names=tuple(found["layer_names"].tolist()),
+        **{name: found[name] for name in plain},
+    )
 
 
 def counterclockwise(mesh: MeshTri2) -> np.ndarray:

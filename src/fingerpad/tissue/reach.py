@@ -10,7 +10,6 @@ from .mesh import SectionMesh
 from .traction import Tractions, linear_tractions
 
 MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their compliance then takes half a gigabyte
-CONTACT_MARGIN = 0.25  # mm; source: skin moves about 0.1 mm sideways under the outermost actuators (measured)
 
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
@@ -23,7 +22,7 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     points = section.mesh.doflocs[:, section.skin]
     x, y = points
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
-    reach = row.width / 2.0 + scene.device.stroke + CONTACT_MARGIN
+    reach = row.width / 2.0 + scene.device.stroke + scene.model.numerics.contact_margin
     within = (distance <= reach) & (y < scene.model.finger.height / 2.0)
     out_of_reach = (x == 0.0) & ~within  # without such a node both halves are alike, and one is enough
     near = within[1::2] & ~out_of_reach[:-1:2] & ~out_of_reach[2::2]
