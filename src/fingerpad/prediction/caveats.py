@@ -27,7 +27,7 @@ RIVAL = 0.98
 DEEP = 0.5
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
-COARSE = 4.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
+COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 
 
