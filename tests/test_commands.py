@@ -375,6 +375,14 @@ def test_a_face_of_few_elements_is_doubted() -> None:
     assert solution_caveats(narrow, solution) == ["actuators are 2.0 elements wide: try a smaller numerics.edge_size"]
 
 
+def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:
+    given = scene("device2")
+    gabor = replace(given.model.gabor, wavelength_change=0.1)
+    fine = replace(given, model=replace(given.model, gabor=gabor))
+    (found,) = solution_caveats(fine, solved("device2", "alternate_090", Interface.SHEAR))
+    assert found == "the filter's wavelength is 1.1 receptor elements: try a smaller numerics.receptor_size"
+
+
 def test_caveats_are_notes_of_scores() -> None:
     """So the workflow's table has them, too."""
     given = scene("device2")
