@@ -16,13 +16,13 @@ from fingerpad.store import load
 
 NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
     "Device 1: the change of strain correlates very well.": "undecided",
-    "Device 2: the change of strain correlates very well.": "undecided",
     "Device 3: the change of strain correlates very well.": "undecided",
     "Device 2: the strain correlates well.": "no",
     "Device 1: the strain correlates very poorly.": "undecided",
     "Device 3: the strain correlates negatively.": "undecided",
     "Device 2 without shear: the change of strain correlates weakly.": "no",
     "Device 2 without shear: the change of strain is smaller at every phase.": "no",
+    "Device 2 without shear: the change of strain correlates more weakly than with it.": "undecided",
 }
 EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
 KEY = ["kinematics", "device", "condition", "interface", "readout"]
