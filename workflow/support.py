@@ -89,7 +89,7 @@ def fingerprint(*parts: Any) -> str:
 
 def path_of(condition: Condition) -> tuple[Any, ...]:
     """What a condition prescribes, without its names."""
-    return condition.time, condition.normal, condition.tangential
+    return condition.time, condition.normal, condition.tangential, condition.settling
 
 
 def commit(base: Path) -> str:

@@ -4,7 +4,7 @@ Elements and load increments of the second solution are COARSENING times as larg
 read-outs are off by, S(e_2 - e), is at least |S_2 - S|; unlike that it cannot vanish by chance, as whatever differs
 anywhere adds to it. With an order p of convergence the error of the first solution is S(e_2 - e) / (COARSENING^p - 1).
 Contact fronts converge with the first order, strains with the second, increments with the second: ORDER lies between
-(docs/decisions/0032). As curves may agree to more than the solver's tolerance, none is below LEAST.
+(docs/decisions/0032). None is below LEAST: curves may agree better than either is known.
 """
 
 from __future__ import annotations

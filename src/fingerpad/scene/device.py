@@ -261,6 +261,6 @@ class Device:
         return tuple(each for each in self.conditions if self.first_with_stimulus_of(each.name) is each)
 
     def interfaces(self) -> tuple[Interface, ...]:
-        """Interfaces that can be predicted: a force-controlled device moves nothing without friction."""
+        """Interfaces that can be predicted: how a force-controlled device moves without friction is unknown."""
         alone = self.control is Control.FORCE or not self.frictionless
         return (Interface.SHEAR,) if alone else tuple(Interface)
