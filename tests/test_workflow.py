@@ -350,6 +350,13 @@ def test_edited_alternative_reruns_its_own_members(long: Project) -> None:
     assert all("/finger_height_times_1_2/" in output for job in jobs for output in job.outputs)
 
 
+def test_value_that_is_no_assumption_any_more_reruns_the_members_that_vary_it(long: Project) -> None:
+    long.edit(DEVICE, lambda text: re.sub('(pitch: .*source: ")assumption: ', r"\1our drawing: ", text))
+    jobs = [job for job in long.snakemake("-n", "ensemble").jobs if job.rule == "ensemble_member"]
+    assert len(jobs) == 8  # two factors, two kinematics, two half-cycles
+    assert all("/actuators_pitch_times_" in output for job in jobs for output in job.outputs)
+
+
 def test_pressed_finger_that_equals_the_old_one_hides_no_edited_increments(long: Project) -> None:
     long.edit(CONFIG, lambda text: text.replace("stimulus_increments: {value: 4", "stimulus_increments: {value: 8"))
     pressed, solution = (

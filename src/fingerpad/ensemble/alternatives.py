@@ -121,13 +121,18 @@ def member_scenes(
     if alternative.part == "model":
         return Scenes(_with(config, alternative.key, alternative.instead_of, source), cycled)
     assumed = {
-        name: _with(document, alternative.key, alternative.instead_of, source)
-        for name, document in cycled.items()
-        if str((_quantity(document, alternative.key) or {}).get("source")).startswith(Origin.ASSUMPTION)
+        name: _with(cycled[name], alternative.key, alternative.instead_of, source)
+        for name in assuming(cycled, alternative.key)
     }
     if not assumed:
         raise SceneError(f"ensemble: no device assumes a value {alternative.key}")
     return Scenes(config, assumed)
+
+
+def assuming(devices: Mapping[str, Document], key: str) -> list[str]:
+    """Names of the devices whose value at a key is an assumption, by their documents."""
+    found = {name: _quantity(document, key) or {} for name, document in devices.items()}
+    return [name for name, quantity in found.items() if str(quantity.get("source")).startswith(Origin.ASSUMPTION)]
 
 
 def named_alternative(alternatives: Sequence[Alternative], member: str) -> Alternative | None:
