@@ -12,10 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..perception.ratings import OPEN_SLOPE, is_open, slope_name
+from ..perception.ratings import slope_name
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from .correlation import ratings_caption
 from .style import (
     BLUE,
     GREY,
@@ -71,9 +72,8 @@ def ablation_figure(
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text, (-30.0, 26.0))
     handles = [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface]
-    shown = correlations[correlations["device"].isin(titles)].to_dict("records")
-    said = f" {OPEN_SLOPE}" if any(map(is_open, shown)) else ""
-    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{said}")
+    shown = correlations[correlations["device"].isin(titles)]
+    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}")
     return figure
 
 
@@ -141,4 +141,5 @@ def _statistics(correlations: pd.DataFrame, interface: Interface) -> str:
     row = correlations[correlations["interface"] == interface].iloc[0]
     if pd.isna(row["r2"]):
         return f"{INTERFACE_NAME[interface]}: {row['note']}"
-    return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f} ({row['rating_kind']}), {slope_name(row)}, n = {row['n']}"
+    ends = f", range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}" if pd.notna(row["r2_lowest"]) else ""
+    return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f}, {slope_name(row)}{ends}, n = {row['n']}"

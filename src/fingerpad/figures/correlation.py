@@ -47,10 +47,10 @@ TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
     "{interface}n: conditions; identical stimuli share one score.{rated}"
-    " spread: range of scores over their mean. Bars: estimated discretisation error of a score."
+    " spread: range of scores over their mean. Bars: estimated discretisation error of a score, shorter than its mark where none is seen."
 )
-RATED = " Line: least squares. Ratings: {kinds}.{range}{open} τ: Kendall's.{p}"
-RANGE = " range: of R² over all ratings with the stated order."
+RATED = " Line: least squares.{ratings} τ: Kendall's.{p}"
+RANGE = " range: of R², over all ratings with the stated order."
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."
 
@@ -173,16 +173,19 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
 
 def caption(correlations: pd.DataFrame, interface: str) -> str:
     """What a figure's statistics mean and what its ratings are."""
-    kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
-    rows = correlations.to_dict("records")
-    said = {
-        "range": RANGE if correlations["r2_lowest"].notna().any() else "",
-        "open": f" {OPEN_SLOPE}" if any(map(is_open, rows)) else "",
-        "p": P if any(has_p(row["p"], row["rating_kind"]) for row in rows) else "",
-    }
-    rated = RATED.format(kinds=kinds, **said) if kinds else ""
+    ratings = ratings_caption(correlations)
+    p = P if any(has_p(row["p"], row["rating_kind"]) for row in correlations.to_dict("records")) else ""
+    rated = RATED.format(ratings=ratings, p=p) if ratings else ""
     return CAPTION.format(interface=interface, rated=rated) + unrated
+
+
+def ratings_caption(correlations: pd.DataFrame) -> str:
+    """What ratings are, if there are any, and what a range of R² and an open slope mean, if they are shown."""
+    kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
+    ranges = RANGE if correlations["r2_lowest"].notna().any() else ""
+    opened = f" {OPEN_SLOPE}" if any(map(is_open, correlations.to_dict("records"))) else ""
+    return f" Ratings: {kinds}.{ranges}{opened}" if kinds else ""
 
 
 def shown_in(scores: pd.DataFrame) -> list[Shown]:

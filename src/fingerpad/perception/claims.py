@@ -21,7 +21,7 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
     `correlation.correlation_table`, or its CSV read back.
 
     Returns the columns kinematics, claim, kind (see `Kind`), source, holds (see `Holds`) and evidence (a sentence with
-    the numbers). To rise means by more than the larger of both errors; what they can add up to in a correlation is
+    the numbers). To rise means by more than the sum of both errors; what they can add up to in a correlation is
     taken to first order. A claim which needs a score or a rating that is not there has no row: it is neither confirmed
     nor refuted.
     """

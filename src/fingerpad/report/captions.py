@@ -84,10 +84,14 @@ def correlation_words(row: Row) -> str:
     """One row of the table of correlations as a phrase: R² with its range, slope, tau, p and n."""
     if not row["r2"]:
         return f"{row['note']}, n = {row['n']}"
-    spread = f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
     tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
     p = f", p {p_value(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
-    return f"R² = {float(row['r2']):.3f}{spread}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
+    return f"R² = {float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
+
+
+def _spread(row: Row) -> str:
+    """The range of R² in brackets, if the order of the ratings is stated."""
+    return f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
 
 
 def _section(results: Results) -> Words:
@@ -179,7 +183,7 @@ def _ablation(results: Results) -> Words:
     return Words(
         "Every score with and without shear",
         "Bars of strain scores (left) and change-of-strain scores (right) of every condition, with and without shear.",
-        f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}. {ERROR_BARS}",
+        f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}.{_range(results)} {ERROR_BARS}",
     )
 
 
@@ -247,7 +251,7 @@ def _correlated(results: Results, device: str, interface: Interface, titled: boo
 
 
 def _r2(row: Row) -> str:
-    return f"{float(row['r2']):.3f}, {slope_name(row)}" if row["r2"] else f"({row['note']})"
+    return f"{float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}" if row["r2"] else f"({row['note']})"
 
 
 def _range(results: Results) -> str:
