@@ -47,8 +47,8 @@ TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
     "{interface}n: conditions; identical stimuli share one score.{rated}"
-    " spread: range of scores over their mean. Bars: estimated discretisation error of a score; where none is seen it is"
-    " smaller than the mark."
+    " spread: range of scores over their mean. Bars: estimated discretisation error of a score; where none is seen it"
+    " is smaller than the mark."
 )
 RATED = " Line: least squares.{ratings} τ: Kendall's.{p}"
 RANGE = " range: of R², over all ratings with the stated order."
