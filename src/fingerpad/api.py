@@ -23,7 +23,8 @@ def predict(
     """Scores of a device file: the columns of results/scores.csv, then `rank` and `caveats` (see `forecast`).
 
     error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or "finite". config,
-    schemas: those of the checkout around the working folder if not given. Raises SceneError and what `forecast` raises.
+    schemas: those of the checkout around the working folder if not given. Raises SceneError, UsageError if there is no
+    such checkout, and what `forecast` raises.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3

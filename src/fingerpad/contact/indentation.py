@@ -23,7 +23,7 @@ LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns
 
 
 def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
-    """Raise all actuators together until the criterion holds, on linear tissue; see `raise_until`."""
+    """Raise all actuators together until the criterion holds, on linear tissue. Raises as `raise_until`."""
     start = rest(problem, touching_height(problem))
     return raise_until(problem, criterion, increments, limit, start, solve_increment)
 
@@ -42,7 +42,7 @@ def raise_until(
     the way from first touch to where the undeformed skin over the outermost face would lie. limit: largest
     indentation [mm]. state: at first touch. solve: an increment.
 
-    Raises CriterionError if the criterion is not met within the limit.
+    Raises CriterionError if the criterion is not met within the limit, and what `path.advance` raises.
     """
     touch = float(state.actuator[0, 1])
     carried: Carried | None = None

@@ -66,6 +66,8 @@ def advance(
 ) -> tuple[State, Carried]:
     """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
     and giving the last of it back. Where the actuators stand there is nothing to solve, unless nodes are `drifting`.
+
+    Raises as `follow`; on tissue that deforms much InvertedError or SnapError, if that is why.
     """
     start = state.actuator
     standing = _stand(start, target)

@@ -18,7 +18,8 @@ from ..tissue.reach import contact_tractions
 def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
     """Displacement (n_loadings, 2, n_nodes) [mm] of all nodes under contact forces (n_loadings, n_contact, 2) [N/mm].
 
-    K u = f, one factorisation for all loadings. Raises CondensationError.
+    K u = f, one factorisation for all loadings. Raises CondensationError if K is singular, MeshError as
+    `contact_tractions`.
     """
     matrix, dofs = section_stiffness(section, scene)
     order = fill_reducing_order(matrix, dofs, dofs[:, section.fixed].ravel())

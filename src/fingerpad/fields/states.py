@@ -49,7 +49,7 @@ class States:
 
 
 def solved_states(scene: Scene, section: SectionMesh, condition: Condition, interface: Interface) -> States:
-    """Solve a condition, and what it does to the whole section. Raises CondensationError, ContactError."""
+    """Solve a condition, and what it does to the whole section. Raises MeshError, CondensationError, ContactError."""
     body = body_of(scene)
     if scene.kinematics is Kinematics.FINITE:
         pressed = press(scene, section, body, interface)
@@ -59,7 +59,7 @@ def solved_states(scene: Scene, section: SectionMesh, condition: Condition, inte
 
 
 def linear_states(scene: Scene, section: SectionMesh, solution: Solution) -> States:
-    """States of linear tissue, from the contact forces of a solution."""
+    """States of linear tissue, from the contact forces of a solution. Raises what `recover_displacement` raises."""
     return States(recover_displacement(section, scene, solution.forces), solution.contact)
 
 

@@ -34,6 +34,8 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
     own layer), contact_pressure_MPa and contact_shear_MPa of the actuators on the skin (over undeformed length), zero
     elsewhere. With finite kinematics strain and stress are called what they are then, logarithmic_strain (of material
     directions) and cauchy_stress_MPa. In cells: layer, counted from the pad's skin inwards and on with the dorsal ones.
+
+    Raises MeshError as `contact_tractions`.
     """
     mesh = section.mesh
     order, own = counterclockwise(mesh), element_nodes(mesh).ravel()
@@ -60,7 +62,7 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
 
 def skin_tractions(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
     """Shear and pressure of the actuators on all nodes (n_states, 2, n_nodes) [MPa]: linear between the skin's
-    vertices, zero off the skin that an actuator can reach.
+    vertices, zero off the skin that an actuator can reach. Raises MeshError as `contact_tractions`.
     """
     tractions = contact_tractions(section, scene)
     vertices = np.isin(section.skin[::2], tractions.nodes)

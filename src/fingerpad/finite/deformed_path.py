@@ -94,7 +94,7 @@ def deformed_tissue(
 ) -> DeformedTissue:
     """Linearise about a displacement (size,) [mm], with a spring on a given compliance's softest mode.
 
-    Raises CondensationError.
+    Raises CondensationError if the tangent is singular, InvertedError if elements are turned inside out.
     """
     _, matrix = internal_force_and_tangent(part.elements, displacement)
     factors = factorise(matrix)

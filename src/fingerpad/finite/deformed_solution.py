@@ -51,7 +51,9 @@ class PressedFinger:
 def pressed_finger(
     scene: Scene, section: SectionMesh, body: CondensedBody | None, pressed: Pressed, interface: Interface
 ) -> PressedFinger:
-    """What all conditions of a device and interface begin with. Raises CondensationError."""
+    """What all conditions of a device and interface begin with. Raises MeshError as `contact_problem`, and what
+    `deformed_tissue` raises.
+    """
     dofs = node_dofs(displacement_basis(section.mesh))
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement

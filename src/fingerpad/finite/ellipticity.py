@@ -20,7 +20,9 @@ DIRECTIONS = 24  # looked along, of half a turn [1]; source: twice as many find 
 
 
 def require_elliptic(elements: Elements, displacement: FloatArray) -> None:
-    """Raise EllipticityError, with the first place, if tissue with displacements (size,) [mm] is not elliptic."""
+    """Raise EllipticityError, with the first place, if tissue with displacements (size,) [mm] is not elliptic; and
+    InvertedError as `displacement_gradient`.
+    """
     lost = smallest_stiffness(elements.tissue, displacement_gradient(elements, displacement)).min(axis=-1) <= 0.0
     if lost.any():
         x, y = elements.centre[np.flatnonzero(lost)[0]]

@@ -109,7 +109,7 @@ def press_to(
     height: float, scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface
 ) -> Pressed:
     """`press`, to a height of the faces above the undeformed pad's lowest point [mm]. Nobody asks whether tissue is
-    still elliptic there: programs are compared, on one mesh.
+    still elliptic there: programs are compared, on one mesh. Raises as `press`.
     """
     start = _start(scene, section, body, interface)
     solve, states = _recorded(section, start)
@@ -195,7 +195,10 @@ def indented_height(scene: Scene, section: SectionMesh, interface: Interface) ->
 
 
 def whole_part(scene: Scene, section: SectionMesh, condensing: bool) -> TissuePart:
-    """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill."""
+    """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill.
+
+    Raises MeshError as `contact_tractions`.
+    """
     return _part(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
 
 

@@ -94,7 +94,8 @@ def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pr
     """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes; in place of the
     coarser one stands why its path cannot be followed, if it cannot.
 
-    Raises SceneError if pins overlap or numbers are out of range, ContactError if the path cannot be followed.
+    Raises SceneError if pins overlap or numbers are out of range, MeshError if a pin is nearest to no skin node,
+    ContactError if the path cannot be followed on the finer mesh.
     """
     model, row = pad.scene.model, pad.scene.device.actuators
     model = replace(model, contact=replace(model.contact, friction=friction))
@@ -110,7 +111,7 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
     """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
     pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
 
-    Raises ContactError if the path cannot be followed on the finer mesh.
+    Raises SceneError if pins run into each other, ContactError if the path cannot be followed on the finer mesh.
     """
     fine, coarse = pressed
     count = len(fine.scene.device.actuators.positions)

@@ -82,7 +82,7 @@ def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
 
 
 def condense_mesh(scene: Scene, mesh: SectionMesh) -> Condensed:
-    """Condense the undeformed finger on a mesh. Raises CondensationError."""
+    """Condense the undeformed finger on a mesh. Raises MeshError, CondensationError."""
     section = condense_section(mesh, scene)
     return Condensed(section, body_of(scene), resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
@@ -98,7 +98,7 @@ def rows_at(
     scene: Scene, coarsening: float, edges: FloatArray, interfaces: Sequence[Interface] = ()
 ) -> list[dict[str, Any]]:
     """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm].
-    interfaces: those that are solved, all if none are named.
+    interfaces: those that are solved, all if none are named. Raises what `prepared` and `predicted_rows` raise.
     """
     other = scene.coarsened(coarsening)
     return predicted_rows(other, prepared(other, edges), interfaces)
@@ -111,6 +111,7 @@ def error_rows(
     and edges (k, 2) [mm]; None where that cannot be had, and a `note` that says why.
 
     read: filtered read-outs of the cases that have scores. step: called after condensation and after every condition.
+    Raises MeshError as `solve_scene`.
     """
     other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
     try:
@@ -146,7 +147,9 @@ def _errors_of(
 def predicted_rows(
     scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()
 ) -> list[dict[str, Any]]:
-    """Rows of the score table for all conditions at some interfaces, or all. Raises ContactError, CondensationError."""
+    """Rows of the score table for all conditions at some interfaces, or all. Raises MeshError as `solve_scene`,
+    ContactError, CondensationError.
+    """
     rows: list[dict[str, Any]] = []
     for solved in solve_scene(scene, condensed, interfaces):
         if isinstance(solved.solution, Unsolved):
@@ -156,7 +159,9 @@ def predicted_rows(
 
 
 def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
-    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
+    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one. Raises
+    MeshError if an actuator is nearest to no skin node.
+    """
     for interface in interfaces or scene.device.interfaces():
         found: dict[str, Solution | Unsolved] = {}
         pressed: Callable[[Condition], Solution] | Unsolved | None = None
@@ -180,8 +185,8 @@ def _attempt(solve: Callable[..., Result], *given: object) -> Result | Unsolved:
 def pressed_device(
     scene: Scene, condensed: Condensed | Meshed, interface: Interface
 ) -> Callable[[Condition], Solution]:
-    """Press the device onto the finger: what solves the stimulus of a condition from there. Raises ContactError,
-    CondensationError.
+    """Press the device onto the finger: what solves the stimulus of a condition from there. Raises MeshError,
+    CondensationError, ContactError.
     """
     if isinstance(condensed, Meshed):
         pressed = press(scene, condensed.section, condensed.body, interface)

@@ -16,13 +16,15 @@ BODY_FINER = 2.0  # times [1] smaller elements of actuators' bodies than of skin
 
 
 def body_of(scene: Scene) -> CondensedBody | None:
-    """The condensed body of the scene's actuators, or None if they are rigid."""
+    """The condensed body of the scene's actuators, or None if they are rigid. Raises MeshError, CondensationError."""
     return condense_body(scene) if scene.device.actuators.body else None
 
 
 def condense_body(scene: Scene) -> CondensedBody:
     """Condense the deformable body of the scene's actuators (all equal) to its face; what its base stands on gives way
     to all of the face alike.
+
+    Raises MeshError if the actuators are rigid and as `mesh_strip`, CondensationError as `condense`.
     """
     row = scene.device.actuators
     if row.body is None:

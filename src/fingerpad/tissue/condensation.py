@@ -43,8 +43,8 @@ def section_stiffness(
 def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     """Condense the finger to contact nodes and receptor line, by halves (`halves`).
 
-    Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError if too many nodes
-    may come into contact.
+    Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError as
+    `contact_tractions`.
     """
     tractions = contact_tractions(section, scene)
     halved = scene.model.skips.halved_condensation

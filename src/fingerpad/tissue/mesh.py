@@ -137,8 +137,8 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
     """Mesh of one deformable actuator's body: a strip on its base, face at y = 0, centred on x = 0, and placed as the
     body says.
 
-    Graded towards both ends of the face like the skin. Raises MeshError if the row is rigid, or its body is turned
-    inside out or has another face or base than the strip.
+    Graded towards both ends of the face like the skin. Raises MeshError if the row is rigid, more than MAX_ELEMENTS are
+    asked for, or its body is turned inside out or has another face or base than the strip.
     """
     if row.body is None:
         raise MeshError("a rigid actuator has no body to mesh")

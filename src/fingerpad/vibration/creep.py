@@ -39,8 +39,8 @@ class Creep:
 
 
 def condense_creep(section: SectionMesh, scene: Scene) -> Creep:
-    """Condense tissue that creeps. Raises CondensationError if the maps miss a rate that they were not found from by
-    more than MISFIT_LIMIT.
+    """Condense tissue that creeps. Raises what `condense_section` raises, and CondensationError if the maps miss a rate
+    that they were not found from by more than MISFIT_LIMIT.
     """
     times = creep_times(scene.model.vibration.relaxation)
     between = 1.0 / np.sqrt(times[1:] * times[:-1])

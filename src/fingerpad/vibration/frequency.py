@@ -57,7 +57,7 @@ class Outcome:
 
 
 def condense_vibrating_at(section: SectionMesh, scene: Scene, frequency: float) -> Vibrating:
-    """The finger at a frequency [Hz]. Raises CondensationError."""
+    """The finger at a frequency [Hz]. Raises what `condense_vibrating` raises."""
     densities = (0.0, scene.model.vibration.density)
     return Vibrating(frequency, *(condense_vibrating(section, scene, frequency, each) for each in densities))
 
@@ -72,8 +72,8 @@ def frequency_rows(
 ) -> list[dict[str, Any]]:
     """Rows of the frequency table for one interface, slow cycles first. note: called after each row pair.
 
-    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises ContactError if the
-    device cannot be pressed onto the finger.
+    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises MeshError or
+    ContactError, as `indent_device`, if the device cannot be pressed onto the finger.
     """
     indented = indent_device(scene, condensed.section, condensed.body, interface)
     rows = []

@@ -41,7 +41,7 @@ def variant_rows(
     scene: Scene, section: SectionMesh, condensed: Condensed, indented: Indented, frequency: float
 ) -> list[dict[str, Any]]:
     """Scores of all conditions at a frequency [Hz] under other assumptions on how tissue relaxes, one row each; a note
-    where a path cannot be followed. Raises CondensationError.
+    where a path cannot be followed. Raises what `condense_creep` raises.
     """
     rows = []
     for name, variant in relaxation_variants(scene).items():

@@ -33,7 +33,9 @@ MARGIN = 0.9  # of a frequency that is advised [1]; source: at 105 Hz, advised f
 
 
 def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float, density: float) -> CondensedSection:
-    """The finger condensed at a frequency [Hz], with tissue of a density [t/mm3]. Raises CondensationError."""
+    """The finger condensed at a frequency [Hz], with tissue of a density [t/mm3]. Raises MeshError as
+    `contact_tractions`, CondensationError.
+    """
     speed = 2.0 * math.pi * frequency
     stiff = stiffened(scene, 1j * speed)
     tractions = contact_tractions(section, stiff)
