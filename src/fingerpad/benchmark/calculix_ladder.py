@@ -20,7 +20,8 @@ def calculix_ladder(
     """A row for each coarsening of the skin's mesh but the finest, from coarse to fine: seconds of CalculiX, and errors
     of its scores against its own on the finest mesh. A further condition costs it as much as the first.
 
-    case: settings as in `crosscheck.prepared`. Raises CalculixError if a deck fails or takes longer than limit [s].
+    case: settings as in `crosscheck.prepared`. Raises what that raises, CalculixError if a deck fails or takes longer
+    than limit [s], and MeshError if a rung has no mesh.
     """
     fine, settings = prepared(scene, case)
     climbed = []

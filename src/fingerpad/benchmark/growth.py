@@ -27,6 +27,7 @@ STROKE = 0.002  # mm, upwards; source: a tenth of the devices', as the row is
 def growth(scene: Scene, factors: Sequence[float], counts: Sequence[int], repeats: int) -> Iterator[Row]:
     """Seconds of set-up and of a condition with shear, for meshes coarser by `factors` with the same increments, for
     `factors` times larger increments on the same mesh, and for rows of as many actuators as `counts`.
+    Raises MeshError, CondensationError, ContactError.
     """
     for factor in factors:
         yield _measured("mesh", _with_increments(scene.coarsened(factor), scene), repeats)

@@ -19,7 +19,8 @@ def increment_rows(
     """A row for each multiple of the scene's increments and each read-out: the largest relative change of a score, the
     largest ratio of a change to the error that the score states, and how many scores change by more than that.
 
-    stated: rows of the score table; those without a relative error are left out.
+    stated: rows of the score table; those without a relative error are left out. Raises MeshError, CondensationError,
+    ContactError.
     """
     condensed = condense_scene(scene, edge_intervals(scene))
     errors = {case_of(row): error for row in stated if not math.isnan(error := relative_error(row))}

@@ -36,6 +36,7 @@ def own_ladder(
 ) -> Iterator[Row]:
     """A row for each coarsening of mesh and increments: seconds from scene to score (cold), of a further condition
     (warm) and of a further stimulus on the pressed finger; errors of the scores against the reference's.
+    Raises MeshError, CondensationError, ContactError.
     """
     for factor in factors:
         found, seconds, section, nodes = _climbed(scene.coarsened(factor), condition, _prepared, repeats)
@@ -45,7 +46,7 @@ def own_ladder(
 def first_order_ladder(
     scene: Scene, condition: Condition, factors: Sequence[float], reference: Sequence[Mapping[str, Any]], repeats: int
 ) -> Iterator[Row]:
-    """The same with first-order elements; small kinematics."""
+    """The same with first-order elements; small kinematics. Raises as `own_ladder`."""
     for factor in factors:
         found, seconds, section, nodes = _climbed(scene.coarsened(factor), condition, _prepared_first_order, repeats)
         unknowns = 2 * int(section.mesh.nvertices)
@@ -56,7 +57,7 @@ def plain_ladder(
     scene: Scene, condition: Condition, factors: Sequence[float], reference: Sequence[Mapping[str, Any]]
 ) -> Iterator[Row]:
     """The same by a solver that factorises the whole section anew for every increment. How deep to press and where the
-    mesh is fine it is told, at no cost. Raises SceneError if the actuators deform.
+    mesh is fine it is told, at no cost. Raises SceneError if the actuators deform, and as `own_ladder`.
     """
     if scene.device.actuators.body is not None:
         raise SceneError(f"{scene.device.name}: the plain solver knows rigid actuators only")

@@ -34,7 +34,7 @@ def plain_scores(
     """Score rows of one condition with shear, rigid actuators, and the last condensed section.
 
     indentation: height [mm] of the faces after pre-indentation. increments: of pre-indentation, and of each time of
-    the stimulus [1]. Raises ContactError.
+    the stimulus [1]. Raises MeshError, CondensationError, ContactError.
     """
     skips = replace(scene.model.skips, halved_condensation=False, inactive_nodes=False)
     scene = replace(scene, model=replace(scene.model, skips=skips))

@@ -43,7 +43,8 @@ def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -
     conditions with it off, over those with all on; the largest relative difference of any score; and the smallest error
     that a score of the device states.
 
-    stated: rows of the score table. With finite kinematics set-up is the mesh alone.
+    stated: rows of the score table. With finite kinematics set-up is the mesh alone. Raises MeshError,
+    CondensationError, ContactError.
     """
     relative = (
         relative_error(row)
@@ -69,7 +70,9 @@ def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -
 
 
 def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
-    """What is left out whatever the switches say, or is not left out, as a ratio `of` something."""
+    """What is left out whatever the switches say, or is not left out, as a ratio `of` something. Raises as
+    `skip_rows`.
+    """
     edges = edge_intervals(scene)
     condensed, section = condense_scene(scene, edges), mesh_section(scene, edges)
     indented = indent_device(scene, condensed.section, condensed.body, Interface.SHEAR)

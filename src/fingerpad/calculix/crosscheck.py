@@ -90,7 +90,7 @@ def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings
 
     case: `kinematics`, and with finite ones the tissue's `law`; `indentation`, a height [mm], or full: as deep as
     fingerpad indents; `edges` (rounded or sharp), `friction` (never, stimulus or always), and the deck's slopes and
-    increments.
+    increments. Raises SceneError as `DeckSettings`; to indent fully, what `mesh_device` and `indented_height` raise.
     """
     scene = sharpened(scene) if case["edges"] == "sharp" else scene
     scene = scene.with_kinematics(Kinematics(case["kinematics"]))
@@ -111,7 +111,7 @@ def calculix_outcome(
     scene: Scene, section: SectionMesh, condition: Condition, settings: DeckSettings, folder: Path, limit: float
 ) -> tuple[Outcome, float]:
     """Outcome of a deck that CalculiX solves in a folder, and the seconds it took. Raises CalculixError if it fails,
-    takes longer than the limit [s] or does not have the tissue's law.
+    takes longer than the limit [s] or does not have the tissue's law, SceneError and MeshError as `input_deck`.
     """
     if scene.kinematics is Kinematics.FINITE and scene.model.tissue.law is Law.HENCKY:
         raise CalculixError("CalculiX has no law in logarithmic strain (hencky); try green, neo_hookean or ogden")
@@ -142,7 +142,8 @@ def fingerpad_outcome(
     contact: ContactModel,
 ) -> Outcome:
     """Outcome of the same path on the condensed maps of undeformed tissue. Raises ContactError if it cannot be
-    followed, or the turning normal is asked of a deformable body."""
+    followed, or the turning normal is asked of a deformable body or of sharp edges, MeshError as `contact_problem`.
+    """
     problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
     # a normal that turned from the stimulus on would move what was pressed without
     problem = replace(problem, turning=problem.turning and settings.friction_indenting > 0.0)

@@ -35,6 +35,7 @@ def crosscheck_rows(
 
     cases: settings as in `crosscheck.prepared`, with `coarsening` of the deck's mesh and `fingerpad_coarsening` of
     fingerpad's. limit: seconds a deck may take. A case that CalculiX cannot solve has a note in place of numbers.
+    Raises what `prepared` raises, and SceneError, MeshError or CondensationError if either side cannot be set up.
     """
     rows: list[dict[str, Any]] = []
     outcomes: dict[str, Outcome] = {}

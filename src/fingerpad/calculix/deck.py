@@ -96,7 +96,9 @@ class _Part:
 
 
 def input_deck(scene: Scene, section: SectionMesh, condition: Condition, settings: DeckSettings) -> str:
-    """The whole deck of one condition."""
+    """The whole deck of one condition. Raises SceneError if decks do not have the actuators' kind, MeshError as
+    `mesh_strip` and `contact_tractions`.
+    """
     first_node, first_element = section.mesh.doflocs.shape[1], section.mesh.t.shape[1]
     parts = [_part(scene, number) for number in range(len(scene.device.actuators.positions))]
     lines = [*_heading(scene, condition, settings), *_finger(scene, section)]

@@ -40,7 +40,8 @@ def deformed_outcome(
     """Outcome of the path that a deck of the settings takes.
 
     With penalties the last increment of pre-indentation and the stimulus are followed on springs: without friction no
-    earlier one leaves a trace. Raises ContactError if the path cannot be followed, or a contact model is not for it.
+    earlier one leaves a trace. Raises ContactError if the path cannot be followed, or a contact model is not for it,
+    MeshError, CondensationError.
     """
     if contact is ContactModel.TURNING:
         raise ContactError("the penalty law with a turning normal is for small kinematics")
