@@ -35,7 +35,7 @@ def needed(root: Path, result: str, target: str | None = None) -> Path:
 
 def scenes() -> dict[str, Scene]:
     """Scenes of small kinematics by device: of the folder that SCENES in the environment names, where a rule runs a
-    notebook, or else of config/.
+    notebook, or else of config/. Raises SceneError if one of them is not valid.
     """
     folder = Path(os.environ.get("SCENES", PROJECT / "config"))
     devices = folder / "devices"

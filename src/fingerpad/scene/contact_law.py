@@ -34,7 +34,10 @@ class Criterion(StrEnum):
 
 @dataclass(frozen=True)
 class ContactLaw:
-    """Coulomb friction coefficient [1], where the contact normal turns, and the criterion that ends pre-indentation."""
+    """Coulomb friction coefficient [1], where the contact normal turns, and the criterion that ends pre-indentation.
+
+    Raises SceneError if friction is negative or not finite.
+    """
 
     friction: float
     turning_normal: TurningNormal

@@ -33,7 +33,8 @@ class Control(StrEnum):
 class Body:
     """Deformable body of an actuator: material and thickness [mm] of the strip on its rigid base.
 
-    Bodies that are no such strip say how they differ from it (`bodies`).
+    Bodies that are no such strip say how they differ from it (`bodies`). Raises SceneError if the thickness is not
+    positive.
     """
 
     material: Material
@@ -59,6 +60,9 @@ class ActuatorRow:
 
     positions: centres x [mm], ascending. width: over the rounded edges [mm]. edge_radius: [mm], 0 for sharp edges,
     width/2 for a cylinder. body: None for rigid actuators.
+
+    Raises SceneError if there is no actuator, neighbours overlap, a number is not finite, the width is not positive, or
+    edge_radius not between 0 and width/2.
     """
 
     positions: tuple[float, ...]
@@ -104,6 +108,8 @@ class Condition:
     time: (n_times,) [s], ascending. normal, tangential: (n_times, n_actuators) [mm]; linear in between. The path
     starts from rest, so a first row that is not zero is reached from zero. settling: how many of the times pass before
     receptors may be read, as friction remembers how a cycle was begun.
+
+    Raises SceneError if time is empty or does not ascend, or displacements are not finite or of another shape.
     """
 
     name: str
@@ -179,6 +185,9 @@ class Device:
     cycles: the conditions as vibrations, none if they are given in time. frequencies: at which they are asked for [Hz].
     kinematics: with which it may be predicted; strokes that turn elements inside out leave finite ones out.
     frictionless: whether it may be predicted without friction; rows that only friction holds leave that out.
+
+    Raises SceneError if there is no condition, two share a name, or one moves another number of actuators or neighbours
+    into each other.
     """
 
     name: str
@@ -243,7 +252,7 @@ class Device:
         raise SceneError(f"{self.name}: no condition '{name}'; allowed: {', '.join(names)}{hint}")
 
     def first_with_stimulus_of(self, name: str) -> Condition:
-        """The first condition with the same stimulus."""
+        """The first condition with the same stimulus. Raises SceneError if there is no condition of that name."""
         wanted = self.condition(name)
         return next(c for c in self.conditions if c.same_stimulus(wanted))
 

@@ -14,7 +14,10 @@ from ..requirements import require, require_positive
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elastic material: Young's modulus [MPa] and Poisson's ratio [1]."""
+    """Isotropic linear elastic material: Young's modulus [MPa] and Poisson's ratio [1].
+
+    Raises SceneError if the modulus is not positive, or the ratio not above -1 and below 0.5.
+    """
 
     modulus: float
     poisson: float
@@ -29,7 +32,10 @@ class Material:
 
 @dataclass(frozen=True)
 class Layer:
-    """One tissue layer: name, thickness [mm] along the outline's normal, material."""
+    """One tissue layer: name, thickness [mm] along the outline's normal, material.
+
+    Raises SceneError if the thickness is not positive.
+    """
 
     name: str
     thickness: float

@@ -18,6 +18,8 @@ class Numerics:
     and their strokes, in which skin may come into contact. indentation_increments, stimulus_increments: load increments
     (per segment of a stimulus). newton_tolerance: on forces relative to the largest and on gaps relative to the load.
     max_cuts: how often an increment may be halved.
+
+    Raises SceneError if max_cuts is negative, or anything else not positive.
     """
 
     edge_size: float

@@ -50,7 +50,10 @@ class ReadoutRule:
 
 @dataclass(frozen=True)
 class GaborFilter:
-    """Gabor filter: wavelength [mm] of each read-out, width sigma [mm], largest grid spacing [mm]."""
+    """Gabor filter: wavelength [mm] of each read-out, width sigma [mm], largest grid spacing [mm].
+
+    Raises SceneError unless all are positive.
+    """
 
     wavelength_strain: float
     wavelength_change: float

@@ -21,7 +21,11 @@ from .vibration_rule import VibrationRule
 
 @dataclass(frozen=True)
 class Model:
-    """Everything but the device: finger, tissue, contact, filter, read-out, vibration, numerics and what is skipped."""
+    """Everything but the device: finger, tissue, contact, filter, read-out, vibration, numerics and what is skipped.
+
+    Raises SceneError if the layer above the receptors is none of the pad's or its last, or a layer that relaxes is none
+    of the finger's.
+    """
 
     finger: Finger
     tissue: TissueLaw
@@ -58,13 +62,15 @@ class Model:
 
 @dataclass(frozen=True)
 class Scene:
-    """A model and a device that fits it. Raises SceneError if an actuator lies beyond the finger."""
+    """A model and a device that fits it. Raises SceneError if an actuator reaches beyond the finger."""
 
     model: Model
     device: Device
 
     def solved_as(self, name: str) -> Condition:
-        """The condition whose solution holds for that one as well: the first with its stimulus."""
+        """The condition whose solution holds for that one as well: the first with its stimulus. Raises SceneError if
+        there is none of that name.
+        """
         if not self.model.skips.equal_stimuli:
             return self.device.condition(name)
         return self.device.first_with_stimulus_of(name)

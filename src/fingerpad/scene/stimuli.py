@@ -39,7 +39,8 @@ FOLDED = 9
 
 def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
     """Actuator i at A cos(k_i p) (snapshot), or A sin(w t + k_i p) over SETTLING periods and one more (cycle); minus in
-    the second half-cycle, here as in all that follows. Raises SceneError where a snapshot has no actuator with k_i = 0.
+    the second half-cycle, here as in all that follows. Raises SceneError where a snapshot has no actuator with k_i = 0,
+    or k are not as many as actuators.
     """
     conditions = []
     for dispersion, phase, lead in _leads(stimulus, count):
@@ -63,7 +64,7 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
 
 
 def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
-    """Actuator i at A cos(w t + k_i p)."""
+    """Actuator i at A cos(w t + k_i p). Raises SceneError where k are not as many as actuators."""
     cycles = []
     for dispersion, phase, lead in _leads(stimulus, count):
         amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * np.radians(lead))
@@ -122,7 +123,9 @@ def _alternating(row: Mapping[str, Any], relative_to: str, count: int) -> FloatA
 
 
 def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
-    """Any path: per-actuator normal and tangential displacements at given times."""
+    """Any path: per-actuator normal and tangential displacements at given times. Raises SceneError where a row has not
+    one number an actuator, and as Condition.
+    """
     conditions = []
     for name, given in stimulus["histories"].items():
         for key in ("normal", "tangential"):
@@ -134,7 +137,9 @@ def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condi
 
 
 def measured(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
-    """Any path, from CSV files in the device file's folder."""
+    """Any path, from CSV files in the device file's folder. Raises SceneError, naming the recording, as
+    `read_recording`.
+    """
     conditions = []
     for name, given in stimulus["recordings"].items():
         try:

@@ -114,7 +114,7 @@ def require_device(name: str, folder: Path) -> Path:
 
 
 def require_name(path: Path) -> None:
-    """Refuse a device file whose name cannot be part of other files' names."""
+    """Raise SceneError for a device file whose name cannot be part of other files' names."""
     fits = re.fullmatch("[a-z][a-z0-9_]*", path.stem) and len(path.stem) <= LONGEST_NAME
     if not fits or path.suffix != ".yaml":
         allowed = f"{NAME}, then .yaml"
@@ -125,7 +125,7 @@ def require_name(path: Path) -> None:
 
 
 def require_new_name(name: str) -> None:
-    """Refuse what cannot be the name of a new device."""
+    """Raise SceneError for what cannot be the name of a new device."""
     if not (re.fullmatch("[a-z][a-z0-9_]*", name) and len(name) <= LONGEST_NAME):
         stem, about = name.removesuffix(".yaml"), "name of a device, and of its file without .yaml"
         meant = _as_name(stem) or (stem if stem.isidentifier() and stem.isascii() and stem != name else "")
@@ -133,7 +133,9 @@ def require_new_name(name: str) -> None:
 
 
 def checked_document(path: Path, schema_path: Path) -> tuple[dict[str, Any], Schema]:
-    """The mapping in a file, after it has passed the schema, and the schema."""
+    """The mapping in a file, after it has passed the schema, and the schema. Raises SceneError as `read_yaml`, and with
+    all that the schema does not allow.
+    """
     document, source = read_yaml(path), read_yaml(schema_path)
     schema = _plain(source, document, source["$defs"])
     checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(

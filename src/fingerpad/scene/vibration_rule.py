@@ -12,6 +12,9 @@ class Relaxation:
     """How tissue relaxes (see `viscoelasticity`).
 
     shares: of the instantaneous modulus that relax [1]. times: in which they do [s]. layers: names of those that relax.
+
+    Raises SceneError if shares and times are not as many or not positive, two times are equal, or shares sum to 1 or
+    more.
     """
 
     shares: tuple[float, ...]
@@ -37,7 +40,7 @@ class VibrationRule:
     """What vibration needs besides.
 
     relaxation. density: of all tissue [t/mm3]. inertia_limit: change of receptor strain by inertia [1] beyond which
-    there is no prediction. steps: of a cycle [1].
+    there is no prediction. steps: of a cycle [1]. Raises SceneError unless these three are positive.
     """
 
     relaxation: Relaxation
