@@ -50,7 +50,9 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Validate, say what there is, and draw."""
+    """Validate, say what there is, and draw. Raises UsageError for a picture of another kind than PICTURES, SceneError,
+    MeshError.
+    """
     picture = options.output
     if picture is not None and picture.suffix not in PICTURES:
         raise UsageError(f"{picture}: found the ending '{picture.suffix}'; allowed: {', '.join(PICTURES)}")

@@ -41,7 +41,9 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Solve the condition, and write what it does to the section."""
+    """Solve the condition, and write what it does to the section. Raises UsageError for an output of another kind than
+    ENDINGS, and what `checked_case`, `mesh_device` and `solved_states` raise.
+    """
     output = options.output
     if output.suffix not in ENDINGS:
         raise UsageError(f"{output}: found the ending '{output.suffix}'; allowed: {', '.join(ENDINGS)}")

@@ -44,6 +44,7 @@ def ensemble_tables(
 
     members: rows of the score table of all members behind MEMBER; devices that a member leaves as they are have rows as
     configured alone. configured: the score table with errors, which members' scores have too, relative to the score.
+    Raises RatingError as `correlation_table`.
     """
     relative = configured.set_index([*KEY, "condition"])
     share = (relative["score_error"] / relative["score"].abs()).rename("share").reset_index()

@@ -93,7 +93,7 @@ def extreme_ratings(score: FloatArray, at_most: BoolArray) -> tuple[FloatArray, 
     R² comes as close to these as one likes. A bound on the ratio of ratings (`at most two-fold`) restricts nothing,
     as R² does not change when a constant is added to all ratings, and a large constant meets any such bound.
 
-    Raises RatingError if the order makes all ratings equal, or has too many up-sets (see `up_sets`).
+    Raises RatingError if the score is constant, or the order makes all ratings equal or has too many up-sets.
     Source: Robertson, Wright and Dykstra 1988, Order Restricted Statistical Inference.
     """
     if is_constant(score):
@@ -115,7 +115,7 @@ def extreme_ratings(score: FloatArray, at_most: BoolArray) -> tuple[FloatArray, 
 def r2_range(score: FloatArray, at_most: BoolArray) -> tuple[float, float]:
     """Lowest and highest R² [1] of a score with any ratings that agree with a stated order; see `extreme_ratings`.
 
-    Rounded to 12 decimals, which is where floating point ends.
+    Rounded to 12 decimals, which is where floating point ends. Raises RatingError as `extreme_ratings`.
 
     >>> r2_range(np.array([0.0, 1.0, 2.0]), np.triu(np.ones((3, 3), dtype=bool)))
     (0.75, 1.0)
@@ -194,7 +194,8 @@ def correlation_table(
     published_slope: -1 or 1, empty if nothing is said of it. rating_kind: the `label` of RatingKind. note: why numbers
     are missing, or what to beware of.
 
-    Raises RatingError if scores and ratings of a device are not of the same conditions.
+    Raises RatingError if scores and ratings of a device are not of the same conditions, and as `order_matrix` and
+    `extreme_ratings`.
     """
     rows = [
         {**dict(zip(KEY, key, strict=True)), **_correlate(group, *(t[t["device"] == key[1]] for t in (ratings, order)))}

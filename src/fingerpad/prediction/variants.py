@@ -44,7 +44,8 @@ def variant_rows(
 ) -> Iterator[dict[str, Any]]:
     """Rows of the score table with the columns VARIANT, for all measures, sides and wavelengths.
 
-    sections: the condensed finger with receptors read on each side. solutions: by condition and interface.
+    sections: the condensed finger with receptors read on each side. solutions: by condition and interface. Raises
+    SceneError if the device has no condition of such a name.
     """
     for side, section in sections.items():
         resampling = resampling_to_grid(section.arc, scene.model.gabor.spacing)
