@@ -20,7 +20,8 @@ CONDA = yaml.safe_load((ROOT / "environment.yml").read_text(encoding="utf-8"))
 LOCK = (ROOT / "requirements.lock").read_text(encoding="utf-8")
 
 CONDA_NAMES = {"snakemake-minimal": "snakemake"}  # without what only clusters and the cloud need
-MODULES = {"scikit-fem": "skfem", "pyyaml": "yaml", "pillow": "PIL"}  # where the module is not named like the package
+# where the module is not named like the package
+MODULES = {"ipython": "IPython", "pillow": "PIL", "pyyaml": "yaml", "scikit-fem": "skfem"}
 NEEDED = [Requirement(text) for text in PROJECT["dependencies"]]
 OPTIONAL = [Requirement(text) for extra in PROJECT["optional-dependencies"].values() for text in extra]
 
