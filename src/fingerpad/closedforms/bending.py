@@ -29,7 +29,7 @@ from ..scene.finger import Material
 from ..scene.tissue_law import Law
 from ..tissue.elasticity import displacement_basis, lame, node_dofs
 from .blocks import NEAR_LIMIT, TISSUE
-from .comparison import Comparison, compare, on_two_meshes
+from .comparison import ORDERS, Comparison, compare, on_two_meshes
 from .equilibrium import equilibrium
 from .layers import TOLERANCE
 from .manufactured import EXACT_ORDER
@@ -40,7 +40,6 @@ STRAIN = 0.2  # a, logarithmic, of the faces [1]; source: any that is far from l
 RATIOS = (TISSUE, 0.499, NEAR_LIMIT)  # Poisson's [1]
 DIVISIONS = (16, 32)  # of the height [1]; source: on coarser ones Newton's method fails at 0.4999
 ITERATIONS = 8  # of Newton's method for the strain at a place [1]; source: rounding is left after 4 (measured)
-ORDERS = {"displacement": 3.0, "gradient": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
 SHORTFALL = 0.05  # of an order [1]; source: the error's next term; 0.015 at 0.4999 (measured)
 DEGREE = 40  # of the polynomial that inverts c X [1]; source: rounding
 

@@ -117,7 +117,7 @@ def half_plane(spacing: float, edge_spacing: float, poisson: float, row: Actuato
     return block_contact(half_plane_mesh(spacing, edge_spacing), Material(1.0, poisson), row, friction, REACH)
 
 
-def element_means(block: Block, traction: FloatArray) -> tuple[FloatArray, FloatArray]:
+def face_means(block: Block, traction: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Middles (m,) [mm] of the face's elements, and means (m,) over each of a traction that is linear (n,)."""
     x = block.problem.position[:, 0]
     return (x[:-1] + x[1:]) / 2.0, (traction[:-1] + traction[1:]) / 2.0

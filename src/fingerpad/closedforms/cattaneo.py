@@ -14,15 +14,14 @@ import numpy as np
 from ..arrays import FloatArray
 from ..contact.formulation import Status, switch_friction
 from ..contact.path import follow
-from .blocks import element_means, half_plane, lift, pressed
+from .blocks import face_means, half_plane, lift, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
-from .hertz import CYLINDER, DEPTH, INCREMENTS, SPACINGS, half_width, pressure
+from .hertz import CYLINDER, DEPTH, INCREMENTS, INNER, SPACINGS, half_width, pressure
 
 POISSON = 0.3
 FRICTION = 0.5
 SHIFT = 2.5e-4  # sideways [mm]; leaves the contact half stuck
 SHIFT_INCREMENTS = 10  # [1]; source: the stick zone only shrinks, so more change nothing
-INNER = 0.9  # of the half-width [1]; source: as for Hertz
 
 
 def stick_half_width(width: float, ratio: float) -> float:
@@ -64,13 +63,13 @@ def cattaneo_mindlin(spacing: float) -> list[Comparison]:
     load, mesh = float(state.force[:, 1].sum()), (spacing, block.unknowns)
     width = half_width(load, POISSON)
     stick = stick_half_width(width, abs(float(state.force[:, 0].sum())) / (FRICTION * load))
-    middle, shear = element_means(block, np.abs(state.force[:, 0]) / block.weight)
-    _, normal_pressure = element_means(block, state.force[:, 1] / block.weight)
+    middle, shear = face_means(block, np.abs(state.force[:, 0]) / block.weight)
+    _, normal_pressure = face_means(block, state.force[:, 1] / block.weight)
     held = state.status == Status.STICK
     all_held = held[:-1] & held[1:]
     found = root_front(middle[all_held], (FRICTION * normal_pressure - shear)[all_held])
     inner = np.abs(middle) < INNER * width
-    _, exact = element_means(block, traction(load, width, stick, block.problem.position[:, 0]))
+    _, exact = face_means(block, traction(load, width, stick, block.problem.position[:, 0]))
     case = "Cattaneo-Mindlin"
     return [
         compare(case, "stick zone", mesh, found, stick, ACCURACY),

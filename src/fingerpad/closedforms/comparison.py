@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 
 ACCURACY = 0.005  # error [1]; source: what scores are to have
+ORDERS = {"displacement": 3.0, "gradient": 2.0, "energy": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
 ORDER_OF = "order, "  # before the name of a quantity whose error falls with it
 
 

@@ -18,7 +18,7 @@ from ..finite.hyperelasticity import tissue_of
 from ..scene.scene import Scene
 from ..tissue.elasticity import displacement_basis, node_dofs
 from ..tissue.mesh import mesh_section, nominal_edges
-from .comparison import Comparison, compare, orders
+from .comparison import ORDERS, Comparison, compare, orders
 from .energy import first_stress
 from .equilibrium import equilibrium
 from .manufactured import EXACT_ORDER, SHORTFALL, SPACINGS, displacement, finer, gradient, uniform
@@ -27,7 +27,6 @@ EXPANSION = 0.15  # s [1]; source: above the compression that w brings about
 WAVES = 5.0  # w over the displacement of `manufactured` [1]: its gradients reach 0.1
 TURN = 0.5  # angle of R [rad]; source: beyond what small strain could take for one
 ROTATION = np.array([[np.cos(TURN), -np.sin(TURN)], [np.sin(TURN), np.cos(TURN)]])
-ORDERS = {"displacement": 3.0, "gradient": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
 CASE = "Finite manufactured"
 
 

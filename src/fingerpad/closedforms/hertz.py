@@ -8,7 +8,7 @@ from ..arrays import FloatArray
 from ..contact.formulation import Status
 from ..contact.indentation import front
 from ..scene.device import ActuatorRow
-from .blocks import HALF_WIDTH, TISSUE, element_means, half_plane, pressed
+from .blocks import HALF_WIDTH, TISSUE, face_means, half_plane, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
 
 RADIUS = 5000.0 * HALF_WIDTH  # mm; Hertz neglects what is of the order of half-width over radius
@@ -43,7 +43,7 @@ def hertz(spacing: float, poisson: float = TISSUE) -> list[Comparison]:
     width = half_width(load, poisson)
     x, nodal = block.problem.position[:, 0], force / block.weight
     exact = pressure(load, width, x)
-    (middle, mean), (_, exact_mean) = element_means(block, nodal), element_means(block, exact)
+    (middle, mean), (_, exact_mean) = face_means(block, nodal), face_means(block, exact)
     inner, within = np.abs(x) < INNER * width, np.abs(middle) < INNER * width
     case = f"Hertz, nu = {poisson:g}"
     return [

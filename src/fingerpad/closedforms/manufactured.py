@@ -17,13 +17,12 @@ from ..scene.scene import Scene
 from ..tissue.condensation import section_stiffness
 from ..tissue.elasticity import lame
 from ..tissue.mesh import mesh_section, nominal_edges
-from .comparison import Comparison, compare, orders
+from .comparison import ORDERS, Comparison, compare, orders
 from .equilibrium import linear_equilibrium
 
 WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is two thirds of the section's width
 AMPLITUDE = 0.01  # of the exact displacement [mm]; linear, so any
 SPACINGS = (0.8, 0.4, 0.2)  # mm; source: 0.8 is the section's coarsest (config/config.yaml)
-ORDERS = {"displacement": 3.0, "energy": 2.0}  # of second-order elements [1]; source: Ciarlet 1978
 SHORTFALL = 0.05  # of an order [1]; source: layers keep their thickness, so meshes are no scaled copies of each other
 EXACT_ORDER = 8  # of quadrature; source: the exact fields are smooth: its error is far below the elements'
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..scene.device import SHARP_RADIUS, ActuatorRow
-from .blocks import HALF_WIDTH, TISSUE, Block, element_means, half_plane, pressed
+from .blocks import HALF_WIDTH, TISSUE, Block, face_means, half_plane, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
 
 DEPTH = 1e-4 * HALF_WIDTH  # mm; far less than the drop of a sharp edge: contact ends there
@@ -41,7 +41,7 @@ def flat_punch(spacing: float, poisson: float = TISSUE) -> list[Comparison]:
     inner, under = np.abs(x) < INNER, np.abs(x) < HALF_WIDTH
     exact = np.zeros(x.size)
     exact[under] = pressure(load, x[under])
-    (middle, mean), (_, exact_mean) = element_means(block, nodal), element_means(block, exact)
+    (middle, mean), (_, exact_mean) = face_means(block, nodal), face_means(block, exact)
     within = np.abs(middle) < INNER
     case = f"Flat punch, nu = {poisson:g}"
     return [
