@@ -13,7 +13,7 @@ from matplotlib.ticker import LogLocator
 
 from ..closedforms.comparison import ORDER_OF
 from ..scene.tissue_law import Kinematics
-from .style import COLOURS, GREY, MARKERS, WIDE, legend_below, letter, new_figure, styled
+from .style import COLOURS, GREY, LETTER_NEAR, MARKERS, WIDE, legend_below, letter, new_figure, styled
 
 COLUMNS = 3
 TYPESET = {
@@ -26,7 +26,6 @@ TYPESET = {
 }
 ROW_HEIGHT, LEGEND_HEIGHT = 45.0, 13.0  # mm
 FINITE_CASES = ("Finite", "Bent")  # how cases with finite kinematics begin
-LETTER_OFFSET = (-26.0, 4.0)  # pt
 CAPTION = "Where quantities of a panel have tolerances of their own, each is drawn in its quantity's colour."
 LABELS = 3  # of a legend in one column [1]; more are short, and stand in two
 LABEL_HEIGHT, MARGIN = 0.145, 0.06  # of a label of a legend, and around all, of a panel's height [1]
@@ -44,7 +43,7 @@ def accuracy_figure(rows: pd.DataFrame, kinematics: Kinematics) -> Figure:
     for axes, case, name in zip(grid, cases, "ABCDEFGHIJKLMNOPQRSTUVWXYZ", strict=False):
         _panel(axes, rows[rows["case"] == case])
         axes.set_title(_typeset(case), loc="left")
-        letter(axes, name, LETTER_OFFSET)
+        letter(axes, name, LETTER_NEAR)
     for axes in grid[len(cases) :]:
         axes.set_axis_off()
     legend_below(

@@ -15,6 +15,7 @@ from .style import (
     BLUE,
     GREEN,
     GREY,
+    LETTER_NEAR,
     ORANGE,
     PERCENT,
     VERMILLION,
@@ -27,7 +28,6 @@ from .style import (
 )
 
 HEIGHT = 86.0  # mm
-LETTER_OFFSET = (-26.0, 4.0)  # pt
 LADDERS = (  # solver, column, label, colour, marker
     (CALCULIX_LADDER, "cold_s", "CalculiX", BLACK, "D"),
     (PLAIN_LADDER, "cold_s", "factorised anew for every increment", GREY, "^"),
@@ -64,7 +64,7 @@ def benchmark_figure(ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFra
     handles = _draw_ladders(left, ladder)
     _draw_growth(right, sizes, fits)
     for axes, name in ((left, "A"), (right, "B")):
-        letter(axes, name, LETTER_OFFSET)
+        letter(axes, name, LETTER_NEAR)
     with_finite = (ladder["kinematics"] == Kinematics.FINITE).any()
     legend_below(figure, handles, f"{FINITE} {CAPTION}" if with_finite else CAPTION)
     return figure

@@ -28,6 +28,7 @@ from .style import (
     BLUE,
     DASHED,
     GREY,
+    KILO,
     LINE,
     MM,
     PERCENT,
@@ -44,7 +45,6 @@ HEIGHT = 105.0  # mm
 RESOLUTION = 110.0  # of the picture [dots per inch]
 EDGES = {"left": 0.09, "right": 0.985, "bottom": 0.1, "top": 0.94, "wspace": 0.3, "hspace": 0.2}  # of the figure [1]
 WIDTHS = (3.2, 1.0)  # of the columns, relative
-KILO = 1e3  # kPa in a MPa
 HEADROOM = 1.25  # of the scores' axis beyond the larger [1]
 BAR = 0.7  # width of a score's bar, of the distance between both [1]
 NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]

@@ -29,6 +29,7 @@ from .style import (
     BLUE,
     DASHED,
     GREY,
+    KILO,
     KINEMATICS_NAME,
     MIDDLE,
     NARROW,
@@ -62,7 +63,6 @@ SLACK = 1.15  # height that maps are given, of what they need [1]: so the width 
 COVERED, CHANGE_COVERED = 99.5, 90.0
 STEP, CHANGE_STEP = 5.0, 0.5  # per cent of strain, and of its change, to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
-KILO = 1e3  # kPa in a MPa
 STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "log. strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 CHANGE_COLOURS = "RdBu_r"  # red and blue are told apart whichever colours one sees; white is no change

@@ -39,6 +39,7 @@ TEXT, TITLE = 7.0, 8.0  # font sizes [pt]; source: 7 pt stays legible in print
 THIN, LINE = 0.5, 1.0  # line widths [pt]
 MARKER = 4.5  # marker size [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
+LETTER_NEAR = (-26.0, 4.0)  # the same, where the labels of ticks are short [pt]
 POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
 BOLD = 1.2  # width of bold letters, of plain ones [1]
@@ -110,6 +111,7 @@ SCORE_SCALE = {
     Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
 }  # factor [1] and its typeset inverse
 PERCENT = 100.0
+KILO = 1e3  # kPa in a MPa
 MINUS = "\N{MINUS SIGN}"
 
 
