@@ -17,10 +17,11 @@ from skfem import Basis
 from ..arrays import FloatArray
 from ..errors import InvertedError
 from ..tissue.compliance import VOIGT
+from ..tissue.mesh import NODES
 from .finite_strain import is_upright
 from .hyperelasticity import Tissue, respond, stress_of
 
-NODES = 6  # of a second-order triangle [1]
+NODE_COUNT = NODES.shape[1]  # of a second-order triangle [1]
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,8 @@ class Elements:
 
 def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
     """Elements of a basis; `free` orders the tangent's rows and columns."""
-    gradient = np.array([basis.basis[2 * node][0].grad[0] for node in range(NODES)])  # (6, 2, n_elements, n_points)
+    # (6, 2, n_elements, n_points)
+    gradient = np.array([basis.basis[2 * node][0].grad[0] for node in range(NODE_COUNT)])
     unknowns = basis.element_dofs.T
     place = np.full(basis.N, free.size, dtype=np.int32)
     place[free] = np.arange(free.size)
@@ -95,7 +97,7 @@ def displacement_gradient(elements: Elements, displacement: FloatArray) -> Float
 
     Raises InvertedError, with the first place, where elements are turned inside out.
     """
-    nodal = displacement[elements.unknowns].reshape(-1, 1, NODES, 2)
+    nodal = displacement[elements.unknowns].reshape(-1, 1, NODE_COUNT, 2)
     gradient = np.asarray((nodal.transpose(0, 1, 3, 2) @ elements.gradient).transpose(2, 3, 0, 1))
     inverted = ~is_upright(gradient).all(axis=-1)
     if inverted.any():
@@ -123,22 +125,22 @@ def internal_force_and_tangent(elements: Elements, displacement: FloatArray) -> 
     (a, b), (c, d) = gradient[..., None]
     nx, ny = elements.gradient[..., 0], elements.gradient[..., 1]
     # rows of B, (n_elements, n_points, 3, 6, 2): derivatives of E_11, E_22 and 2 E_12 by the nodes' x and y
-    strain = np.empty((*nx.shape[:2], VOIGT, NODES, 2))
+    strain = np.empty((*nx.shape[:2], VOIGT, NODE_COUNT, 2))
     strain[:, :, 0, :, 0], strain[:, :, 0, :, 1] = (1.0 + a) * nx, c * nx
     strain[:, :, 1, :, 0], strain[:, :, 1, :, 1] = b * ny, (1.0 + d) * ny
     strain[:, :, 2, :, 0], strain[:, :, 2, :, 1] = (1.0 + a) * ny + b * nx, c * ny + (1.0 + d) * nx
-    strain = strain.reshape(*nx.shape[:2], VOIGT, 2 * NODES)
+    strain = strain.reshape(*nx.shape[:2], VOIGT, 2 * NODE_COUNT)
     weighted = (response.tangent * elements.weight).transpose(2, 3, 0, 1)
     count = nx.shape[0]
-    material = strain.reshape(count, -1, 2 * NODES).transpose(0, 2, 1) @ (weighted @ strain).reshape(
-        count, -1, 2 * NODES
+    material = strain.reshape(count, -1, 2 * NODE_COUNT).transpose(0, 2, 1) @ (weighted @ strain).reshape(
+        count, -1, 2 * NODE_COUNT
     )
     s11, s22, s12 = (response.stress * elements.weight)[..., None]
     pulled = np.stack([s11 * nx + s12 * ny, s12 * nx + s22 * ny], axis=-1)
-    geometric = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODES, -1) @ pulled.transpose(
+    geometric = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODE_COUNT, -1) @ pulled.transpose(
         0, 1, 3, 2
-    ).reshape(count, -1, NODES)
-    blocks = material.reshape(count, NODES, 2, NODES, 2)
+    ).reshape(count, -1, NODE_COUNT)
+    blocks = material.reshape(count, NODE_COUNT, 2, NODE_COUNT, 2)
     blocks[:, :, 0, :, 0] += geometric
     blocks[:, :, 1, :, 1] += geometric
     data = np.bincount(elements.entry, blocks.ravel(), minlength=elements.rows.size + 1)[:-1]
@@ -161,5 +163,5 @@ def _assembled(elements: Elements, stress: FloatArray) -> FloatArray:
     """Forces (size,) [N/mm] of first Piola-Kirchhoff stresses (2, 2, n_elements, n_points)."""
     weighted = (stress * elements.weight).transpose(2, 3, 1, 0)  # (n_elements, n_points, J, component)
     count = weighted.shape[0]
-    nodal = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODES, -1) @ weighted.reshape(count, -1, 2)
+    nodal = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODE_COUNT, -1) @ weighted.reshape(count, -1, 2)
     return np.asarray(np.bincount(elements.unknowns.ravel(), nodal.ravel(), minlength=elements.size), dtype=float)
