@@ -165,7 +165,7 @@ def test_results_that_are_none_are_named(tmp_path: Path, content: bytes) -> None
         load_section(path)
 
 
-def test_names_in_shells_are_refused_by_the_command_itself(tmp_path: Path) -> None:
+def test_names_in_shells_are_refused_by_the_command_itself() -> None:
     """As a process: exit code and standard error are those that a shell sees."""
     command = [sys.executable, "-m", "fingerpad.cli", "new", "$(touch ran)", "--from", "device2"]
     environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}

@@ -147,10 +147,12 @@ def fingerpad_outcome(
     problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
     # a normal that turned from the stimulus on would move what was pressed without
     problem = replace(problem, turning=problem.turning and settings.friction_indenting > 0.0)
-    follow_path = _turning_forces if contact is ContactModel.TURNING else _own_forces
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(section, settings)))
-    forces = follow_path(problem, section, condition, settings)
+    if contact is ContactModel.TURNING:
+        forces = _turning_forces(problem, section.weight, condition, settings)
+    else:
+        forces = _own_forces(problem, condition, settings)
     strains = [section.strain @ force.ravel() for force in forces]
     return outcome_of(scene, section.arc, strains, actuator_forces(problem, forces))
 
@@ -181,9 +183,8 @@ def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
     return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())
 
 
-def _own_forces(
-    problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
-) -> tuple[FloatArray, FloatArray]:
+def _own_forces(problem: ContactProblem, condition: Condition, settings: DeckSettings) -> tuple[FloatArray, FloatArray]:
+    """Forces (n, 2) [N/mm] after pre-indentation and at the stimulus's end, by fingerpad's own law of contact."""
     indented, *stimulus = targets(condition, settings)
     first = replace(problem, friction=settings.friction_indenting)
     before = follow(first, rest(first, touching_height(first)), indented, INDENTATION_INCREMENTS)
@@ -194,18 +195,17 @@ def _own_forces(
 
 
 def _turning_forces(
-    problem: ContactProblem, section: CondensedSection, condition: Condition, settings: DeckSettings
+    problem: ContactProblem, weight: FloatArray, condition: Condition, settings: DeckSettings
 ) -> tuple[FloatArray, FloatArray]:
+    """The same by the penalty law. weight: (n,) length of skin of each node [mm]."""
     indented, *stimulus = targets(condition, settings)
     law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting, slides_open=True)
     first = replace(law, friction=settings.friction_indenting)
     # in the deck's increments, which decide how much of what slides before it touches bears friction
-    before = follow_penalties(
-        problem, section.weight, first, untouched(problem), indented, settings.indentation_increments
-    )
+    before = follow_penalties(problem, weight, first, untouched(problem), indented, settings.indentation_increments)
     state: PenaltyState = before
     for target in stimulus:
-        state = follow_penalties(problem, section.weight, law, state, target, settings.stimulus_increments)
+        state = follow_penalties(problem, weight, law, state, target, settings.stimulus_increments)
     return before.force, state.force
 
 
