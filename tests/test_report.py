@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from fingerpad.digraph import layers, placed, read_dot, reduced
-from fingerpad.report.captions import Results, Words, words
+from fingerpad.report.captions import Results, Words, rules_words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
 from fingerpad.report.tables import (
@@ -241,6 +241,12 @@ def test_page_says_what_the_tables_say(html: str) -> None:
 def test_every_caption_carries_its_count(results: Results) -> None:
     for said in words(FIGURES, results).values():
         assert re.search(r"n = \d|\d conditions", said.caption), said
+
+
+def test_each_rule_of_the_graph_counts_once() -> None:
+    waits = [("mesh", "solve"), ("mesh", "score"), ("solve", "score")]
+    graph = [{"rule": rule, "feeds": other} for rule, other in waits]
+    assert "n = 3 rules" in rules_words(graph).caption
 
 
 def test_figures_come_in_reading_order(results: Results) -> None:

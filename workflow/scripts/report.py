@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.files import write_text
-from fingerpad.report.captions import Results, Words
+from fingerpad.report.captions import Results, rules_words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
 from fingerpad.scene.scenefile import load_scene, read_yaml
@@ -30,15 +30,6 @@ def main(
     """Read everything, fill the template, write the page."""
     scenes = tuple(load_scene(config, path) for path in devices)
     results = Results(scenes, tuple(read_rows(scores)), tuple(read_rows(correlations)), example)
-    edges = read_rows(graph)
-    names = {row[end] for row in edges for end in ("rule", "feeds")}
-    said = Words(
-        "The run's rules",
-        "Boxes of rules, joined by lines from each rule to those that wait for it.",
-        f"What made this page (“snakemake report”): n = {len(names)} rules, each of which waits for those above it"
-        " that a line joins to it. A rule may run once for each device, condition and interface; waits that others"
-        " imply are left out.",
-    )
     write_text(
         page,
         report(
@@ -47,7 +38,7 @@ def main(
             read_rows(claims),
             {path.stem: quantities(read_yaml(path)) for path in (config, *devices)},
             pictures_of(figures, results),
-            Picture("rules", said, data_uri(rules)),
+            Picture("rules", rules_words(read_rows(graph)), data_uri(rules)),
             provenance(pyproject, commit, [config, *devices, *data, scores, correlations, claims]),
         ),
     )

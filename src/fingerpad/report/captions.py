@@ -80,6 +80,18 @@ def _finite(write: Callable[[Results], Words], results: Results) -> Words:
     return replace(said, heading=f"{said.heading}, finite strain", caption=f"Finite kinematics. {said.caption}")
 
 
+def rules_words(graph: Sequence[Row]) -> Words:
+    """What is said of the figure of the run's rules. graph: rows of rule_graph.csv."""
+    names = {row[end] for row in graph for end in ("rule", "feeds")}
+    return Words(
+        "The run's rules",
+        "Boxes of rules, joined by lines from each rule to those that wait for it.",
+        f"What made this page (“snakemake report”): n = {len(names)} rules, each of which waits for those above it"
+        " that a line joins to it. A rule may run once for each device, condition and interface; waits that others"
+        " imply are left out.",
+    )
+
+
 def correlation_words(row: Row) -> str:
     """One row of the table of correlations as a phrase: R² with its range, slope, tau, p and n."""
     if not row["r2"]:
