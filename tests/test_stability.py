@@ -11,7 +11,7 @@ import pytest
 from scipy.sparse import csc_matrix
 
 from fingerpad.arrays import FloatArray
-from fingerpad.contact.force_curve import limit_points
+from fingerpad.contact.force_curve import curve_rows, limit_points
 from fingerpad.contact.formulation import ContactProblem, Status
 from fingerpad.contact.stability import unstable_directions
 from fingerpad.errors import CrossingError, SnapError
@@ -155,13 +155,9 @@ def test_lines_that_touch_do_not_cross() -> None:
 
 def test_limit_points_are_drawn_and_counted() -> None:
     """A figure with one says so; without any its caption does."""
-    case = {"kinematics": "finite", "device": "arch", "interface": "shear"}
-    points = [
-        case | {"indentation_mm": height, "force_N_per_mm": force, "limit_point": limit}
-        for (height, force), limit in zip(curve(), limit_points(curve()), strict=True)
-    ]
+    points = curve_rows("arch", Interface.SHEAR, Kinematics.FINITE, curve())
     scores = [
-        case
+        {"kinematics": "finite", "device": "arch", "interface": "shear"}
         | {"condition": "a", "dispersion": "low", "phase_deg": 0.0, "readout": readout, "score": 1.0}
         | {"score_error": 0.1, "unit": "strain mm", "note": ""}
         for readout in ("strain", "change_of_strain")

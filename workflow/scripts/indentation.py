@@ -2,12 +2,10 @@
 
 from pathlib import Path
 
-from fingerpad.arrays import FloatArray
-from fingerpad.contact.force_curve import limit_points, small_strain_curve
+from fingerpad.contact.force_curve import curve_rows, small_strain_curve
 from fingerpad.contact.problem import contact_problem
 from fingerpad.finite.pressing import Pressed
 from fingerpad.jobs import plain_errors
-from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
@@ -27,18 +25,10 @@ def main(
         body = load(actuators[name], CondensedBody) if name in actuators else None
         for interface in scene.device.interfaces():
             problem = contact_problem(scene, load(section, CondensedSection), body, interface)
-            rows += _rows(name, interface, Kinematics.SMALL, small_strain_curve(scene, problem))
+            rows += curve_rows(name, interface, Kinematics.SMALL, small_strain_curve(scene, problem))
             if (name, interface) in curves:
-                rows += _rows(name, interface, Kinematics.FINITE, load(curves[name, interface], Pressed).curve)
+                rows += curve_rows(name, interface, Kinematics.FINITE, load(curves[name, interface], Pressed).curve)
     write_rows(table, rows)
-
-
-def _rows(device: str, interface: Interface, kinematics: Kinematics, curve: FloatArray) -> list[dict[str, object]]:
-    case = {"kinematics": str(kinematics), "device": device, "interface": str(interface)}
-    return [
-        case | {"indentation_mm": float(height), "force_N_per_mm": float(force), "limit_point": bool(limit)}
-        for (height, force), limit in zip(curve, limit_points(curve), strict=True)
-    ]
 
 
 if __name__ == "__main__":

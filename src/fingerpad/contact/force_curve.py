@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import FloatArray
+from ..scene.contact_law import Interface
 from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
 from .formulation import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .indentation import raise_until
@@ -59,8 +62,17 @@ def limit_points(curve: FloatArray) -> NDArray[np.bool_]:
     return found
 
 
+def curve_rows(device: str, interface: Interface, kinematics: Kinematics, curve: FloatArray) -> list[dict[str, Any]]:
+    """Rows of the table of indentation for a curve (k, 2): height, force, and whether it is one of `limit_points`."""
+    case = {"kinematics": str(kinematics), "device": device, "interface": str(interface)}
+    return [
+        case | {"indentation_mm": float(height), "force_N_per_mm": float(force), "limit_point": bool(limit)}
+        for (height, force), limit in zip(curve, limit_points(curve), strict=True)
+    ]
+
+
 def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:
-    """The curve (k, 2) of a scene with small kinematics. Raises ContactError."""
+    """The curve (k, 2) of a scene with small kinematics. Raises as `raise_until`."""
     states: list[ContactState] = []
     touch = touching_height(problem)
     solve: SolveIncrement[ContactState, Patch | None] = recording(solve_increment, states.append)
