@@ -8,14 +8,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fingerpad.prediction.variants import VARIANT, WAVELENGTH_FACTORS, agreement, material_at, variant_rows
+from fingerpad.prediction.variants import (
+    VARIANT,
+    WAVELENGTH_FACTORS,
+    agreement,
+    material_at,
+    on_both_sides,
+    variant_rows,
+)
 from fingerpad.readouts.gabor import filtered_readouts
 from fingerpad.readouts.measures import Measure
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.readouts.roughness import score_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Side
-from scenes import condensed, scene, solved
+from scenes import condensed, scene, section, solved
 
 DEVICE = "device2"
 
@@ -53,6 +60,17 @@ def test_energy_and_stress_have_their_unit() -> None:
     units = {row["measure"]: row["unit"] for row in rows()}
     assert units[Measure.VON_MISES] == units[Measure.STRAIN_ENERGY] == "MPa mm2"
     assert units[Measure.MAXIMUM_SHEAR] == "mm2"
+
+
+def test_other_side_is_condensed_anew() -> None:
+    """Receptors are where they are and tissue gives way as it does, but strain across the interface jumps."""
+    own, mesh = condensed(DEVICE)[0], section(DEVICE)
+    found = on_both_sides(scene(DEVICE), own, mesh)
+    assert found[Side.DERMIS] is own
+    other = found[Side.EPIDERMIS]
+    assert other.receptor == pytest.approx(own.receptor, abs=1e-12)
+    assert np.array_equal(other.compliance, own.compliance)
+    assert np.abs(other.strain - own.strain).max() > 0.1 * np.abs(own.strain).max()
 
 
 def test_material_is_that_of_the_side() -> None:

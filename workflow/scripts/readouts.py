@@ -1,25 +1,16 @@
 """Score all solved conditions under other read-outs, and compare with the scores as configured."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
 from fingerpad.jobs import plain_errors
-from fingerpad.prediction.variants import agreement, variant_rows
+from fingerpad.prediction.variants import agreement, on_both_sides, variant_rows
 from fingerpad.scene.contact_law import Interface
-from fingerpad.scene.readout import Side
-from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.tissue.compliance import CondensedSection
-from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.mesh import load_section
-
-
-def read_from(scene: Scene, side: Side) -> Scene:
-    """The scene with receptors read on that side."""
-    return replace(scene, model=replace(scene.model, readout=replace(scene.model.readout, side=side)))
 
 
 def main(
@@ -38,12 +29,7 @@ def main(
     rows, compared_rows = [], []
     for path, mesh, stored in zip(devices, meshes, condensed, strict=True):
         scene = load_scene(config, path)
-        own = scene.model.readout.side
-        (other,) = set(Side) - {own}
-        sections = {
-            own: load(stored, CondensedSection),
-            other: condense_section(load_section(mesh), read_from(scene, other)),
-        }
+        sections = on_both_sides(scene, load(stored, CondensedSection), load_section(mesh))
         solved: dict[tuple[str, Interface], Solution] = {
             (condition.name, interface): load(next(waiting), Solution)
             for condition in scene.device.conditions
@@ -51,7 +37,7 @@ def main(
         }
         found = list(variant_rows(scene, sections, solved))
         rows += found
-        compared_rows += agreement(found, own)
+        compared_rows += agreement(found, scene.model.readout.side)
     write_rows(table, rows)
     write_rows(compared, compared_rows)
 

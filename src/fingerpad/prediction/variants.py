@@ -24,11 +24,24 @@ from ..scene.finger import Material
 from ..scene.readout import Side, is_constant
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedSection
+from ..tissue.condensation import condense_section
+from ..tissue.mesh import SectionMesh
 
 # times a read-out's wavelength [1]; source: an octave either way, in half octaves
 WAVELENGTH_FACTORS = (0.5, 0.5**0.5, 1.0, 2.0**0.5, 2.0)
 VARIANT = ["measure", "side", "wavelength_factor"]  # columns of the table that say how a score was read
 UNCHANGED = 1.0  # wavelength factor [1] of read-outs as configured
+
+
+def on_both_sides(scene: Scene, own: CondensedSection, mesh: SectionMesh) -> dict[Side, CondensedSection]:
+    """The condensed finger with receptors read on each side: as configured it is there, for the other side it is
+    condensed anew. Raises what `condense_section` raises.
+    """
+    configured = scene.model.readout.side
+    (other,) = set(Side) - {configured}
+    readout = replace(scene.model.readout, side=other)
+    there = condense_section(mesh, replace(scene, model=replace(scene.model, readout=readout)))
+    return {configured: own, other: there}
 
 
 def material_at(scene: Scene, side: Side) -> Material:
