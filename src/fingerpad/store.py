@@ -64,6 +64,16 @@ def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
             writer.writerows(rows)
 
 
+def alike(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Rows with the keys of all, empty where they have none of their own.
+
+    >>> alike([{"a": 1}, {"b": 2}])
+    [{'a': 1, 'b': ''}, {'a': '', 'b': 2}]
+    """
+    keys = dict.fromkeys(key for row in rows for key in row)
+    return [{key: row.get(key, "") for key in keys} for row in rows]
+
+
 def read_rows(path: Path) -> list[dict[str, str]]:
     """Rows of a CSV table that `write_rows` wrote, as text."""
     with path.open(newline="", encoding="utf-8") as file:

@@ -1,27 +1,17 @@
 """Time one condition on ladders of meshes, by fingerpad, a plain solver and CalculiX, with the errors of its scores."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
-from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder
+from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
 from fingerpad.calculix.run import installed
 from fingerpad.jobs import plain_errors
-from fingerpad.prediction.edges import edge_intervals
-from fingerpad.prediction.scoring import rows_at
-from fingerpad.scene.device import Condition
-from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.store import read_rows, write_rows
-
-
-def alone(scene: Scene, condition: Condition) -> Scene:
-    """The scene with one condition."""
-    return replace(scene, device=replace(scene.device, conditions=(condition,)))
+from fingerpad.store import alike, read_rows, write_rows
 
 
 def main(
@@ -45,8 +35,7 @@ def main(
     for each in kinematics:
         scene, climbed = load_scene(config, device, each), factors[each]
         asked = scene.device.condition(condition)
-        small = each is Kinematics.SMALL
-        wanted = read_rows(reference) if small else rows_at(alone(scene, asked), finest, edge_intervals(scene))
+        wanted = read_rows(reference) if each is Kinematics.SMALL else reference_rows(scene, asked, finest)
         rows += own_ladder(scene, asked, climbed["fingerpad"], wanted, repeats[each])
         if climbed["first_order"]:
             rows += first_order_ladder(scene, asked, climbed["first_order"], wanted, repeats[each])
@@ -58,8 +47,7 @@ def main(
             rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], decks, limit)
         else:
             print("CalculiX skipped: ccx not installed")
-    columns = dict.fromkeys(key for row in rows for key in row)
-    write_rows(table, [{key: row.get(key, "") for key in columns} for row in rows])
+    write_rows(table, alike(rows))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -11,7 +12,7 @@ from ..contact.problem import increments
 from ..contact.solution import Solution
 from ..errors import SceneError
 from ..prediction.edges import edge_intervals
-from ..prediction.scoring import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out
+from ..prediction.scoring import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out, rows_at
 from ..readouts.roughness import score_rows
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -29,6 +30,14 @@ OWN_LADDER, FIRST_ORDER_LADDER, PLAIN_LADDER = "fingerpad", "first-order element
 CALCULIX_LADDER = "CalculiX"
 COMPARED_AT = 0.01  # error of a score [1] at which run times are compared
 PATH = 1.8  # ways from first touch to the outermost face [1] that pre-indentation takes; source: devices (measured)
+
+
+def reference_rows(scene: Scene, condition: Condition, coarsening: float) -> list[Row]:
+    """Score rows of one condition on sizes and increments `coarsening` times the scene's [1], which errors are measured
+    against; the mesh is fine where all conditions put the edges. Raises as `own_ladder`.
+    """
+    alone = replace(scene, device=replace(scene.device, conditions=(condition,)))
+    return rows_at(alone, coarsening, edge_intervals(scene))
 
 
 def own_ladder(

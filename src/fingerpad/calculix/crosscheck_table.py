@@ -11,6 +11,7 @@ from ..errors import CalculixError, ContactError
 from ..prediction.edges import mesh_device
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
+from ..store import alike
 from ..tissue.actuator_body import body_of
 from ..tissue.condensation import condense_section
 from .crosscheck import (
@@ -50,8 +51,7 @@ def crosscheck_rows(
         if first is not None:
             rows.append(_row(name, case, f"CalculiX in {first}", differences(outcome, outcomes[first])))
         outcomes[name] = outcome
-    columns = dict.fromkeys(key for one in rows for key in one)
-    return [{key: one.get(key, "") for key in columns} for one in rows]
+    return alike(rows)
 
 
 def _compared(
