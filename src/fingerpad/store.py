@@ -44,7 +44,8 @@ def load_arrays(path: Path, *names: str) -> dict[str, Any]:
     lacks one.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        # opened here, as numpy leaves a file open that is no archive
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             return {name: archive[name] for name in names or archive.files}
     except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
         raise _foreign(path, error) from error
