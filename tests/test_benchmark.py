@@ -75,7 +75,6 @@ def test_ladders_agree_where_their_meshes_do(stated: list[dict[str, Any]]) -> No
     (plain,) = plain_ladder(base, condition, [COARSE], stated)
     assert float(own["error_strain"]) < 1e-12  # the reference is this very mesh
     assert float(plain["error_strain"]) < 0.01
-    assert own["cold_s"] > own["warm_s"] > own["stimulus_s"]
 
 
 def test_first_order_elements_are_too_stiff(coarse: Scene, stated: list[dict[str, Any]]) -> None:
@@ -143,7 +142,6 @@ def test_finite_kinematics_are_in_ladder_and_ledger(pair: Scene) -> None:
     (rung,) = own_ladder(pair, pair.device.conditions[0], [1.0], rows, 1)
     assert rung["kinematics"] == "finite"
     assert float(rung["error_strain"]) < 1e-9
-    assert rung["cold_s"] > rung["warm_s"] > rung["stimulus_s"]
     found = {row["skip"]: row for row in skip_rows(pair, rows, 1)}
     assert set(found) == {"mirrored_half", "inactive_nodes"}
     for row in found.values():

@@ -117,8 +117,7 @@ def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
     )
     condition = small.device.condition("alternate_000")
     section = mesh_device(small)
-    path, seconds = run(input_deck(small, section, condition, SETTINGS), tmp_path, 300.0)
-    assert seconds > 0.0
+    path, _ = run(input_deck(small, section, condition, SETTINGS), tmp_path, 300.0)
     reference = printed_outcome(small, section, read_printed(path, 4, 2, SETTINGS))
     found = fingerpad_outcome(
         small, condense_section(section, small), None, condition, SETTINGS, ContactModel.PENALTIES

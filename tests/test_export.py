@@ -267,10 +267,3 @@ def test_command_refuses_settings_that_make_no_deck(
 ) -> None:
     assert main([*export(tmp_path, CONDITION), flag, "0"]) == FAILED
     assert f"{flag[2:].replace('-', ' ')} must be positive" in capsys.readouterr().err
-
-
-def test_help_shows_an_example(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as end:
-        main(["export", "--help"])
-    assert end.value.code == 0
-    assert "fingerpad export config/devices/" in capsys.readouterr().out

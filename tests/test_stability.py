@@ -80,8 +80,8 @@ def test_a_falling_force_is_followed() -> None:
     assert np.abs(np.diff(slope)).max() < 0.3 * slope[0]
 
 
-def test_no_shipped_force_has_a_limit_point() -> None:
-    """Rising forces have none, also where increments that were taken back leave a ripple."""
+def test_a_ripple_is_no_limit_point_and_every_crest_is_one() -> None:
+    """Increments that were taken back leave ripples in rising forces."""
     rising = np.array([[0.0, 0.0], [1.0, 1.0], [1.5, 0.9995], [2.0, 2.0]])
     assert not limit_points(rising).any()
     waves = np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 1.0], [3.0, 4.0], [4.0, 3.0]])
