@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from fingerpad.errors import RatingError
-from fingerpad.perception import correlation
-from fingerpad.perception.correlation import correlation_table, error_in_r, extreme_ratings, r2_range, up_sets
+from fingerpad.perception.correlation import COLUMNS, correlation_table, error_in_r
+from fingerpad.perception.extremes import extreme_ratings, r2_range, up_sets
 from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
 Array = NDArray[np.float64]
@@ -397,12 +397,12 @@ def test_columns_and_one_row_for_each_device_interface_and_readout() -> None:
         [make_scores("device2", [1.0, 2.0, 4.0]), make_scores("device2", [1.0, 2.0, 4.0], interface="frictionless")]
     )
     table = make_table(scores)
-    assert list(table.columns) == correlation.COLUMNS
+    assert list(table.columns) == COLUMNS
     assert table[["device", "interface", "readout"]].to_numpy().tolist() == [
         ["device2", "shear", "strain"],
         ["device2", "frictionless", "strain"],
     ]
-    assert list(make_table(scores.iloc[:0]).columns) == correlation.COLUMNS
+    assert list(make_table(scores.iloc[:0]).columns) == COLUMNS
 
 
 @pytest.mark.parametrize("note", ["no prediction", "", math.nan])
