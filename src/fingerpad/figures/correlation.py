@@ -12,7 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
-from ..perception.ratings import NO_RATINGS, OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
+from ..perception.ratings import NO_RATINGS
+from ..perception.wording import OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
 from ..readouts.roughness import SAME
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pandas as pd
 
 from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES
-from ..perception.ratings import SLOPE_NAME, slope_name
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
+from ..perception.wording import SLOPE_NAME, slope_name
 from ..readouts.roughness import KEY
 from ..scene.contact_law import Interface
 from .filling import table

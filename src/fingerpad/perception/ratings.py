@@ -22,9 +22,6 @@ ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
 NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
 SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
-SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
-SMALLEST_P = 0.001  # below it p is given as a bound
-OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `slope_name`, in captions
 
 
 class RatingKind(StrEnum):
@@ -38,27 +35,6 @@ class RatingKind(StrEnum):
     def label(self) -> str:
         """How figures and tables call it; a surrogate is always called an ordinal surrogate."""
         return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
-
-
-def has_p(p: object, kind: object) -> bool:
-    """Whether a p is there and tests anything: the steps of ordinal surrogates, a `label`, are no measurement."""
-    return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
-
-
-def is_open(row: Mapping[str, Any]) -> bool:
-    """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text, as
-    they can add up to more than |r|.
-    """
-    return bool(row["r_error"] != "" and float(row["r2"]) ** 0.5 < float(row["r_error"]))
-
-
-def slope_name(row: Mapping[str, Any]) -> str:
-    """Which way the slope is of a row of the correlation table, also as text, and whether that is open.
-
-    >>> slope_name({"slope_sign": "-1", "r2": "0.25", "r_error": "0.6"}), slope_name({"slope_sign": 1, "r_error": ""})
-    ('falling (open)', 'rising')
-    """
-    return SLOPE_NAME[int(row["slope_sign"])] + (" (open)" if is_open(row) else "")
 
 
 class Relation(StrEnum):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
-from ..perception.ratings import has_p, slope_name
+from ..perception.wording import has_p, slope_name
 from ..readouts.roughness import TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.device import Device

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
-from ..perception.ratings import SLOPE_NAME, SMALLEST_P, has_p, slope_name
+from ..perception.wording import SLOPE_NAME, SMALLEST_P, has_p, slope_name
 from ..readouts.accuracy import relative_error
 from ..rounding import rounded
 from ..scene.contact_law import Interface
