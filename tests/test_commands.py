@@ -588,6 +588,48 @@ def test_predict_prints_json_and_csv(
     assert rows[1]["score"] == rows[1]["rank"] == ""
 
 
+def test_predict_takes_values_in_turn(
+    checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    taken: list[Scene] = []
+    monkeypatch.setattr(predicting, "forecast", lambda scene, *given: taken.append(scene) or quick)
+    vary = ["--vary", "contact.friction=0.3, 0.9", "--vary", "stimulus.dispersions.alternate=[0, 1, 1, 0]"]
+    assert main(["predict", "--csv", *vary, "config/devices/device2.yaml"]) == 0
+    assert [scene.model.contact.friction for scene in taken] == [0.3, 0.9]
+    assert all((scene.device.conditions[-1].tangential[0, :2] * [1.0, -1.0] > 0.0).all() for scene in taken)
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert [row["contact.friction"] for row in rows] == ["0.3", "0.3", "0.9", "0.9"]
+    assert {row["stimulus.dispersions.alternate"] for row in rows} == {"[0, 1, 1, 0]"}
+
+    assert main(["predict", *vary[:2], "config/devices/device2.yaml"]) == 0
+    said = capsys.readouterr().out
+    assert "(device2), small strain, contact.friction 0.9\n" in said
+    assert "(device2), small strain: orders over 2 variants\nshear, strain: a in 2\n" in said
+    assert "frictionless, strain: no scores in 2\n" in said
+
+
+def test_orders_count_what_errors_leave_open() -> None:
+    cases = [(1.0, 2.0, 0.1), (1.0, 2.0, 0.6), (2.0, 1.0, 0.1), (1.0, 1.0, 0.1), (1.0, 2.0, 0.2), (1.0, 2.0, None)]
+    tables = [
+        [ROW | {"condition": name, "score": score, "score_error": error} for name, score in (("a", one), ("b", other))]
+        for one, other, error in cases
+    ]
+    assert predicting.orders(scene("device3"), tables).splitlines()[1:5] == [
+        "shear, strain: a < b in 2",
+        "shear, strain: a ≈ b in 2",
+        "shear, strain: b < a in 1",
+        "shear, strain: a = b in 1",
+    ]
+
+
+def test_values_in_turn_are_those_of_edited_files(coarse: Path) -> None:
+    table = predict("config/devices/device2.yaml", error=False, vary={"actuators.pitch": [2.2, 2.4]})
+    Project(coarse).edit("config/devices/device2.yaml", lambda text: text.replace("value: 2.5", "value: 2.4"))
+    edited = predict("config/devices/device2.yaml", error=False)
+    assert table["actuators.pitch"].tolist() == [2.2] * len(edited) + [2.4] * len(edited)
+    assert table["score"][len(edited) :].tolist() == edited["score"].tolist()
+
+
 def test_python_gives_the_same_table(checkout: Path) -> None:
     table = predict("config/devices/device3.yaml", error=False)
     rows = forecast(scene("device3"), error=False)

@@ -109,7 +109,7 @@ def test_bad_alternatives_are_named(document: dict[str, object], said: str, tmp_
 @pytest.mark.parametrize(
     ("alternative", "said"),
     [
-        (Alternative("model", "contact.fricton", 0.1, None, "s"), "config.yaml has no value contact.fricton"),
+        (Alternative("model", "contact.fricton", 0.1, None, "s"), "contact.fricton: found no such value"),
         (Alternative("devices", "actuators.ptich", None, 2.0, "s"), "no device assumes a value actuators.ptich"),
         (Alternative("model", "readout.side", None, 2.0, "s"), "found 'dermis'; allowed: a number"),
     ],

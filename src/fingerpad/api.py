@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from .checkout import find_checkout
 from .prediction.forecast import forecast
 from .scene.tissue_law import Kinematics
-from .scene.validation import check_device
+from .scene.validation import NO_VALUES, check_device
+from .scene.variation import variants
 
 
 def predict(
@@ -19,17 +22,24 @@ def predict(
     kinematics: str = "small",
     config: str | PathLike[str] | None = None,
     schemas: str | PathLike[str] | None = None,
+    vary: Mapping[str, Sequence[Any]] = NO_VALUES,
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank` and `caveats` (see `forecast`).
 
-    error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or "finite". config,
-    schemas: those of the checkout around the working folder if not given. Raises SceneError, UsageError if there is no
-    such checkout, and what `forecast` raises.
+    vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
+    column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
+    "finite". config, schemas: those of the checkout around the working folder if not given. Raises SceneError,
+    UsageError if there is no such checkout, and what `forecast` raises.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
     model = Path(config) if config else find_checkout(Path.cwd()).config
     folder = Path(schemas) if schemas else find_checkout(Path.cwd()).schemas
-    scene = check_device(Path(device), folder, model).with_kinematics(Kinematics(kinematics))
-    return pd.DataFrame(forecast(scene, error))
+    cases = [(values, check_device(Path(device), folder, model, values)) for values in variants(vary)]
+    rows = [
+        values | row
+        for values, scene in cases
+        for row in forecast(scene.with_kinematics(Kinematics(kinematics)), error)
+    ]
+    return pd.DataFrame(rows)

@@ -2,9 +2,10 @@
 # `--config scenes=FOLDER` takes config.yaml and devices/ from another folder than config/.
 
 from difflib import get_close_matches
+from functools import cache
 
 from fingerpad.scene.contact_law import Interface
-from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, read_ensemble, slug
+from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assuming, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.example import ALTERNATE, compares_interfaces, example_condition, example_device
@@ -122,6 +123,17 @@ def scored(name, kinematics=Kinematics.SMALL):
 def scored_of(wildcards):
     """`scored` of the wildcard device."""
     return scored(scene_of(wildcards).device.name, kinematics_of(wildcards))
+
+
+@cache
+def device_documents():
+    """Device files as they stand: whether a value is an assumption is in its source."""
+    return {path.stem: read_yaml(path) for path in DEVICE_FILES}
+
+
+def varied_in(alternative):
+    """The devices in whose files an alternative takes the place of an assumption, if it is one of devices."""
+    return assuming(device_documents(), alternative.key) if alternative else []
 
 
 def tissue_law(name, kinematics):

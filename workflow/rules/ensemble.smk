@@ -5,9 +5,6 @@
 # results/ensemble_{claims,correlations}.csv, results/figures/ensemble.{png,pdf}
 
 from dataclasses import replace
-from functools import cache
-
-from fingerpad.ensemble.alternatives import assuming
 
 ENSEMBLE = BASE / "config" / "ensemble.yaml"
 try:
@@ -16,12 +13,6 @@ except FingerpadError as error:
     raise WorkflowError(str(error)) from None
 # what each member varies, whatever the source
 MEMBERS = {slug(AS_CONFIGURED): None} | {slug(each.name): replace(each, source="") for each in ALTERNATIVES}
-
-
-@cache
-def device_documents():
-    """Device files as they stand: whether a value is an assumption is in its source."""
-    return {path.stem: read_yaml(path) for path in DEVICE_FILES}
 
 
 rule ensemble:
@@ -55,7 +46,7 @@ rule ensemble_member:
         code=code("ensemble_member.py"),
         scenes=lambda w: [scored(name, w.kinematics) for name in DEVICES_WITH[w.kinematics]],
         varied=lambda w: support.fingerprint(MEMBERS[w.member]),
-        varied_in=lambda w: assuming(device_documents(), MEMBERS[w.member].key) if MEMBERS[w.member] else [],
+        varied_in=lambda w: varied_in(MEMBERS[w.member]),
     script:
         "../scripts/ensemble_member.py"
 

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Mapping
 from contextlib import suppress
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
+
+import yaml
 
 from ..checkout import find_checkout
 from ..csvrows import listed
@@ -15,7 +19,10 @@ from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from ..scene.validation import check_device
+from ..scene.validation import NO_VALUES, check_device
+from ..scene.variation import variants
+
+VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6"
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
@@ -57,11 +64,40 @@ def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interfa
     return scene, condition, interface
 
 
-def checked_scene(device: Path, options: argparse.Namespace) -> Scene:
-    """The scene of a device file and the options. Raises SceneError, and UsageError outside a checkout."""
+def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str, Any] = NO_VALUES) -> Scene:
+    """The scene of a device file and the options, with some values in place of those in the files.
+
+    Raises SceneError, and UsageError outside a checkout.
+    """
     config = options.config or find_checkout(Path.cwd()).config
     schemas = options.schemas or find_checkout(Path.cwd()).schemas
-    return check_device(existing_file(device), schemas, config)
+    return check_device(existing_file(device), schemas, config, values)
+
+
+def add_variation(parser: argparse.ArgumentParser) -> None:
+    """The option for values in place of those in the scene files."""
+    parser.add_argument(
+        "--vary",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE[,VALUE]",
+        help="take these values in turn, in place of the one in the files; with several keys, all combinations",
+    )
+
+
+def varied(options: argparse.Namespace) -> list[dict[str, Any]]:
+    """The combinations of values that the options ask for; one without any if they ask for none. Raises UsageError."""
+    vary: dict[str, list[Any]] = {}
+    for entry in options.vary:
+        key, _, text = entry.partition("=")
+        try:
+            values = yaml.safe_load(f"[{text}]")
+        except yaml.YAMLError:
+            values = []
+        if not (key and values):
+            raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")
+        vary.setdefault(key, []).extend(values)
+    return variants(vary)
 
 
 def existing_file(device: Path) -> Path:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,11 +12,14 @@ from typing import Any
 from tqdm import tqdm
 
 from ..errors import ContactError
+from ..prediction.caveats import score_order
 from ..prediction.forecast import forecast, steps
 from ..readouts.roughness import KEY
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from .options import add_scene_options, checked_scene
+from ..scene.validation import NO_VALUES
+from .options import add_scene_options, add_variation, checked_scene, varied
 from .printing import aligned, print_csv, titled
 
 DESCRIPTION = """\
@@ -28,6 +32,7 @@ examples:
   fingerpad predict --no-error config/devices/*.yaml
   fingerpad predict --kinematics finite config/devices/device2.yaml
   fingerpad predict --json config/devices/device2.yaml > device2.json
+  fingerpad predict --vary contact.friction=0.3,0.6,1.0 config/devices/device2.yaml
 """
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
 RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
@@ -48,32 +53,46 @@ def add(parser: argparse.ArgumentParser) -> None:
         default=str(Kinematics.SMALL),
         help="of the tissue: small displacements and strains (default), or finite ones, which take longer",
     )
+    add_variation(parser)
     add_scene_options(parser)
 
 
 def run(options: argparse.Namespace) -> None:
-    """Solve every device, and print all scores once they are there. Raises ContactError if there is none."""
-    kinematics = Kinematics(options.kinematics)
-    scenes = [checked_scene(device, options).with_kinematics(kinematics) for device in options.devices]
-    error = not options.no_error
+    """Solve every variant of every device, and print all scores once they are there.
+
+    Raises ContactError if there is none.
+    """
+    kinematics, variations, error = Kinematics(options.kinematics), varied(options), not options.no_error
+    cases = [
+        (checked_scene(device, options, values).with_kinematics(kinematics), values)
+        for device in options.devices
+        for values in variations
+    ]
     tables = []
-    with tqdm(total=sum(steps(scene, error) for scene in scenes), leave=False, disable=None) as bar:
-        for scene in scenes:
+    with tqdm(total=sum(steps(scene, error) for scene, _ in cases), leave=False, disable=None) as bar:
+        for scene, _ in cases:
             bar.set_description(scene.device.name)
             tables.append(forecast(scene, error, bar.update))
-    rows = [row for table in tables for row in table]
+    rows = [values | row for (_, values), table in zip(cases, tables, strict=True) for row in table]
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
         print_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows])
     else:
-        print("\n\n".join(map(as_table, scenes, tables)))
+        found = [as_table(scene, table, values) for (scene, values), table in zip(cases, tables, strict=True)]
+        if len(variations) > 1 and error:
+            found += [
+                orders(scene, tables[first : first + len(variations)])
+                for first, (scene, _) in list(enumerate(cases))[:: len(variations)]
+            ]
+        print("\n\n".join(found))
     if all(row["score"] is None for row in rows):
         raise ContactError(f"nothing could be scored: {rows[0]['note']}")
 
 
-def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
-    """Title, aligned table and caveats of one device."""
+def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
+    """Title, aligned table and caveats of one device, with these values in place of those in its files."""
+    title = ", ".join([titled(scene), *(f"{key} {value}" for key, value in values.items())])
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
@@ -83,13 +102,26 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     ]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     shown = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
-    lines = [titled(scene), *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
+    lines = [title, *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
     told: dict[str, list[Mapping[str, Any]]] = {}
     for row in ordered:
         for caveat in row["caveats"]:
             told.setdefault(caveat, []).append(row)
     every = [condition.name for condition in scene.device.conditions]
     lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in told.items()]
+    return "\n".join(lines)
+
+
+def orders(scene: Scene, tables: Sequence[Sequence[Mapping[str, Any]]]) -> str:
+    """In how many variants of a device its scores have which order, by interface and read-out."""
+    lines = [f"{titled(scene)}: orders over {len(tables)} variants"]
+    for interface in scene.device.interfaces():
+        for readout in Readout:
+            own = [
+                [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)] for rows in tables
+            ]
+            counts = Counter(map(score_order, own)).most_common()
+            lines += [f"{interface}, {readout}: {order or 'no scores'} in {count}" for order, count in counts]
     return "\n".join(lines)
 
 

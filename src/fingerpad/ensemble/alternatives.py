@@ -5,9 +5,8 @@ Every member of the ensemble is a folder of scene files in which what is varied 
 
 from __future__ import annotations
 
-import copy
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,14 +17,13 @@ from ..errors import SceneError
 from ..files import write_text
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
+from ..scene.variation import Document, no_such_value, quantity_at, with_value
 
 AS_CONFIGURED = "as configured"
 FIRST, SECOND = "first", "second"
 HALF_CYCLES = (FIRST, SECOND)
 HALF_CYCLE = "stimulus.half_cycle"
 PARTS = ("model", "devices")
-
-Document = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ def member_scenes(
     it is a key that none has, or a number's factor on what is none, and if no device has half-cycles.
     """
     cycled = {
-        name: _with(document, HALF_CYCLE, lambda _: half_cycle, "varied: half-cycle")
+        name: with_value(document, HALF_CYCLE, half_cycle, "varied: half-cycle")
         for name, document in devices.items()
         if "half_cycle" in document["stimulus"]
     }
@@ -117,21 +115,25 @@ def member_scenes(
         raise SceneError(f"ensemble: no device has a value {HALF_CYCLE}")
     if alternative is None:
         return Scenes(config, cycled)
-    source = f"varied: {alternative.source}"
     if alternative.part == "model":
-        return Scenes(_with(config, alternative.key, alternative.instead_of, source), cycled)
-    assumed = {
-        name: _with(cycled[name], alternative.key, alternative.instead_of, source)
-        for name in assuming(cycled, alternative.key)
-    }
+        return Scenes(_varied(config, alternative), cycled)
+    assumed = {name: _varied(cycled[name], alternative) for name in assuming(cycled, alternative.key)}
     if not assumed:
         raise SceneError(f"ensemble: no device assumes a value {alternative.key}")
     return Scenes(config, assumed)
 
 
+def _varied(document: Document, alternative: Alternative) -> Document:
+    """The document with the alternative in place of its own value. Raises SceneError if it has none."""
+    if (quantity := quantity_at(document, alternative.key)) is None:
+        raise no_such_value(alternative.key, document)
+    value = alternative.instead_of(quantity["value"])
+    return with_value(document, alternative.key, value, f"varied: {alternative.source}")
+
+
 def assuming(devices: Mapping[str, Document], key: str) -> list[str]:
     """Names of the devices whose value at a key is an assumption, by their documents."""
-    found = {name: _quantity(document, key) or {} for name, document in devices.items()}
+    found = {name: quantity_at(document, key) or {} for name, document in devices.items()}
     return [name for name, quantity in found.items() if str(quantity.get("source")).startswith(Origin.ASSUMPTION)]
 
 
@@ -161,24 +163,6 @@ def write_scenes(
         write_text(path, yaml.safe_dump(document, sort_keys=False))
     first, *rest = files
     return first, rest
-
-
-def _quantity(document: Document, key: str) -> Document | None:
-    """The quantity at a dotted key, or None."""
-    node: Any = document
-    for step in key.split("."):
-        node = node.get(step) if isinstance(node, dict) else None
-    return node if isinstance(node, dict) and "value" in node else None
-
-
-def _with(document: Document, key: str, change: Callable[[Any], Any], source: str) -> Document:
-    """The document with the value at a key changed."""
-    found = copy.deepcopy(document)
-    quantity = _quantity(found, key)
-    if quantity is None:
-        raise SceneError(f"ensemble: config.yaml has no value {key}")
-    quantity["value"], quantity["source"] = change(quantity["value"]), source
-    return found
 
 
 def _is_number(value: Any) -> bool:

@@ -13,11 +13,10 @@ from typing import Any
 
 import pandas as pd
 
-from ..readouts.roughness import KEY, TYPESET_UNITS
+from ..readouts.roughness import KEY, NEAR, TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.readout import READOUT_NAME, Readout
 from .verdicts import (
-    NEAR,
     Chain,
     Holds,
     Score,

@@ -15,10 +15,8 @@ from typing import Any
 
 import pandas as pd
 
-from ..readouts.roughness import SAME
+from ..readouts.roughness import NEAR, SAME
 from .ratings import RatingKind
-
-NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than the sum of their errors
 
 
 class Holds(StrEnum):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
-from ..readouts.roughness import KEY, SAME
+from ..readouts.roughness import KEY, NEAR, SAME
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -17,7 +18,7 @@ from ..scene.tissue_law import Kinematics
 
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
 MANY_CUTS = 2  # halved increments [1]; source: shipped devices have up to 2, with finite kinematics
-NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
+CLOSE = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
 # Another time's change over that which is read [1]; source: between the shipped sizes and halves of them the ratio of
 # two opposite strokes moves by up to 0.007 (eight patterns of four pins, with friction and without)
 RIVAL = 0.98
@@ -70,7 +71,7 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
         "tension": certificate.tension_share,
         "excess over the friction cone": certificate.cone_share,
     }
-    found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
+    found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > CLOSE]
     return found
 
 
@@ -107,6 +108,27 @@ def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
         ]
         found.append([f"errors are larger than the difference to {', '.join(close)}"] if close else [])
     return found
+
+
+def score_order(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Conditions from the lowest score up, of rows of one device, interface and read-out: NEAR stands between scores
+    that are closer than the sum of both errors, or whose errors are unknown, `=` between those of equal stimuli.
+
+    >>> rows = [("a", 3.0, 0.1), ("b", 1.0, 0.2), ("c", 1.1, 0.2)]
+    >>> score_order([dict(zip(("condition", "score", "score_error"), row)) for row in rows])
+    'b ≈ c < a'
+    """
+    scored = sorted((row for row in rows if row["score"] is not None), key=lambda row: float(row["score"]))
+    signs = [_sign(low, high) for low, high in pairwise(scored)]
+    names = [str(row["condition"]) for row in scored]
+    return " ".join([*names[:1], *(f"{sign} {name}" for sign, name in zip(signs, names[1:], strict=True))])
+
+
+def _sign(low: Mapping[str, Any], high: Mapping[str, Any]) -> str:
+    if high["score"] - low["score"] <= SAME * abs(low["score"]):
+        return "="
+    known = low["score_error"] is not None and high["score_error"] is not None
+    return "<" if known and not _indistinct(low, high) else NEAR
 
 
 def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:

@@ -24,6 +24,7 @@ from ..errors import SceneError
 from ..imports import without
 from .scene import Model, Scene
 from .scenefile import build_device, build_model, read_yaml
+from .variation import shared_out, with_value
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
     from jsonschema import Draft202012Validator, ValidationError, validators
@@ -32,6 +33,7 @@ Schema = dict[str, Any]
 Key = list[str | int]
 Problem = tuple[int, str]  # how fundamental (0 is the most), and the line that begins with its key
 
+NO_VALUES: Mapping[str, Any] = {}
 MOST_REPORTED = 5  # problems in one message [1]
 LONGEST_NAME = 64  # characters of a device's name [1]; source: as in the schemas
 NAME = f"small letters, digits and underscores that begin with a letter, at most {LONGEST_NAME}"
@@ -53,22 +55,24 @@ WORDS: Mapping[str, str] = {
 RANKS: Mapping[str, int] = {"required": 0, "additionalProperties": 0, "type": 1}  # else 2
 
 
-def check_config(path: Path, schema_dir: Path) -> Model:
-    """The model of a config file that holds what `config.schema.yaml` allows.
+def check_config(path: Path, schema_dir: Path, values: Mapping[str, Any] = NO_VALUES) -> Model:
+    """The model of a config file that holds what `config.schema.yaml` allows. values: in place of those at some keys.
 
     Raises SceneError with up to MOST_REPORTED problems, a line each, the most fundamental first.
 
     >>> check_config(Path("config/config.yaml"), Path("workflow/schemas")).finger.width
     16.0
     """
-    document, schema = checked_document(path, schema_dir / "config.schema.yaml")
-    _report(path, _layer_problems(document))
-    with _located(path, schema, "finger"):
+    document, schema = checked_document(path, schema_dir / "config.schema.yaml", values)
+    where = _named(path, values)
+    _report(where, _layer_problems(document))
+    with _located(where, schema, "finger"):
         return build_model(document)
 
 
-def check_device(path: Path, schema_dir: Path, config_path: Path) -> Scene:
+def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mapping[str, Any] = NO_VALUES) -> Scene:
     """The scene of a device file that holds what `device.schema.yaml` allows, and of a config file that it fits.
+    values: in place of those at some keys of either file.
 
     Raises SceneError as `check_config` does, about the config file if that one is wrong.
 
@@ -76,12 +80,14 @@ def check_device(path: Path, schema_dir: Path, config_path: Path) -> Scene:
     >>> check_device(Path("config/devices/device2.yaml"), Path("workflow/schemas"), config).device.name
     'device2'
     """
-    model = check_config(config_path, schema_dir)
+    of_model, own = shared_out(values, read_yaml(config_path), read_yaml(path)) if values else (values, values)
+    model = check_config(config_path, schema_dir, of_model)
     require_name(path)
-    document, schema = checked_document(path, schema_dir / "device.schema.yaml")
-    with _located(path, schema, "stimulus"):
+    document, schema = checked_document(path, schema_dir / "device.schema.yaml", own)
+    where = _named(path, own)
+    with _located(where, schema, "stimulus"):
         device = build_device(path, document)
-    with _located(path, schema, "actuators"):
+    with _located(where, schema, "actuators"):
         return Scene(model, device)
 
 
@@ -132,17 +138,22 @@ def require_new_name(name: str) -> None:
         raise SceneError(_problem(0, "NAME", _shown_name(name), NAME, meant=meant, about=about)[1])
 
 
-def checked_document(path: Path, schema_path: Path) -> tuple[dict[str, Any], Schema]:
-    """The mapping in a file, after it has passed the schema, and the schema. Raises SceneError as `read_yaml`, and with
-    all that the schema does not allow.
+def checked_document(
+    path: Path, schema_path: Path, values: Mapping[str, Any] = NO_VALUES
+) -> tuple[dict[str, Any], Schema]:
+    """The mapping in a file, with some values in place of its own, after it has passed the schema, and the schema.
+
+    Raises SceneError as `read_yaml`, and with all that the schema does not allow.
     """
     document, source = read_yaml(path), read_yaml(schema_path)
+    for key, value in values.items():
+        document = with_value(document, key, value, "varied")
     schema = _plain(source, document, source["$defs"])
     checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(
         "integer", lambda _, value: _is_number(value) and isinstance(value, int)
     )
     errors = validators.extend(Draft202012Validator, type_checker=checker)(schema).iter_errors(document)
-    _report(path, (problem for error in errors for problem in _explain(error, schema, document)))
+    _report(_named(path, values), (problem for error in errors for problem in _explain(error, schema, document)))
     return document, schema
 
 
@@ -161,7 +172,12 @@ def _problem(rank: int, key: str, found: str, allowed: str, *, about: str, meant
     return rank, f"{key}: found {found}; allowed: {allowed}{hint} ({about})"
 
 
-def _report(path: Path, problems: Iterable[Problem]) -> None:
+def _named(path: Path, values: Mapping[str, Any]) -> str:
+    """A file, and the values that take the place of its own."""
+    return f"{path}{' with ' if values else ''}{', '.join(f'{key} {_shown(value)}' for key, value in values.items())}"
+
+
+def _report(path: object, problems: Iterable[Problem]) -> None:
     """Raise the first few problems, if there are any, as one SceneError."""
     ordered = sorted(set(problems))  # by key within a rank: jsonschema has no fixed order
     lines = [f"{path}: {line}" for _, line in ordered[:MOST_REPORTED]]
@@ -172,7 +188,7 @@ def _report(path: Path, problems: Iterable[Problem]) -> None:
 
 
 @contextmanager
-def _located(path: Path, schema: Schema, key: str) -> Iterator[None]:
+def _located(path: object, schema: Schema, key: str) -> Iterator[None]:
     """Complete a SceneError of the scene itself: with the file, the key unless it begins with one, and what that is."""
     try:
         yield
