@@ -329,6 +329,24 @@ def test_a_claim_about_ratings_that_are_not_there_has_no_row() -> None:
     assert len(without) == 9
 
 
+@pytest.mark.parametrize("note", ["fewer than three conditions", "constant rating"])
+def test_a_claim_about_a_correlation_that_is_not_there_has_no_row(note: str) -> None:
+    """Unlike one of a constant score, with which nothing correlates."""
+    scores = make_scores()
+    without = claims_table(scores, correlate(scores).assign(r2=math.nan, slope_sign=pd.NA, note=note))
+    assert not without["claim"].str.contains("correlates").any()
+
+
+def test_an_order_that_leaves_the_slope_open_decides_no_correlation() -> None:
+    """Two classes of ratings without an order: |r| is 0.999 whichever is rated higher."""
+    scores = make_scores({("device2", "shear", "change_of_strain"): [1.0, 1.1, 3.0]})
+    correlations = correlate(scores, "surrogate")
+    both = {"r_lowest": -0.9988, "r_highest": 0.9988, "r2_lowest": 0.9976, "r2_highest": 0.9976, "range_error": 0.01}
+    table = claims_table(scores, correlations.assign(**both))
+    claim = "Device 2: the change of strain correlates very well."
+    assert table.loc[table["claim"] == claim, "holds"].item() == "undecided"
+
+
 def test_committed_page_says_of_small_strain_what_the_recorded_scores_do() -> None:
     scores = pd.read_csv(ROOT / "tests" / "expected" / "scores.csv")
     table = claims_table(scores, correlate(scores, "surrogate"))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fingerpad.errors import RatingError
 from fingerpad.perception.correlation import COLUMNS, correlation_table, error_in_r
-from fingerpad.perception.extremes import extreme_ratings, r2_range, up_sets
+from fingerpad.perception.extremes import rating_range, up_sets
 from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
 Array = NDArray[np.float64]
@@ -26,7 +26,7 @@ CONDITIONS = {
 }
 CHAIN = np.triu(np.ones((3, 3), dtype=bool))
 NO_ORDER = np.eye
-DECIMALS = 1e-12  # of R² [1]; source: `r2_range` is rounded to twelve decimals
+DECIMALS = 1e-12  # of R² [1]; source: `rating_range` is rounded to twelve decimals
 
 
 def stated_order() -> pd.DataFrame:
@@ -183,7 +183,7 @@ def test_too_many_up_sets_are_an_error_with_a_name() -> None:
 
 def test_a_long_chain_is_not_too_much() -> None:
     chain = np.triu(np.ones((60, 60), dtype=bool))
-    assert r2_range(np.arange(60.0), chain)[1] == 1.0
+    assert rating_range(np.arange(60.0), chain).r2[1] == 1.0
 
 
 # --- the range of R² -----------------------------------------------------------------------------------------------
@@ -201,36 +201,36 @@ def test_a_long_chain_is_not_too_much() -> None:
     ],
 )
 def test_range_of_a_chain_of_three_in_closed_form(score: list[float], expected: tuple[float, float]) -> None:
-    assert r2_range(np.array(score), CHAIN) == pytest.approx(expected, abs=DECIMALS)
+    assert rating_range(np.array(score), CHAIN).r2 == pytest.approx(expected, abs=DECIMALS)
 
 
 def test_range_without_any_order_is_everything() -> None:
-    assert r2_range(np.array([0.0, 1.0, 5.0]), NO_ORDER(3, dtype=bool)) == (0.0, 1.0)
+    assert rating_range(np.array([0.0, 1.0, 5.0]), NO_ORDER(3, dtype=bool)).r2 == (0.0, 1.0)
 
 
 def test_two_conditions_always_lie_on_a_line() -> None:
     """The one case in which generators of both signs only cancel."""
-    assert r2_range(np.array([3.0, 1.0]), NO_ORDER(2, dtype=bool)) == (1.0, 1.0)
+    assert rating_range(np.array([3.0, 1.0]), NO_ORDER(2, dtype=bool)).r2 == (1.0, 1.0)
 
 
 def test_a_score_that_varies_only_between_equally_rated_conditions_correlates_with_nothing() -> None:
     at_most = order_matrix(list("abc"), frame([("a", "=", "b"), ("b", "<", "c")]))
-    assert r2_range(np.array([-1.0, 1.0, 0.0]), at_most) == (0.0, 0.0)
+    assert rating_range(np.array([-1.0, 1.0, 0.0]), at_most).r2 == (0.0, 0.0)
 
 
 def test_range_does_not_depend_on_scale_offset_or_sign_of_the_score() -> None:
     score = np.random.default_rng(1).random(9)
     at_most = stated_matrix("device1")
-    expected = r2_range(score, at_most)
+    expected = rating_range(score, at_most).r2
     for other in (1e-6 * score, 1e4 * score, score + 30.0, -score):
-        assert r2_range(other, at_most) == pytest.approx(expected, abs=DECIMALS)
+        assert rating_range(other, at_most).r2 == pytest.approx(expected, abs=DECIMALS)
 
 
 def test_a_constant_score_and_an_order_of_equals_have_no_range() -> None:
     with pytest.raises(RatingError, match="score is constant"):
-        r2_range(np.ones(3), CHAIN)
+        rating_range(np.ones(3), CHAIN)
     with pytest.raises(RatingError, match="all ratings equal"):
-        r2_range(np.arange(3.0), np.ones((3, 3), dtype=bool))
+        rating_range(np.arange(3.0), np.ones((3, 3), dtype=bool))
 
 
 @pytest.mark.parametrize("device", CONDITIONS)
@@ -239,7 +239,7 @@ def test_ten_thousand_random_ordered_ratings_lie_in_the_range(device: str, seed:
     rng = np.random.default_rng(seed)
     at_most = stated_matrix(device)
     score = rng.random(len(at_most)) + seed * random_rating(rng, at_most)  # from unrelated to well ordered
-    low, high = r2_range(score, at_most)
+    low, high = rating_range(score, at_most).r2
     ratings = [random_rating(rng, at_most) for _ in range(10_000)]
     found = [squared_correlation(score, rating) for rating in ratings]
     assert low - DECIMALS <= min(found)
@@ -254,14 +254,47 @@ def test_extreme_ratings_have_the_order_and_attain_the_range(seed: int) -> None:
     n = int(rng.integers(3, 9))
     at_most = random_order(rng, n)
     score = rng.random(n)
-    low, high = r2_range(score, at_most)
-    for rating, expected in zip(extreme_ratings(score, at_most), (low, high), strict=True):
+    found = rating_range(score, at_most)
+    for rating, expected in zip(found.ratings, found.r, strict=True):
         assert np.all(rating[:, None] - rating[None, :] <= np.where(at_most, 1e-12, np.inf))
         assert rating.min() == 0.0
-        assert squared_correlation(score, rating) == pytest.approx(expected, abs=DECIMALS)
+        assert np.corrcoef(score, rating)[0, 1] == pytest.approx(expected, abs=DECIMALS)
+    (low, high), (weakest, strongest) = found.r, found.r2
     for rating in (random_rating(rng, at_most) for _ in range(300)):
         if np.ptp(rating) > 0.0:
-            assert low - DECIMALS <= squared_correlation(score, rating) <= high + DECIMALS
+            r = np.corrcoef(score, rating)[0, 1]
+            assert low - DECIMALS <= r <= high + DECIMALS
+            assert weakest - DECIMALS <= r**2 <= strongest + DECIMALS
+
+
+def isotonic(score: np.ndarray, at_most: np.ndarray) -> np.ndarray:
+    """The nearest ratings with an order, written out: of all sets that hold what is above and contain a condition, the
+    largest of the smallest means over what all sets that hold what is below leave of them."""
+    whole = np.ones((1, score.size))
+    above = np.vstack([up_sets(at_most), whole])
+    below = np.vstack([~up_sets(at_most), whole])
+    count = above @ below.T
+    mean = np.divide((above * score) @ below.T, count, out=np.full(count.shape, np.nan), where=count > 0.0)
+    return np.array([mean[above[:, i] == 1.0][:, below[:, i] == 1.0].min(axis=1).max() for i in range(score.size)])
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_range_with_conditions_that_are_equal_is_that_of_isotonic_regression(seed: int) -> None:
+    """Device 1's order, in which three conditions are one stimulus and so have one score."""
+    rng = np.random.default_rng(seed)
+    at_most = stated_matrix("device1")
+    score = rng.lognormal(0.0, 0.5, 9)
+    score[CONDITIONS["device1"].index("medium_000")] = score[CONDITIONS["device1"].index("high_000")] = score[0]
+    fits = [isotonic(score, at_most), isotonic(-score, at_most)]
+    expected = max(np.var(fit) / np.var(score) for fit in fits)
+    assert rating_range(score, at_most).r2[1] == pytest.approx(expected, abs=1e-10)  # sums of nine numbers, squared
+
+
+def test_slopes_of_two_classes_without_order_have_both_signs_and_no_zero() -> None:
+    at_most = order_matrix(list("abc"), frame([("a", "=", "b")]))
+    found = rating_range(np.array([1.0, 1.1, 3.0]), at_most)
+    assert found.r[0] == -found.r[1] < -0.99
+    assert found.r2[0] == found.r2[1]
 
 
 def test_highest_r2_is_that_of_isotonic_regression() -> None:
@@ -277,17 +310,18 @@ def test_highest_r2_is_that_of_isotonic_regression() -> None:
                 blocks[k : k + 2] = [blocks[k] + blocks[k + 1]]
             fits.append(np.concatenate([np.full(len(block), np.mean(block)) for block in blocks]))
         expected = max(np.var(fit) / np.var(score) for fit in fits)
-        assert r2_range(score, np.triu(np.ones((6, 6), dtype=bool)))[1] == pytest.approx(expected, abs=DECIMALS)
+        assert rating_range(score, np.triu(np.ones((6, 6), dtype=bool))).r2[1] == pytest.approx(expected, abs=DECIMALS)
 
 
 def test_a_bound_on_the_ratio_of_ratings_does_not_narrow_the_range() -> None:
     """Both extremes can be had with ratings of which the largest is at most twice the smallest."""
     score = np.random.default_rng(3).random(9)
     at_most = stated_matrix("device1")
-    for rating, expected in zip(extreme_ratings(score, at_most), r2_range(score, at_most), strict=True):
+    found = rating_range(score, at_most)
+    for rating, expected in zip(found.ratings, found.r, strict=True):
         lifted = rating + 2.0 * np.ptp(rating)
         assert lifted.max() <= 2.0 * lifted.min()
-        assert squared_correlation(score, lifted) == pytest.approx(expected, abs=DECIMALS)
+        assert np.corrcoef(score, lifted)[0, 1] == pytest.approx(expected, abs=DECIMALS)
 
 
 # --- the table -----------------------------------------------------------------------------------------------------
@@ -349,6 +383,31 @@ def test_errors_beyond_r_leave_the_slope_open_and_others_do_not(scale: float) ->
     each by 0.5."""
     score, rating = np.array([1.0, 3.0, 2.0]), np.array([1.0, 2.0, 3.0])
     assert (error_in_r(score, rating, np.full(3, 0.5 * scale)) > 0.5) is (scale > 1.0)
+
+
+def test_a_slope_that_turns_with_some_rating_in_the_order_is_open() -> None:
+    """With the lowest and the highest r errors leave it negative; with ratings 0, 1, 1 they do not."""
+    scores = make_scores("device2", [-2.556, -1.969, -0.388]).assign(score_error=[0.069, 1.384, 1.222])
+    row = make_table(scores).iloc[0]
+    assert 0.0 < row["r_lowest"] < row["range_error"]
+    x, error = scores["score"].to_numpy(), scores["score_error"].to_numpy()
+    at_ends = [error_in_r(x, rating, error) for rating in rating_range(x, CHAIN).ratings]
+    assert max(at_ends) < row["r_lowest"]
+
+
+def test_ratings_that_are_equal_where_one_is_stated_to_be_less_contradict_it() -> None:
+    rated = pd.DataFrame({"device": "device2", "condition": CONDITIONS["device2"], "rating": [1.0, 1.0, 2.0]})
+    row = make_table(make_scores("device2", [1.0, 2.0, 3.0]), rated.assign(kind="measured", source="")).iloc[0]
+    assert row["note"] == "ratings contradict the stated order"
+
+
+def test_ratings_of_one_stimulus_that_differ_are_noted_as_such() -> None:
+    rating = np.round(1.0 + np.outer([1.0, 2.0, 3.0], [0.0, 0.5, 1.0]).ravel() / 3.0, 4)
+    rating[3] += 0.01
+    rated = pd.DataFrame({"device": "device1", "condition": CONDITIONS["device1"], "rating": rating})
+    scores = make_scores("device1", [1.0, 2.0, 3.0, 1.0, 4.0, 5.0, 1.0, 6.0, 7.0])
+    row = make_table(scores, rated.assign(kind="measured", source="")).iloc[0]
+    assert row["note"] == "7 of 9 conditions are distinct; ratings differ that are stated to be equal"
 
 
 def test_a_falling_score_has_a_negative_slope() -> None:

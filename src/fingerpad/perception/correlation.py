@@ -18,7 +18,7 @@ from ..csvrows import listed
 from ..errors import RatingError
 from ..readouts.roughness import KEY, NO_PREDICTION, SAME
 from ..scene.readout import is_constant
-from .extremes import extreme_ratings, r_squared, unit
+from .extremes import rating_range, unit
 from .ratings import NO_RATINGS, RatingKind, order_matrix
 
 COLUMNS = [
@@ -27,6 +27,8 @@ COLUMNS = [
     "slope_sign",
     "r2",
     "r_error",
+    "r_lowest",
+    "r_highest",
     "r2_lowest",
     "r2_highest",
     "range_error",
@@ -77,8 +79,9 @@ def correlation_table(
     n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what
     errors of scores can add up to in r (`error_in_r`), larger than |r| where they leave the slope's sign open; empty if
     they are not known.
-    r2_lowest, r2_highest: over all ratings that agree with the stated order (`r2_range`), whichever way the slope
-    then is; range_error: as r_error, the larger of those at both ends; empty without an order.
+    r_lowest, r_highest: of r over all ratings that agree with the stated order (`rating_range`), and r2_lowest,
+    r2_highest: of R², whichever way the slope then is; range_error: as r_error, the largest of those at both ends of r
+    and with all generators of ratings, as no rating's slope turns if none of theirs does; empty without an order.
     kendall_tau: tau-b; scores that only rounding tells apart are tied. p: two-sided p of the Pearson correlation over
     distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count once with the
     mean of their ratings (the note then says how many are distinct).
@@ -96,7 +99,8 @@ def correlation_table(
     computed = pd.DataFrame(rows, columns=[column for column in COLUMNS if column not in PUBLISHED])
     same = KEY[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
-    numbers = ("r2", "r_error", "r2_lowest", "r2_highest", "range_error", "kendall_tau", "p", "published_r2")
+    ranges = ("r_lowest", "r_highest", "r2_lowest", "r2_highest", "range_error")
+    numbers = ("r2", "r_error", *ranges, "kendall_tau", "p", "published_r2")
     signs = dict.fromkeys(("slope_sign", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
@@ -144,11 +148,15 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     error = scores["score_error"].to_numpy(float)
     if len(order):
         at_most = order_matrix(list(score.index), order)
-        ends = extreme_ratings(x, at_most)
-        found["r2_lowest"], found["r2_highest"] = (r_squared(x, rating) for rating in ends)
-        found["range_error"] = max(error_in_r(x, rating, error) for rating in ends)
-        if np.any(at_most & (y[:, None] > y[None, :])):
+        over = rating_range(x, at_most)
+        found["r_lowest"], found["r_highest"] = over.r
+        found["r2_lowest"], found["r2_highest"] = over.r2
+        found["range_error"] = max(error_in_r(x, each, error) for each in (*over.ratings, *over.generators))
+        equal = at_most & at_most.T
+        if np.any(at_most & ~equal & (y[:, None] >= y[None, :])):
             notes.append("ratings contradict the stated order")
+        if np.any(equal & (y[:, None] != y[None, :])):
+            notes.append("ratings differ that are stated to be equal")
     r = float(pearsonr(x, y).statistic)
     mean_rating = np.bincount(which, y) / np.bincount(which)
     return {

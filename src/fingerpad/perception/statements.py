@@ -16,6 +16,7 @@ import pandas as pd
 from ..readouts.roughness import KEY, NEAR, TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.readout import READOUT_NAME, Readout
+from .correlation import CONSTANT_SCORE
 from .verdicts import (
     Chain,
     Holds,
@@ -84,7 +85,7 @@ class Tables:
     def correlation(self, *key: str) -> Mapping[str, Any]:
         device, interface, readout = key
         row = self.correlations.get((device, interface, readout), {"n": 0})
-        if row["n"] == 0:
+        if row["n"] == 0 or (pd.isna(row["r2"]) and row["note"] != CONSTANT_SCORE):
             raise AbsentError
         return row
 
@@ -191,7 +192,7 @@ def _correlates(
     def check(tables: Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
         r = r_of(row)
-        ends = [is_less(more_than, sign * end, r.error) for end in (r.lowest, r.highest)]
+        ends = [is_less(more_than, sign * end, r.error) for end in r.ends]
         return throughout(ends), f"{READOUT_NAME[readout]}, {_described(row)}."
 
     return check
@@ -264,12 +265,17 @@ def _device1_keeps(tables: Tables) -> Verdict:
 def _device2_spread(tables: Tables) -> Verdict:
     """Largest less smallest score over the phases is smaller without shear."""
     off, on = _both(tables, "device2")
-    ordered = [sorted((s["alternate", phase] for phase in PHASES), key=lambda score: score.value) for s in (off, on)]
-    without, with_shear = (scores[-1].value - scores[0].value for scores in ordered)
-    error = sum(score.error for scores in ordered for score in (scores[0], scores[-1]))
-    return is_less(without, with_shear, error), (
-        f"Largest less smallest change-of-strain score [{on.unit}]: {without:.4g} without shear,"
-        f" {with_shear:.4g} with it."
+    ends, shown = [], []
+    for scores in (off, on):
+        own = [scores["alternate", phase] for phase in PHASES]
+        lowest, highest = ([score.value + sign * score.error for score in own] for sign in (-1.0, 1.0))
+        ends.append((max(max(lowest) - min(highest), 0.0), max(highest) - min(lowest)))
+        shown.append(max(score.value for score in own) - min(score.value for score in own))
+    (least, most), (least_with, most_with) = ends
+    holds = Holds.YES if most < least_with else Holds.NO if most_with <= least else Holds.UNDECIDED
+    return holds, (
+        f"Largest less smallest change-of-strain score [{on.unit}]: {shown[0]:.4g} without shear,"
+        f" {shown[1]:.4g} with it."
     )
 
 

@@ -37,17 +37,13 @@ class Score:
 
 @dataclass(frozen=True)
 class Correlation:
-    """Pearson's r [1] over all ratings that may be meant, and what errors of scores can add up to in it."""
+    """Pearson's r [1] over all ratings that may be meant: its lowest and highest value, and those of |r|. error: what
+    errors of scores can add up to in it.
+    """
 
-    lowest: float
-    highest: float
+    ends: tuple[float, float]
+    strengths: tuple[float, float]
     error: float
-
-    @property
-    def strengths(self) -> tuple[float, float]:
-        """Smallest and largest |r| [1]."""
-        ends = abs(self.lowest), abs(self.highest)
-        return (min(ends) if self.lowest * self.highest > 0.0 else 0.0), max(ends)
 
 
 Chain = Sequence[tuple[str, Score]]  # (label, score), in the order in which the scores should rise
@@ -117,16 +113,19 @@ def is_surrogate(row: Mapping[str, Any]) -> bool:
 
 def r_of(row: Mapping[str, Any]) -> Correlation:
     """Pearson's r [1]; of surrogates over all ratings with the stated order, without one over all there are. What
-    errors of scores can add up to in it is taken to the first order. No slope is r = 0.
+    errors of scores can add up to in it is taken to the first order. A constant score has r = 0.
     """
-    sign = slope_of(row)
-    if sign == 0:
-        return Correlation(0.0, 0.0, 0.0)
-    error, ends = row["r_error"], [float(row["r2"])] * 2
-    if is_surrogate(row):
-        error = row["range_error"]
-        ends = [0.0, 1.0] if pd.isna(row["r2_lowest"]) else [float(row["r2_lowest"]), float(row["r2_highest"])]
-    weakest, strongest = (sign * math.sqrt(each) for each in ends)
-    if weakest == 0.0:  # where r can vanish, it can change its sign
-        weakest = -strongest
-    return Correlation(min(weakest, strongest), max(weakest, strongest), math.inf if pd.isna(error) else float(error))
+    if pd.isna(row["r2"]):
+        return Correlation((0.0, 0.0), (0.0, 0.0), 0.0)
+    if not is_surrogate(row):
+        r = slope_of(row) * math.sqrt(row["r2"])
+        return Correlation((r, r), (abs(r), abs(r)), _known(row["r_error"]))
+    if pd.isna(row["r2_lowest"]):
+        return Correlation((-1.0, 1.0), (0.0, 1.0), math.inf)
+    strengths = math.sqrt(row["r2_lowest"]), math.sqrt(row["r2_highest"])
+    return Correlation((row["r_lowest"], row["r_highest"]), strengths, _known(row["range_error"]))
+
+
+def _known(error: float) -> float:
+    """An error, infinite where it is not known."""
+    return math.inf if pd.isna(error) else float(error)

@@ -23,13 +23,19 @@ def is_open(row: Mapping[str, Any]) -> bool:
     """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text, as
     they can add up to more than |r|.
     """
-    return bool(row["r_error"] != "" and float(row["r2"]) ** 0.5 < float(row["r_error"]))
+    return has_error(row) and float(row["r2"]) ** 0.5 < float(row["r_error"])
+
+
+def has_error(row: Mapping[str, Any]) -> bool:
+    """Whether it is known what errors of scores add up to in a row of the correlation table, also as text."""
+    return bool(row["r_error"] != "" and pd.notna(row["r_error"]))
 
 
 def slope_name(row: Mapping[str, Any]) -> str:
     """Which way the slope is of a row of the correlation table, also as text, and whether that is open.
 
     >>> slope_name({"slope_sign": "-1", "r2": "0.25", "r_error": "0.6"}), slope_name({"slope_sign": 1, "r_error": ""})
-    ('falling (open)', 'rising')
+    ('falling (open)', 'rising (error unknown)')
     """
-    return SLOPE_NAME[int(row["slope_sign"])] + (" (open)" if is_open(row) else "")
+    doubt = " (open)" if is_open(row) else "" if has_error(row) else " (error unknown)"
+    return SLOPE_NAME[int(row["slope_sign"])] + doubt
