@@ -25,7 +25,7 @@ from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
-from fingerpad.errors import ContactError, UsageError
+from fingerpad.errors import ContactError, MeshError, UsageError
 from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
@@ -256,6 +256,21 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     assert caveat.startswith("error unknown: on a mesh of 2 times the sizes, device=device2, condition=alternate_180")
     said = f"caveat: alternate_180 (shear, strain and change_of_strain): {caveat}"
     assert said in predicting.as_table(given, shear)
+
+
+def test_a_coarser_mesh_without_a_node_for_an_actuator_leaves_errors_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    given = scene("device2").coarsened(4.0)
+
+    def press(one: Scene, *rest: Any) -> Any:
+        if one.model.numerics.face_size > given.model.numerics.face_size:
+            raise MeshError("no skin node is near the actuator")
+        return pressed(one, *rest)
+
+    pressed = scoring.pressed_device
+    monkeypatch.setattr(scoring, "pressed_device", press)
+    rows = forecast(given)
+    assert all(row["score"] > 0.0 and row["score_error"] is None for row in rows)
+    assert {row["note"].partition(", ")[2] for row in rows} == {"no skin node is near the actuator"}
 
 
 def test_what_cannot_be_solved_leaves_the_rest(

@@ -31,7 +31,7 @@ from ..tissue.receptors import arc_length, receptor_strain
 from .caveats import solution_caveats, stimulus_caveats
 
 Result = TypeVar("Result")
-Unsolved = ContactError | CondensationError  # why there is no solution, though there is a mesh
+Unsolved = ContactError | CondensationError | MeshError  # why there is no solution, though there is a mesh
 Case = tuple[str, Interface]  # condition, interface
 UNKNOWN = f"{ERROR_UNKNOWN}: on a mesh of {COARSENING:g} times the sizes, "  # and the reason
 
@@ -111,7 +111,6 @@ def error_rows(
     and edges (k, 2) [mm]; None where that cannot be had, and a `note` that says why.
 
     read: filtered read-outs of the cases that have scores. step: called after condensation and after every condition.
-    Raises MeshError as `solve_scene`.
     """
     other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
     try:
@@ -147,8 +146,9 @@ def _errors_of(
 def predicted_rows(
     scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()
 ) -> list[dict[str, Any]]:
-    """Rows of the score table for all conditions at some interfaces, or all. Raises MeshError as `solve_scene`,
-    ContactError, CondensationError.
+    """Rows of the score table for all conditions at some interfaces, or all.
+
+    Raises MeshError, CondensationError, ContactError.
     """
     rows: list[dict[str, Any]] = []
     for solved in solve_scene(scene, condensed, interfaces):
@@ -159,9 +159,7 @@ def predicted_rows(
 
 
 def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
-    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one. Raises
-    MeshError if an actuator is nearest to no skin node.
-    """
+    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
     for interface in interfaces or scene.device.interfaces():
         found: dict[str, Solution | Unsolved] = {}
         pressed: Callable[[Condition], Solution] | Unsolved | None = None
@@ -178,7 +176,7 @@ def _attempt(solve: Callable[..., Result], *given: object) -> Result | Unsolved:
     """What is found, or why it cannot be."""
     try:
         return solve(*given)
-    except (ContactError, CondensationError) as error:
+    except (ContactError, CondensationError, MeshError) as error:
         return error
 
 
