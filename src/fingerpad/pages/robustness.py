@@ -48,12 +48,19 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
     for (claim, kind), own in claims.groupby(TOLD, sort=False):
         row: dict[str, object] = {"statement": _told(claim, kind)}
         for half_cycle in HALF_CYCLES:
-            found = own[own["half_cycle"] == half_cycle].set_index("varied")["holds"]
+            found = _different(own[own["half_cycle"] == half_cycle], "evidence").set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)
             row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
             row[f"turned in {half_cycle}"] = ", ".join(found[found != usual].index)
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def _different(members: pd.DataFrame, *columns: str) -> pd.DataFrame:
+    """Rows of one half-cycle as configured, and of the members that have another value in one of the columns."""
+    usual = members["varied"] == AS_CONFIGURED
+    values = members[list(columns)].apply(tuple, axis=1)
+    return members[usual | ~values.isin(values[usual])]
 
 
 def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
@@ -73,8 +80,9 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
         )
         usual = own[own["varied"] == AS_CONFIGURED].set_index("half_cycle")
         halves = {each: f"{usual.loc[each, 'r2']:.3g}, {slope_name(usual.loc[each])}" for each in HALF_CYCLES}
-        rising = int((own["slope_sign"] > 0).sum())
-        rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(own)}"})
+        different = pd.concat([_different(own[own["half_cycle"] == each], "r2", "slope_sign") for each in HALF_CYCLES])
+        rising = int((different["slope_sign"] > 0).sum())
+        rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(different)}"})
     return pd.DataFrame(rows)
 
 
