@@ -70,7 +70,7 @@ def accuracy_summary(scores: Sequence[Row]) -> str:
     kinematics, device, condition, interface, readout = case
     largest = errors[case]
     return (
-        f"Of n = {len(errors)} scores the median error is {PERCENT * median(errors.values()):.2f} %, the largest"
+        f"Of n = {len(errors)} scores the median stated error is {PERCENT * median(errors.values()):.2f} %, the largest"
         f" {PERCENT * largest:.2f} % ({KINEMATICS_NAME[Kinematics(kinematics)]}, {device}, {condition},"
         f" {INTERFACE_NAME[Interface(interface)]},"
         f" {READOUT_NAME[Readout(readout)].lower()})."
