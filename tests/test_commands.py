@@ -19,8 +19,10 @@ import pytest
 import yaml
 
 import fingerpad.commands.predict as predicting
+import fingerpad.prediction.forecast as forecasting
 from conftest import Project, coarsened
 from fingerpad.api import predict
+from fingerpad.arrays import FloatArray
 from fingerpad.checkout import find_checkout
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.contact.linear_solution import Indented
@@ -29,7 +31,7 @@ from fingerpad.errors import ContactError, MeshError, UsageError
 from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
-from fingerpad.prediction.scoring import Condensed, Solved, read_out, rows_of
+from fingerpad.prediction.scoring import Condensed, Meshed, Solved, read_out, rows_of
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import Condition
@@ -256,6 +258,25 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     assert caveat.startswith("error unknown: on a mesh of 2 times the sizes, device=device2, condition=alternate_180")
     said = f"caveat: alternate_180 (shear, strain and change_of_strain): {caveat}"
     assert said in predicting.as_table(given, shear)
+
+
+def test_a_scene_without_a_mesh_leaves_the_others(
+    coarse: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whole variants that have no answer are said so, with the reason, and the rest is printed."""
+
+    def prepare(given: Scene, edges: FloatArray) -> Condensed | Meshed:
+        if given.model.contact.friction == 0.9:
+            raise MeshError("too many elements")
+        return prepared(given, edges)
+
+    prepared = forecasting.prepared
+    monkeypatch.setattr(forecasting, "prepared", prepare)
+    assert main(["predict", "--vary", "contact.friction=0.6,0.9", "config/devices/device2.yaml"]) == 0
+    said = capsys.readouterr().out
+    every = ", ".join(f"all conditions ({each}, strain and change_of_strain)" for each in ("shear", "frictionless"))
+    assert f"caveat: {every.replace('), ', '); ')}: no prediction: too many elements\n" in said
+    assert said.count("no scores in 1") == 4
 
 
 def test_a_coarser_mesh_without_a_node_for_an_actuator_leaves_errors_unknown(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,7 +29,7 @@ def predict(
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
     "finite". config, schemas: those of the checkout around the working folder if not given. Raises SceneError,
-    UsageError if there is no such checkout, and what `forecast` raises.
+    UsageError if there is no such checkout.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3

@@ -8,8 +8,9 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from ..arrays import FloatArray
+from ..errors import CondensationError, MeshError
 from ..readouts.accuracy import with_error, with_errors
-from ..readouts.roughness import KEY, SAME, unpredicted_rows
+from ..readouts.roughness import KEY, NO_PREDICTION, SAME, unpredicted_rows, unsolved_rows
 from ..readouts.strain import FilteredReadouts
 from ..scene.device import Control
 from ..scene.scene import Scene
@@ -24,11 +25,9 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
 
-    What cannot be solved has no score, and a note that says why. error: whether to solve once more, more coarsely, for
-    `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called after each of
-    `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
-
-    Raises MeshError, CondensationError.
+    What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
+    coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
+    after each of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
     """
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
@@ -73,7 +72,10 @@ def _solved_rows(
     scene: Scene, edges: FloatArray, step: Callable[[], object]
 ) -> tuple[list[dict[str, Any]], dict[Case, FilteredReadouts]]:
     """Rows of the score table of what the device moves, and filtered read-outs of the cases that have scores."""
-    condensed = prepared(scene, edges)
+    try:
+        condensed = prepared(scene, edges)
+    except (MeshError, CondensationError) as refusal:
+        return unsolved_rows(scene, f"{NO_PREDICTION}: {refusal}"), {}
     step()
     rows: list[dict[str, Any]] = []
     read: dict[Case, FilteredReadouts] = {}
