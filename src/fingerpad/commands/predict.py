@@ -58,34 +58,32 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Solve every variant of every device, and print all scores once they are there.
+    """Solve every variant of every device; print each table once it is there, or all scores as JSON or CSV.
 
     Raises ContactError if there is none.
     """
     kinematics, variations, error = Kinematics(options.kinematics), varied(options), not options.no_error
-    cases = [
-        (checked_scene(device, options, values).with_kinematics(kinematics), values)
+    is_text = not (options.json or options.csv)
+    devices = [
+        [checked_scene(device, options, values).with_kinematics(kinematics) for values in variations]
         for device in options.devices
-        for values in variations
     ]
-    tables = []
-    with tqdm(total=sum(steps(scene, error) for scene, _ in cases), leave=False, disable=None) as bar:
-        for scene, _ in cases:
-            bar.set_description(scene.device.name)
-            tables.append(forecast(scene, error, bar.update))
-    rows = [values | row for (_, values), table in zip(cases, tables, strict=True) for row in table]
+    rows: list[dict[str, Any]] = []
+    with tqdm(total=sum(steps(scene, error) for own in devices for scene in own), leave=False, disable=None) as bar:
+        for own in devices:
+            tables = []
+            for scene, values in zip(own, variations, strict=True):
+                bar.set_description(scene.device.name)
+                tables.append(forecast(scene, error, bar.update))
+                if is_text:
+                    bar.write(("\n" if rows else "") + as_table(scene, tables[-1], values))
+                rows += [values | row for row in tables[-1]]
+            if is_text and error and len(variations) > 1:
+                bar.write("\n" + orders(own[0], tables))
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
         print_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows])
-    else:
-        found = [as_table(scene, table, values) for (scene, values), table in zip(cases, tables, strict=True)]
-        if len(variations) > 1 and error:
-            found += [
-                orders(scene, tables[first : first + len(variations)])
-                for first, (scene, _) in list(enumerate(cases))[:: len(variations)]
-            ]
-        print("\n\n".join(found))
     if all(row["score"] is None for row in rows):
         raise ContactError(f"nothing could be scored: {rows[0]['note']}")
 
