@@ -18,7 +18,7 @@ from ..csvrows import listed
 from ..errors import RatingError
 from ..readouts.roughness import KEY, NO_PREDICTION, SAME
 from ..scene.readout import is_constant
-from .extremes import rating_range, unit
+from .extremes import RatingRange, rating_range, unit
 from .ratings import NO_RATINGS, RatingKind, order_matrix
 
 COLUMNS = [
@@ -65,6 +65,21 @@ def error_in_r(score: FloatArray, rating: FloatArray, error: FloatArray) -> floa
     return first if math.isnan(first) else min(first, abs(r))
 
 
+def _range_error(score: FloatArray, over: RatingRange, error: FloatArray) -> float:
+    """What errors (n,) of scores (n,) can add up to in the ends of the range of r, and with generators that they turn.
+
+    No rating's slope turns if that of no generator does: sum |y_i| d_i <= |<S, y>| then holds for their sums, too.
+    """
+    found = [error_in_r(score, rating, error) for rating in over.ratings]
+    r = unit(over.generators) @ unit(score)
+    found += [
+        each
+        for rating, own in zip(over.generators, r, strict=True)
+        if (each := error_in_r(score, rating, error)) > abs(own)
+    ]
+    return max(found)
+
+
 def correlation_table(
     scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
 ) -> pd.DataFrame:
@@ -80,8 +95,8 @@ def correlation_table(
     errors of scores can add up to in r (`error_in_r`), larger than |r| where they leave the slope's sign open; empty if
     they are not known.
     r_lowest, r_highest: of r over all ratings that agree with the stated order (`rating_range`), and r2_lowest,
-    r2_highest: of R², whichever way the slope then is; range_error: as r_error, the largest of those at both ends of r
-    and with all generators of ratings, as no rating's slope turns if none of theirs does; empty without an order.
+    r2_highest: of R², whichever way the slope then is; range_error: as r_error, the larger of those at both ends of r;
+    larger than |r| at one of the ends if some rating's slope is open; empty without an order.
     kendall_tau: tau-b; scores that only rounding tells apart are tied. p: two-sided p of the Pearson correlation over
     distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count once with the
     mean of their ratings (the note then says how many are distinct).
@@ -151,7 +166,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         over = rating_range(x, at_most)
         found["r_lowest"], found["r_highest"] = over.r
         found["r2_lowest"], found["r2_highest"] = over.r2
-        found["range_error"] = max(error_in_r(x, each, error) for each in (*over.ratings, *over.generators))
+        found["range_error"] = _range_error(x, over, error)
         equal = at_most & at_most.T
         if np.any(at_most & ~equal & (y[:, None] >= y[None, :])):
             notes.append("ratings contradict the stated order")
