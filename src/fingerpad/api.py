@@ -12,8 +12,8 @@ import pandas as pd
 from .checkout import find_checkout
 from .prediction.forecast import forecast
 from .scene.tissue_law import Kinematics
-from .scene.validation import NO_VALUES, check_device
-from .scene.variation import variants
+from .scene.validation import check_device
+from .scene.variation import NO_VALUES, variants
 
 
 def predict(

@@ -19,8 +19,8 @@ from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from ..scene.validation import NO_VALUES, check_device
-from ..scene.variation import variants
+from ..scene.validation import check_device
+from ..scene.variation import NO_VALUES, variants
 
 VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6"
 

@@ -18,7 +18,7 @@ from ..readouts.roughness import KEY
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from ..scene.validation import NO_VALUES
+from ..scene.variation import NO_VALUES
 from .options import add_scene_options, add_variation, checked_scene, varied
 from .printing import aligned, print_csv, titled
 

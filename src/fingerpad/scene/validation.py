@@ -24,7 +24,7 @@ from ..errors import SceneError
 from ..imports import without
 from .scene import Model, Scene
 from .scenefile import build_device, build_model, read_yaml
-from .variation import shared_out, with_value
+from .variation import NO_VALUES, shared_out, with_value
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
     from jsonschema import Draft202012Validator, ValidationError, validators
@@ -33,7 +33,6 @@ Schema = dict[str, Any]
 Key = list[str | int]
 Problem = tuple[int, str]  # how fundamental (0 is the most), and the line that begins with its key
 
-NO_VALUES: Mapping[str, Any] = {}
 MOST_REPORTED = 5  # problems in one message [1]
 LONGEST_NAME = 64  # characters of a device's name [1]; source: as in the schemas
 NAME = f"small letters, digits and underscores that begin with a letter, at most {LONGEST_NAME}"

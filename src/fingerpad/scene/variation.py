@@ -15,6 +15,7 @@ from typing import Any
 from ..errors import SceneError
 
 Document = dict[str, Any]
+NO_VALUES: Mapping[str, Any] = {}  # in place of those in scene files: they are taken as they are
 
 
 def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
