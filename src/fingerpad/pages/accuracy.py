@@ -66,7 +66,12 @@ def _of_increments(increments: pd.DataFrame) -> dict[str, object]:
         "moved": increments["beyond_stated_error"].sum(),
         "increments_scores": increments["scores"].sum(),
         "increments_largest": f"{PERCENT * increments['largest_change'].max():.2f} %",
-        "increments": table(increments.assign(largest_change=digits(increments["largest_change"]))),
+        "increments": table(
+            increments.assign(
+                largest_change=digits(increments["largest_change"]),
+                largest_change_over_stated_error=increments["largest_change_over_stated_error"].map("{:.2f}".format),
+            )
+        ),
     }
 
 
