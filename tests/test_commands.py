@@ -31,6 +31,7 @@ from fingerpad.errors import ContactError, MeshError, UsageError
 from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
+from fingerpad.prediction.orders import orders
 from fingerpad.prediction.scoring import Condensed, Meshed, Solved, read_out, rows_of
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.contact_law import Criterion, Interface
@@ -41,6 +42,7 @@ from fingerpad.scene.sources import Origin, quantities
 from fingerpad.scene.template import DRIVES, device_text
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device, checked_document
+from fingerpad.scene.variation import variants
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from scenes import condensed, scene, solve, solved
 
@@ -276,7 +278,7 @@ def test_a_scene_without_a_mesh_leaves_the_others(
     said = capsys.readouterr().out
     every = ", ".join(f"all conditions ({each}, strain and change_of_strain)" for each in ("shear", "frictionless"))
     assert f"caveat: {every.replace('), ', '); ')}: no prediction: too many elements\n" in said
-    assert said.count("no scores in 1") == 4
+    assert "change_of_strain, in 1 of 2: alternate_000 < alternate_090" in said
 
 
 def test_a_coarser_mesh_without_a_node_for_an_actuator_leaves_errors_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -640,22 +642,44 @@ def test_predict_takes_values_in_turn(
     assert main(["predict", *vary[:2], "config/devices/device2.yaml"]) == 0
     said = capsys.readouterr().out
     assert "(device2), small strain, contact.friction 0.9\n" in said
-    assert "(device2), small strain: orders over 2 variants\nshear, strain: a in 2\n" in said
-    assert "frictionless, strain: no scores in 2\n" in said
+    assert said.endswith(
+        "\n\ndevice2: 2 variants\nthese values change no score\n"
+        "shear, strain: no two scores differ by more than their errors\n"
+    )
 
 
-def test_orders_count_what_errors_leave_open() -> None:
-    cases = [(1.0, 2.0, 0.1), (1.0, 2.0, 0.6), (2.0, 1.0, 0.1), (1.0, 1.0, 0.1), (1.0, 2.0, 0.2), (1.0, 2.0, None)]
-    tables = [
-        [ROW | {"condition": name, "score": score, "score_error": error} for name, score in (("a", one), ("b", other))]
-        for one, other, error in cases
+def test_orders_count_scores_that_differ_by_more_than_their_errors() -> None:
+    """Of 0°, 90° and 180° neighbours may be as good as equal where the outermost are not."""
+
+    def table(*scores: tuple[float | None, float | None]) -> list[dict[str, Any]]:
+        return [ROW | {"condition": name, "score": score, "score_error": error}
+                for name, (score, error) in zip("abc", scores, strict=True)]  # fmt: skip
+
+    near = table((1.0, 0.1), (1.15, 0.1), (1.3, 0.1))
+    far = table((1.0, 0.1), (2.0, 0.1), (3.0, 0.1))
+    unknown = table((1.0, None), (2.0, 0.1), (None, None))
+    assert list(orders([near, far, far])) == ["shear, strain, in 3 of 3: a < c", "shear, strain, in 2 of 3: a < b, b < c"]
+    assert list(orders([far, far, far])) == [
+        "these values change no score",
+        "shear, strain, in 3 of 3: a < b, b < c",
     ]
-    assert predicting.orders(scene("device3"), tables).splitlines()[1:5] == [
-        "shear, strain: a < b in 2",
-        "shear, strain: a ≈ b in 2",
-        "shear, strain: b < a in 1",
-        "shear, strain: a = b in 1",
+    assert list(orders([far, far[::-1], table((3.0, 0.1), (2.0, 0.1), (1.0, 0.1))])) == [
+        "shear, strain, in 2 of 3: a < b, a < c, b < c",
+        "shear, strain, in 1 of 3: b < a, c < a, c < b",
     ]
+    assert list(orders([unknown, near[:2]])) == ["shear, strain: no two scores differ by more than their errors"]
+
+
+def test_values_of_numpy_are_those_of_files_and_no_list_is_refused() -> None:
+    vary = {"contact.friction": np.linspace(0.3, 0.6, 2), "stimulus.phases": (np.array([0, 45]),)}
+    found = variants(vary)
+    assert found == [{"contact.friction": each, "stimulus.phases": [0, 45]} for each in (0.3, 0.6)]
+    assert [type(each["contact.friction"]) for each in found] == [float, float]
+    assert [scene.model.contact.friction for scene in (check_device(DEVICES / "device2.yaml", SCHEMAS, CONFIG, each)
+                                                       for each in found)] == [0.3, 0.6]  # fmt: skip
+    for wrong in ([], 0.3, "touch", None):
+        with pytest.raises(UsageError, match=r"vary: contact\.criterion: found .*; allowed: a list of values"):
+            variants({"contact.criterion": wrong})  # type: ignore[dict-item]
 
 
 def test_values_in_turn_are_those_of_edited_files(coarse: Path) -> None:

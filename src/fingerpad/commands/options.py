@@ -10,19 +10,18 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from ..checkout import find_checkout
 from ..csvrows import listed
 from ..errors import UsageError
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
+from ..scene.scenefile import read_values
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import check_device
 from ..scene.variation import NO_VALUES, variants
 
-VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6"
+VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6, with a list in brackets"
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
@@ -81,22 +80,20 @@ def add_variation(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="KEY=VALUE[,VALUE]",
-        help="take these values in turn, in place of the one in the files; with several keys, all combinations",
+        help="take these values in turn, in place of the one in the files; with several keys, all combinations; at the"
+        " end stands in how many of them which scores are larger",
     )
 
 
-def varied(options: argparse.Namespace) -> list[dict[str, Any]]:
+def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
     """The combinations of values that the options ask for; one without any if they ask for none. Raises UsageError."""
     vary: dict[str, list[Any]] = {}
     for entry in options.vary:
         key, _, text = entry.partition("=")
-        try:
-            values = yaml.safe_load(f"[{text}]")
-        except yaml.YAMLError:
-            values = []
-        if not (key and values):
+        values = read_values(text)
+        if not (key.strip() and values):
             raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")
-        vary.setdefault(key, []).extend(values)
+        vary.setdefault(key.strip(), []).extend(values)
     return variants(vary)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,14 +11,14 @@ from typing import Any
 from tqdm import tqdm
 
 from ..errors import ContactError
-from ..prediction.caveats import score_order
 from ..prediction.forecast import forecast, steps
+from ..prediction.orders import orders
 from ..readouts.roughness import KEY
-from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
+from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
-from .options import add_scene_options, add_variation, checked_scene, varied
+from .options import add_scene_options, add_variation, checked_scene, variations
 from .printing import aligned, print_csv, titled
 
 DESCRIPTION = """\
@@ -62,24 +61,24 @@ def run(options: argparse.Namespace) -> None:
 
     Raises ContactError if there is none.
     """
-    kinematics, variations, error = Kinematics(options.kinematics), varied(options), not options.no_error
+    kinematics, varied, error = Kinematics(options.kinematics), variations(options), not options.no_error
     is_text = not (options.json or options.csv)
     devices = [
-        [checked_scene(device, options, values).with_kinematics(kinematics) for values in variations]
+        [checked_scene(device, options, values).with_kinematics(kinematics) for values in varied]
         for device in options.devices
     ]
     rows: list[dict[str, Any]] = []
     with tqdm(total=sum(steps(scene, error) for own in devices for scene in own), leave=False, disable=None) as bar:
         for own in devices:
             tables = []
-            for scene, values in zip(own, variations, strict=True):
+            for scene, values in zip(own, varied, strict=True):
                 bar.set_description(scene.device.name)
                 tables.append(forecast(scene, error, bar.update))
                 if is_text:
                     bar.write(("\n" if rows else "") + as_table(scene, tables[-1], values))
                 rows += [values | row for row in tables[-1]]
-            if is_text and error and len(variations) > 1:
-                bar.write("\n" + orders(own[0], tables))
+            if is_text and error and len(varied) > 1:
+                bar.write("\n".join(["", f"{own[0].device.name}: {len(varied)} variants", *orders(tables)]))
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
@@ -90,7 +89,7 @@ def run(options: argparse.Namespace) -> None:
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
     """Title, aligned table and caveats of one device, with these values in place of those in its files."""
-    title = ", ".join([titled(scene), *(f"{key} {value}" for key, value in values.items())])
+    title = ", ".join([titled(scene), *(f"{key} {shown(value)}" for key, value in values.items())])
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
@@ -99,27 +98,14 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
         for row, note in zip(ordered, notes, strict=True)
     ]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
-    shown = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
-    lines = [title, *aligned(shown, [COLUMNS[i] in RIGHT for i in columns])]
+    chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
+    lines = [title, *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
     told: dict[str, list[Mapping[str, Any]]] = {}
     for row in ordered:
         for caveat in row["caveats"]:
             told.setdefault(caveat, []).append(row)
     every = [condition.name for condition in scene.device.conditions]
     lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in told.items()]
-    return "\n".join(lines)
-
-
-def orders(scene: Scene, tables: Sequence[Sequence[Mapping[str, Any]]]) -> str:
-    """In how many variants of a device its scores have which order, by interface and read-out."""
-    lines = [f"{titled(scene)}: orders over {len(tables)} variants"]
-    for interface in scene.device.interfaces():
-        for readout in Readout:
-            own = [
-                [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)] for rows in tables
-            ]
-            counts = Counter(map(score_order, own)).most_common()
-            lines += [f"{interface}, {readout}: {order or 'no scores'} in {count}" for order, count in counts]
     return "\n".join(lines)
 
 

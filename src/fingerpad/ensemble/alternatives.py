@@ -17,7 +17,7 @@ from ..errors import SceneError
 from ..files import write_text
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
-from ..scene.variation import Document, no_such_value, quantity_at, with_value
+from ..scene.variation import Document, no_such_value, quantities_of, with_value
 
 AS_CONFIGURED = "as configured"
 FIRST, SECOND = "first", "second"
@@ -125,15 +125,16 @@ def member_scenes(
 
 def _varied(document: Document, alternative: Alternative) -> Document:
     """The document with the alternative in place of its own value. Raises SceneError if it has none."""
-    if (quantity := quantity_at(document, alternative.key)) is None:
-        raise no_such_value(alternative.key, document)
-    value = alternative.instead_of(quantity["value"])
+    known = dict(quantities_of(document))
+    if alternative.key not in known:
+        raise no_such_value(alternative.key, "config.yaml", list(known))
+    value = alternative.instead_of(known[alternative.key]["value"])
     return with_value(document, alternative.key, value, f"varied: {alternative.source}")
 
 
 def assuming(devices: Mapping[str, Document], key: str) -> list[str]:
     """Names of the devices whose value at a key is an assumption, by their documents."""
-    found = {name: quantity_at(document, key) or {} for name, document in devices.items()}
+    found = {name: dict(quantities_of(document)).get(key, {}) for name, document in devices.items()}
     return [name for name, quantity in found.items() if str(quantity.get("source")).startswith(Origin.ASSUMPTION)]
 
 

@@ -13,11 +13,12 @@ from typing import Any
 
 import pandas as pd
 
-from ..readouts.roughness import KEY, NEAR, TYPESET_UNITS
+from ..readouts.roughness import KEY, TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.readout import READOUT_NAME, Readout
 from .correlation import CONSTANT_SCORE
 from .verdicts import (
+    NEAR,
     Chain,
     Holds,
     Score,

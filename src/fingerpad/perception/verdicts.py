@@ -15,8 +15,10 @@ from typing import Any
 
 import pandas as pd
 
-from ..readouts.roughness import NEAR, SAME
+from ..readouts.roughness import SAME
 from .ratings import RatingKind
+
+NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than the sum of their errors
 
 
 class Holds(StrEnum):
@@ -112,8 +114,8 @@ def is_surrogate(row: Mapping[str, Any]) -> bool:
 
 
 def r_of(row: Mapping[str, Any]) -> Correlation:
-    """Pearson's r [1]; of surrogates over all ratings with the stated order, without one over all there are. What
-    errors of scores can add up to in it is taken to the first order. A constant score has r = 0.
+    """Pearson's r [1]. With surrogates it is over all ratings in the stated order, or over all there are if no order is
+    stated. What errors of scores can add up to in it is taken to the first order. A constant score has r = 0.
     """
     if pd.isna(row["r2"]):
         return Correlation((0.0, 0.0), (0.0, 0.0), 0.0)

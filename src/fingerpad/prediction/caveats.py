@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
-from ..readouts.roughness import KEY, NEAR, SAME
+from ..readouts.roughness import KEY, SAME
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -110,25 +109,12 @@ def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
     return found
 
 
-def score_order(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Conditions from the lowest score up, of rows of one device, interface and read-out: NEAR stands between scores
-    that are closer than the sum of both errors, or whose errors are unknown, `=` between those of equal stimuli.
-
-    >>> rows = [("a", 3.0, 0.1), ("b", 1.0, 0.2), ("c", 1.1, 0.2)]
-    >>> score_order([dict(zip(("condition", "score", "score_error"), row)) for row in rows])
-    'b ≈ c < a'
-    """
-    scored = sorted((row for row in rows if row["score"] is not None), key=lambda row: float(row["score"]))
-    signs = [_sign(low, high) for low, high in pairwise(scored)]
-    names = [str(row["condition"]) for row in scored]
-    return " ".join([*names[:1], *(f"{sign} {name}" for sign, name in zip(signs, names[1:], strict=True))])
-
-
-def _sign(low: Mapping[str, Any], high: Mapping[str, Any]) -> str:
-    if high["score"] - low["score"] <= SAME * abs(low["score"]):
-        return "="
-    known = low["score_error"] is not None and high["score_error"] is not None
-    return "<" if known and not _indistinct(low, high) else NEAR
+def is_resolved(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """Whether two scores are there and differ by more than the sum of both errors, which are known."""
+    known = all(each["score"] is not None and each["score_error"] is not None for each in (row, other))
+    if not known or _indistinct(row, other):
+        return False
+    return bool(abs(row["score"] - other["score"]) > SAME * abs(row["score"]))
 
 
 def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:

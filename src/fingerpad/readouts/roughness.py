@@ -18,7 +18,6 @@ TYPESET_UNITS = {SCORE_UNIT: "mm²"}  # where people read them; tables keep to p
 KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table: what has one score a condition
 NO_PREDICTION = "no prediction"
 SAME = 1e-6  # of the larger [1] by which scores differ that count as one; source: those of mirrored stimuli, by 1e-8
-NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than the sum of their errors
 ERROR_UNKNOWN = "error unknown"
 
 

@@ -103,6 +103,20 @@ def read_yaml(path: Path) -> dict[str, Any]:
     return document
 
 
+def read_values(text: str) -> list[Any]:
+    """The values that a text lists as a scene file would, between commas; none if it is no such text.
+
+    >>> read_values("0.3, 0.6"), read_values("[0, 1], [1, 0]"), read_values("0.3]")
+    ([0.3, 0.6], [[0, 1], [1, 0]], [])
+    """
+    try:
+        node = _composed(f"[{text}]")
+        values = [] if node is None else _Loader("").construct_document(node)
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return []
+    return values if isinstance(values, list) else []
+
+
 @functools.lru_cache(maxsize=REMEMBERED)  # a workflow reads each of its few files many times, and this takes longest
 def _composed(text: str) -> yaml.Node | None:
     """The nodes of a YAML text."""

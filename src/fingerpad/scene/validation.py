@@ -79,7 +79,10 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     >>> check_device(Path("config/devices/device2.yaml"), Path("workflow/schemas"), config).device.name
     'device2'
     """
-    of_model, own = shared_out(values, read_yaml(config_path), read_yaml(path)) if values else (values, values)
+    of_model, own = values, values
+    if values:
+        check_device(path, schema_dir, config_path)  # files are right as they stand before anything in them is varied
+        of_model, own = shared_out(values, {each: read_yaml(each) for each in (config_path, path)}).values()
     model = check_config(config_path, schema_dir, of_model)
     require_name(path)
     document, schema = checked_document(path, schema_dir / "device.schema.yaml", own)
@@ -111,7 +114,7 @@ def require_device(name: str, folder: Path) -> Path:
     known = known_devices(folder)
     if name not in known:
         allowed, meant = ", ".join(known) or "none, as there is no file yet", _closest(name, known)
-        found = f"{_shown(name)}, which has no file"
+        found = f"{shown(name)}, which has no file"
         _report(
             folder, [_problem(0, "device", found, allowed, meant=meant, about="a device's file name without .yaml")]
         )
@@ -159,7 +162,7 @@ def checked_document(
 def allowed_values(schema: Schema) -> str:
     """What a schema, its references resolved, allows, in words."""
     if "title" in schema or "const" in schema:
-        return str(schema.get("title") or _shown(schema["const"]))
+        return str(schema.get("title") or shown(schema["const"]))
     if "enum" in schema:
         return f"one of {', '.join(schema['enum'])}"
     words = [WORDS[schema["type"]], *(WORDS[key].format(limit) for key, limit in schema.items() if key in WORDS)]
@@ -173,7 +176,7 @@ def _problem(rank: int, key: str, found: str, allowed: str, *, about: str, meant
 
 def _named(path: Path, values: Mapping[str, Any]) -> str:
     """A file, and the values that take the place of its own."""
-    return f"{path}{' with ' if values else ''}{', '.join(f'{key} {_shown(value)}' for key, value in values.items())}"
+    return f"{path}{' with ' if values else ''}{', '.join(f'{key} {shown(value)}' for key, value in values.items())}"
 
 
 def _report(path: object, problems: Iterable[Problem]) -> None:
@@ -249,7 +252,7 @@ def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -
     if rank == 0:
         yield from _key_problems(error.schema, key, found, about)
         return
-    text = f"{len(found)} entries" if error.validator in ("minItems", "maxItems") else _shown(found)
+    text = f"{len(found)} entries" if error.validator in ("minItems", "maxItems") else shown(found)
     text = f"the name {text}" if "propertyNames" in error.absolute_schema_path else text
     meant = _meant(error.schema, found, functools.reduce(operator.getitem, key[:-1], document))
     yield _problem(rank, _dotted(key), text, allowed_values(error.schema), meant=meant, about=about)
@@ -282,7 +285,7 @@ def _meant(schema: Schema, found: Any, quantity: Any) -> str:
         return _closest(found, schema["enum"])
     if unit and isinstance(found, str | int | float | list):
         value = _meant_value(schema["properties"]["value"], found, unit)
-        return f"{{value: {value}, unit: {_shown(unit)}, source: ...}}"
+        return f"{{value: {value}, unit: {shown(unit)}, source: ...}}"
     if kind == "number":
         return _meant_number(schema, found, quantity.get("unit") if isinstance(quantity, dict) else None)
     if kind in ("integer", "boolean", "array"):
@@ -297,7 +300,7 @@ def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
     if isinstance(found, str) and found.lower() == unit.lower():
         return unit
     value = _scaled(quantity.get("value"), FACTORS.get((unit, str(found)), math.nan))
-    return "" if value is None else f"{{value: {_shown(value)}, unit: {unit}}}"
+    return "" if value is None else f"{{value: {shown(value)}, unit: {unit}}}"
 
 
 def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
@@ -307,29 +310,29 @@ def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
     if isinstance(found, str):
         with suppress(ValueError):
             value = float(found.removesuffix(str(unit)).replace(",", "."))
-            return _shown(value) if math.isfinite(value) else ""
+            return shown(value) if math.isfinite(value) else ""
     if unit != "mm" or not _is_number(found):
         return ""
     lowest, highest = float(schema.get("minimum", 0.0)), float(schema.get("maximum", math.inf))
     meant = _scaled(found, FACTORS["mm", "um" if found > highest else "m"])
-    return f"{{value: {_shown(meant)}, unit: mm}}" if meant and lowest <= meant <= highest else ""
+    return f"{{value: {shown(meant)}, unit: mm}}" if meant and lowest <= meant <= highest else ""
 
 
 def _meant_value(schema: Schema, found: Any, unit: str) -> str:
     """The value of a quantity for which a value alone was found: where it must be a number, the one in a text."""
     kind = schema.get("type")
     if kind not in ("number", "integer") or not isinstance(found, str):
-        return _shown(found)
+        return shown(found)
     return _meant_number(schema, found, unit).removesuffix(".0" if kind == "integer" else "") or "..."
 
 
 def _meant_type(kind: str, found: Any) -> str:
     """The value of that type which was probably meant by one of another, or nothing."""
     if kind == "integer" and isinstance(found, float) and found.is_integer():
-        return _shown(int(found))
+        return shown(int(found))
     if kind == "boolean" and isinstance(found, str):
         return {"yes": "true", "on": "true", "no": "false", "off": "false"}.get(found.lower(), "")
-    return f"[{_shown(found)}]" if kind == "array" and _is_number(found) else ""
+    return f"[{shown(found)}]" if kind == "array" and _is_number(found) else ""
 
 
 def _decimal_comma(found: Mapping[Any, Any], allowed: Schema) -> str:
@@ -383,7 +386,7 @@ def _shown_name(name: object) -> str:
     return text if text.isascii() and text.isprintable() and text else ascii(text)
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
     """A value as YAML would write it, on one line, cut if it is long."""
     text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=True, width=sys.maxsize)
     text = " ".join(text.removesuffix("...\n").split())

@@ -6,87 +6,90 @@ A key is spoken of as messages do: `actuators.pitch`, `finger.pad[2].modulus`.
 from __future__ import annotations
 
 import copy
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import product
+from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
-from ..errors import SceneError
+from ..errors import SceneError, UsageError
 
 Document = dict[str, Any]
-NO_VALUES: Mapping[str, Any] = {}  # in place of those in scene files: they are taken as they are
+NO_VALUES: Mapping[str, Any] = MappingProxyType({})  # in place of those in scene files: they are taken as they are
+OPTION = "kinematics"  # is a column of the score table, and not read from files where scores are predicted
 
 
 def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
-    """Every combination of the values of some keys, the last key's changing first.
+    """Every combination of the values of some keys, the last key's changing first; equal values count once.
 
-    >>> variants({"contact.friction": [0.3, 0.6], "actuators.pitch": [2.0]})
+    Raises UsageError if what stands at a key is no list of values, and if the key is `kinematics`.
+
+    >>> variants({"contact.friction": [0.3, 0.6, 0.6], "actuators.pitch": [2.0]})
     [{'contact.friction': 0.3, 'actuators.pitch': 2.0}, {'contact.friction': 0.6, 'actuators.pitch': 2.0}]
     """
-    return [dict(zip(vary, values, strict=True)) for values in product(*vary.values())]
+    chosen: list[list[Any]] = []
+    for key, values in vary.items():
+        plain = _plain(values)
+        if not isinstance(plain, list) or not plain:
+            raise UsageError(f"vary: {key}: found {values!r}; allowed: a list of values")
+        if key == OPTION:
+            raise UsageError(f"vary: found {key}; allowed: other keys, as kinematics are an option of their own")
+        chosen.append([value for number, value in enumerate(plain) if value not in plain[:number]])
+    return [dict(zip(vary, values, strict=True)) for values in product(*chosen)]
 
 
-def quantity_at(document: Document, key: str) -> Document | None:
-    """The quantity (a mapping with a value, a unit and a source) at a key, or None."""
-    node: Any = document
-    for step in re.findall(r"[^.\[\]]+", key):
-        if isinstance(node, list):
-            node = node[int(step)] if step.isdecimal() and int(step) < len(node) else None
-        else:
-            node = node.get(step) if isinstance(node, dict) else None
-    return node if isinstance(node, dict) and "value" in node else None
+def _plain(value: Any) -> Any:
+    """A value as a scene file may hold it: arrays and tuples as lists, numpy's numbers as Python's."""
+    plain = value.tolist() if hasattr(value, "tolist") else value
+    return [_plain(each) for each in plain] if isinstance(plain, list | tuple) else plain
+
+
+def quantities_of(node: Any, key: str = "") -> Iterator[tuple[str, Document]]:
+    """Keys and quantities (mappings with a value, a unit and a source) of a document.
+
+    >>> [key for key, _ in quantities_of({"pad": [{"modulus": {"value": 2.0}}], "width": {"value": 16.0}})]
+    ['pad[0].modulus', 'width']
+    """
+    if isinstance(node, dict) and "value" in node:
+        yield key, node
+    elif isinstance(node, dict):
+        for name, child in node.items():
+            yield from quantities_of(child, f"{key}.{name}" if key else str(name))
+    elif isinstance(node, list):
+        for number, child in enumerate(node):
+            yield from quantities_of(child, f"{key}[{number}]")
 
 
 def with_value(document: Document, key: str, value: Any, source: str) -> Document:
-    """The document with another value at a key, and a source that says so. Raises SceneError if it has none there.
+    """The document with another value at a key that has a quantity, and a source that says so.
 
     >>> document = {"contact": {"friction": {"value": 0.6, "unit": "1", "source": "..."}}}
     >>> with_value(document, "contact.friction", 0.3, "varied")
     {'contact': {'friction': {'value': 0.3, 'unit': '1', 'source': 'varied'}}}
     """
     found = copy.deepcopy(document)
-    quantity = quantity_at(found, key)
-    if quantity is None:
-        raise no_such_value(key, document)
-    quantity["value"], quantity["source"] = value, source
+    dict(quantities_of(found))[key].update(value=value, source=source)
     return found
 
 
-def shared_out(values: Mapping[str, Any], *documents: Document) -> list[dict[str, Any]]:
-    """The values of some keys by the first of the documents that has a quantity there. Raises SceneError if none has.
+def shared_out(values: Mapping[str, Any], documents: Mapping[Path, Document]) -> dict[Path, dict[str, Any]]:
+    """The values of some keys by the first of the files that has a quantity there.
 
-    >>> shared_out({"a.b": 2.0}, {"c": {"value": 1.0}}, {"a": {"b": {"value": 1.0}}})
-    [{}, {'a.b': 2.0}]
+    Raises SceneError, with the key that was probably meant, if none has.
     """
-    found: list[dict[str, Any]] = [{} for _ in documents]
+    known = {path: dict(quantities_of(document)) for path, document in documents.items()}
+    found: dict[Path, dict[str, Any]] = {path: {} for path in documents}
     for key, value in values.items():
-        owner = next((own for own, each in zip(found, documents, strict=True) if quantity_at(each, key)), None)
+        owner = next((path for path in known if key in known[path]), None)
         if owner is None:
-            raise no_such_value(key, *documents)
-        owner[key] = value
+            raise no_such_value(key, " and ".join(map(str, known)), [each for keys in known.values() for each in keys])
+        found[owner][key] = value
     return found
 
 
-def no_such_value(key: str, *documents: Document) -> SceneError:
-    """The error that a key is none of these documents', with the one that was probably meant."""
-    known = [each for document in documents for each in quantity_keys(document)]
+def no_such_value(key: str, where: str, known: Sequence[str]) -> SceneError:
+    """The error that a key is none of the known ones of some files, with the one that was probably meant."""
     close = [each for each in known if each.endswith(f".{key}")] or get_close_matches(key, known, n=1)
     hint = f"; did you mean {close[0]}?" if close else ""
-    return SceneError(f"{key}: found no such value; allowed: a value in the scene files, such as {known[0]}{hint}")
-
-
-def quantity_keys(node: Any, key: str = "") -> Iterator[str]:
-    """Keys of all quantities in a document.
-
-    >>> list(quantity_keys({"pad": [{"modulus": {"value": 2.0}}], "width": {"value": 16.0}}))
-    ['pad[0].modulus', 'width']
-    """
-    if isinstance(node, dict) and "value" in node:
-        yield key
-    elif isinstance(node, dict):
-        for name, child in node.items():
-            yield from quantity_keys(child, f"{key}.{name}" if key else name)
-    elif isinstance(node, list):
-        for number, child in enumerate(node):
-            yield from quantity_keys(child, f"{key}[{number}]")
+    return SceneError(f"{key}: found no such value in {where}; allowed: a value that is written there{hint}")

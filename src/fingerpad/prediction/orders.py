@@ -1,0 +1,66 @@
+"""Orders of conditions over variants of a device: which of two scores is larger, beyond the errors of both."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import permutations
+from typing import Any
+
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
+from .caveats import is_resolved
+
+Row = Mapping[str, Any]
+Pair = tuple[str, str]  # conditions with the lower and the higher score
+
+
+def resolved_pairs(rows: Sequence[Row]) -> list[Pair]:
+    """Pairs of conditions whose scores differ by more than the sum of both errors, of rows of one device, interface and
+    read-out.
+
+    >>> rows = [("a", 3.0, 0.1), ("b", 1.0, 0.2), ("c", 1.1, 0.2), ("d", 9.0, None)]
+    >>> resolved_pairs([dict(zip(("condition", "score", "score_error"), row)) for row in rows])
+    [('b', 'a'), ('c', 'a')]
+    """
+    return [
+        (str(low["condition"]), str(high["condition"]))
+        for low, high in permutations(rows, 2)
+        if is_resolved(low, high) and low["score"] < high["score"]
+    ]
+
+
+def orders(tables: Sequence[Sequence[Row]]) -> Iterator[str]:
+    """In how many variants which scores are larger, a line for each interface, read-out and number of variants.
+
+    tables: rows of the score table of each variant. What others imply is left out where it holds in all.
+    """
+    scores = {tuple(row["score"] for row in rows) for rows in tables}
+    if len(scores) == 1 and any(score is not None for score in scores.pop()):
+        yield "these values change no score"
+    for interface in Interface:
+        for readout in Readout:
+            own = [
+                [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)] for rows in tables
+            ]
+            if not any(row["score"] is not None for rows in own for row in rows):
+                continue
+            counts = Counter(pair for rows in own for pair in resolved_pairs(rows))
+            if not counts:
+                yield f"{interface}, {readout}: no two scores differ by more than their errors"
+            for count in sorted(set(counts.values()), reverse=True):
+                pairs = [pair for pair in counts if counts[pair] == count]
+                pairs = _without_implied(pairs) if count == len(tables) else pairs
+                said = ", ".join(f"{low} < {high}" for low, high in pairs)
+                yield f"{interface}, {readout}, in {count} of {len(tables)}: {said}"
+
+
+def _without_implied(pairs: Sequence[Pair]) -> list[Pair]:
+    """Pairs that do not follow from two others.
+
+    >>> _without_implied([("a", "b"), ("a", "c"), ("b", "c")])
+    [('a', 'b'), ('b', 'c')]
+    """
+    known = set(pairs)
+    between = {name for pair in pairs for name in pair}
+    return [(low, high) for low, high in pairs if not any({(low, mid), (mid, high)} <= known for mid in between)]
