@@ -658,7 +658,10 @@ def test_orders_count_scores_that_differ_by_more_than_their_errors() -> None:
     near = table((1.0, 0.1), (1.15, 0.1), (1.3, 0.1))
     far = table((1.0, 0.1), (2.0, 0.1), (3.0, 0.1))
     unknown = table((1.0, None), (2.0, 0.1), (None, None))
-    assert list(orders([near, far, far])) == ["shear, strain, in 3 of 3: a < c", "shear, strain, in 2 of 3: a < b, b < c"]
+    assert list(orders([near, far, far])) == [
+        "shear, strain, in 3 of 3: a < c",
+        "shear, strain, in 2 of 3: a < b, b < c",
+    ]
     assert list(orders([far, far, far])) == [
         "these values change no score",
         "shear, strain, in 3 of 3: a < b, b < c",
