@@ -104,7 +104,7 @@ def correlation_table(
     are missing, or what to beware of.
 
     Raises RatingError if scores and ratings of a device are not of the same conditions, and as `order_matrix` and
-    `extreme_ratings`.
+    `rating_range`.
     """
     rows = [
         {**dict(zip(KEY, key, strict=True)), **_correlate(group, *(t[t["device"] == key[1]] for t in (ratings, order)))}

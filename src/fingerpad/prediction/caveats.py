@@ -17,7 +17,7 @@ from ..scene.tissue_law import Kinematics
 
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
 MANY_CUTS = 2  # halved increments [1]; source: shipped devices have up to 2, with finite kinematics
-CLOSE = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
+NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
 # Another time's change over that which is read [1]; source: between the shipped sizes and halves of them the ratio of
 # two opposite strokes moves by up to 0.007 (eight patterns of four pins, with friction and without)
 RIVAL = 0.98
@@ -70,7 +70,7 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
         "tension": certificate.tension_share,
         "excess over the friction cone": certificate.cone_share,
     }
-    found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > CLOSE]
+    found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
     return found
 
 
