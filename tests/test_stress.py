@@ -50,6 +50,7 @@ from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
 
 GROUPS = range(8)
+COMING_BACK = [679, 7484, 7727]  # soft actuators at whose edges skin lies anew when they come back; a second in all
 DEFORMED = [3, 6, 9, 29, 40, 48]  # a second each
 SCENES = [GROUP * group + member for group in GROUPS for member in range(25)]  # 200
 PROPERTIES = settings(
@@ -87,6 +88,11 @@ def test_every_deformed_scene_ends_so_too() -> None:
     assert {row.outcome for row in found_deformed} <= NAMES | {SOLVED}
     assert sum(row.outcome == SOLVED for row in found_deformed) > len(DEFORMED) / 2
     assert all(row.message for row in found_deformed if row.outcome != SOLVED)
+
+
+def test_skin_lies_on_soft_edges_that_come_back() -> None:
+    """Gaps and overlaps that follow once faces give way where the skin has gone count: these solutions were refused."""
+    assert [row.outcome for row in outcomes(COMING_BACK)] == [SOLVED] * len(COMING_BACK)
 
 
 def test_a_mesh_that_no_actuator_reaches_is_passed_over() -> None:

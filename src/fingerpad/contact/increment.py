@@ -42,8 +42,8 @@ from .formulation import (
 from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
 
-GIVING = 1e-5  # of the load [1] by which a face may give way elsewhere than it touches; source: a tenth of what a
-# certificate allows
+AMISS = 1e-5  # of the actuators' displacement [1] by which deformable faces may be amiss; source: a tenth of what a
+# certificate allows of a gap or an overlap, which it measures in the same way
 FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
 TURNING = 0.5  # of the way [1] by which gaps may close where a path turns, as skin beside a face moves with it; source:
 # fewest seconds of 0.25, 0.5, 1, 1.5 (measured)
@@ -114,7 +114,7 @@ def solve_increment(
         residual = _residual(problem, gap_scale, found, slip)
         if residual > problem.tolerance:
             bias = bias + found.moved[nodes].T.ravel() - settled.trial.moved  # what rounding in the stiffness has left
-        elif _gives_elsewhere(problem, found, there, gap_scale):
+        elif _amiss(problem, found, there) > max(AMISS * largest_of(actuator), problem.tolerance * gap_scale):
             steps.append(np.where(status != OPEN, found.place - expected, 0.0))
             ends.append(found.place)
             expected = accelerated(steps, ends)
@@ -141,12 +141,18 @@ def _everywhere(
     )
 
 
-def _gives_elsewhere(problem: ContactProblem, found: _Everywhere, there: FloatArray | None, gap_scale: float) -> bool:
-    """Whether deformable faces give way noticeably elsewhere than the skin touches them now."""
+def _amiss(problem: ContactProblem, found: _Everywhere, there: FloatArray | None) -> float:
+    """Largest displacement, gap or overlap [mm] by which contact is amiss as deformable faces give way where the skin
+    touches them now, not `there`.
+    """
     if there is None:
-        return False
+        return 0.0
     astray = given_way(problem, found.force, touch(problem, found.place)) - given_way(problem, found.force, there)
-    return bool(np.abs(astray[found.status != OPEN]).max(initial=0.0) > max(GIVING, problem.tolerance) * gap_scale)
+    place = found.place + astray[:, 0]
+    height = found.gap - profile(problem.row, found.place)[0] + astray[:, 1]
+    gap = height + profile(problem.row, place)[0]
+    closed = found.status != OPEN
+    return max(largest_of(astray[closed]), largest_of(np.where(closed, gap, np.minimum(gap, 0.0))))
 
 
 def _accepted(
