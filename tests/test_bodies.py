@@ -143,14 +143,21 @@ def test_bodies_that_lean_press_as_their_mirror_image_does() -> None:
     assert np.abs(left - right).max() > 0.01 * np.abs(left).max()
 
 
-def test_bodies_that_move_their_face_are_refused() -> None:
+def test_bodies_that_move_their_face_or_base_are_refused() -> None:
     @dataclass(frozen=True)
     class Moved(Body):
         def placed(self, x: FloatArray, y: FloatArray) -> FloatArray:
             return np.stack([x, y - 0.1])
 
+    @dataclass(frozen=True)
+    class Deeper(Body):
+        def placed(self, x: FloatArray, y: FloatArray) -> FloatArray:
+            return np.stack([x, 1.2 * y])
+
     with pytest.raises(MeshError, match="its face must lie where the strip's does"):
         body_of(with_body(Moved(SOFT, 0.15)))
+    with pytest.raises(MeshError, match="and its base as deep"):
+        body_of(with_body(Deeper(SOFT, 1.0 / 3.0)))  # which has more digits than the mesh keeps
     with pytest.raises(MeshError, match=r"actuator body: .* inverted elements"):
         body_of(with_body(Flared(SOFT, 0.15, -1.0)))
 

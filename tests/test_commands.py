@@ -19,7 +19,6 @@ import pytest
 import yaml
 
 import fingerpad.commands.predict as predicting
-import fingerpad.prediction.forecast as forecasting
 from conftest import Project, coarsened
 from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
@@ -272,8 +271,8 @@ def test_a_scene_without_a_mesh_leaves_the_others(
             raise MeshError("too many elements")
         return prepared(given, edges)
 
-    prepared = forecasting.prepared
-    monkeypatch.setattr(forecasting, "prepared", prepare)
+    prepared = scoring.prepared
+    monkeypatch.setattr(scoring, "prepared", prepare)
     assert main(["predict", "--vary", "contact.friction=0.6,0.9", "config/devices/device2.yaml"]) == 0
     said = capsys.readouterr().out
     every = ", ".join(f"all conditions ({each}, strain and change_of_strain)" for each in ("shear", "frictionless"))
@@ -378,12 +377,13 @@ def test_caveats_of_a_solution() -> None:
         solution,
         cuts=MANY_CUTS + 1,
         searches=MANY_SEARCHES + 1,
-        certificate=replace(solution.certificate, penetration_share=0.5),
+        certificate=replace(solution.certificate, penetration_share=0.5, gap_share=0.3),
     )
-    halved, searched, near = solution_caveats(scene("device2"), worse)
+    halved, searched, near, apart = solution_caveats(scene("device2"), worse)
     assert f"halved {MANY_CUTS + 1} times" in halved
     assert str(MANY_SEARCHES + 1) in searched
     assert near == "certificate: penetration is 50% of its limit"
+    assert apart == "certificate: gap in contact is 30% of its limit"
 
 
 def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_not() -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 import yaml
 
+from fingerpad.contact.solution import Solution
 from fingerpad.ensemble.alternatives import (
     AS_CONFIGURED,
     FIRST,
@@ -21,13 +23,16 @@ from fingerpad.ensemble.alternatives import (
     slug,
     write_scenes,
 )
-from fingerpad.ensemble.members import ensemble_tables
-from fingerpad.errors import SceneError
+from fingerpad.ensemble.members import ensemble_tables, member_scores
+from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.pages.robustness import robustness_values
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.prediction import scoring
 from fingerpad.scene.scenefile import read_yaml
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
+from scenes import scene
 from test_claims import CONDITIONS, make_scores
 
 ROOT = Path(__file__).parents[1]
@@ -37,6 +42,21 @@ CONFIG = read_yaml(ROOT / "config" / "config.yaml")
 DEVICES = {path.stem: read_yaml(path) for path in sorted((ROOT / "config" / "devices").glob("device?.yaml"))}
 FRICTION = Alternative("model", "contact.friction", 0.38, None, "Buchholz et al. 1988")
 DENSER = Alternative("devices", "actuators.pitch", None, 0.8, "assumption: a denser row")
+
+
+def test_a_condition_that_cannot_be_solved_leaves_a_member_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stimulate(*given: Any) -> Solution:
+        if given[-1].name == "alternate_090":
+            raise ContactError("too far")
+        return stimulated(*given)
+
+    stimulated = scoring.stimulate
+    monkeypatch.setattr(scoring, "stimulate", stimulate)
+    rows = member_scores([scene("device2").coarsened(4.0)], Kinematics.SMALL, FRICTION, FIRST)
+    assert {row["condition"] for row in rows if row["score"] is None} == {"alternate_090"}
+    assert {row["note"] for row in rows if row["score"] is None} == {"no prediction: too far"}
+    assert len({row["condition"] for row in rows}) == 3
+    assert {(row["half_cycle"], row["varied"]) for row in rows} == {(FIRST, FRICTION.name)}
 
 
 @pytest.mark.parametrize("alternative", [None, *read_ensemble(SHIPPED)], ids=lambda each: each.name if each else "none")

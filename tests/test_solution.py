@@ -335,6 +335,7 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
     left_over = problem.tolerance / PENETRATION_LIMIT  # by the solver, of gaps, over what a certificate allows
     assert certify(problem, found, state).penetration_share < left_over
     assert certified(lowered(0.5)).penetration_share == pytest.approx(0.5, abs=left_over)
+    assert certified(lowered(-0.5)).gap_share == pytest.approx(0.5, abs=left_over)
     assert certified(pulling(0.5)).tension_share == pytest.approx(0.5, abs=ROUNDING)
     assert certified(sheared(0.5)).cone_share == pytest.approx(0.5, abs=ROUNDING)
     for law, tampered in (

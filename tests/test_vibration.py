@@ -319,6 +319,18 @@ def test_table_says_where_inertia_forbids_a_prediction() -> None:
         assert predicted or all("inertia" in row["note"] and "try about" in row["note"] for row in rows[2:])
 
 
+def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
+    """So the other interface keeps its scores."""
+    given = coarse()
+    device = replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1])
+    lost = replace(given.model, numerics=replace(given.model.numerics, newton_tolerance=1e-30))
+    condensed = condense_mesh(given, mesh(("device2", False)))
+    rows = frequency_rows(Scene(lost, device), condensed, creeping(), [], Interface.SHEAR)
+    assert [row["readout"] for row in rows] == list(Readout)
+    assert all(row["score"] is None for row in rows)
+    assert all(row["note"].startswith("no prediction: device=device2, interface=shear, pre-ind") for row in rows)
+
+
 def test_cycles_pass_through_the_snapshot() -> None:
     for name in ("device1", "device2", "device3"):
         device = scene(name).device

@@ -448,6 +448,15 @@ def test_new_mesh_that_equals_the_old_one_hides_no_edited_tissue(changeable: Pro
     assert condensed in changeable.snakemake("-n", condensed).outputs
 
 
+def test_mesh_that_equals_the_old_one_hides_no_edited_margin(changeable: Project) -> None:
+    """How much skin is considered is no part of the mesh."""
+    changeable.edit(CONFIG, lambda text: text.replace("contact_margin: {value: 0.25,", "contact_margin: {value: 0.5,"))
+    mesh, condensed = "results/small/device2/mesh.npz", "results/small/device2/condensed.npz"
+    run = changeable.snakemake(mesh)  # as if the run of everything had been interrupted here
+    assert run.status == 0, run.text
+    assert condensed in changeable.snakemake("-n", condensed).outputs
+
+
 def test_fourth_device_runs_only_its_own_jobs_and_the_tables(changeable: Project, plan: Run) -> None:
     second = (changeable.folder / DEVICE).read_text(encoding="utf-8")
     fourth = second.replace("pitch: {value: 2.5,", "pitch: {value: 2.4,")

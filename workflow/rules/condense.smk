@@ -23,6 +23,7 @@ rule condense:
         scene=lambda w: support.fingerprint(
             scene_of(w).model.finger,
             receptors_of(w),
+            scene_of(w).model.numerics.contact_margin,
             scene_of(w).model.skips.halved_condensation,
             scene_of(w).device.actuators,
             scene_of(w).device.stroke,

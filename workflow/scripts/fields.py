@@ -37,8 +37,7 @@ def main(
     if pressed:
         actuators = load(body, CondensedBody) if body else None
         finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
-        names = [path.parent.parent.name for path in solutions]
-        states = [deformed_states(scene, finger, scene.device.condition(name)).displacement for name in names]
+        states = [deformed_states(scene, finger, each).displacement for each in scene.device.distinct_conditions]
         read = (each[1 + one.read] for each, one in zip(states, solved, strict=True))
         displacement = np.array([states[0][0], *read])
     else:

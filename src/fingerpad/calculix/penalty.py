@@ -121,9 +121,12 @@ def _increment(
     residual = (position - unloaded).ravel() - problem.compliance @ force.ravel()
     for _ in range(MAX_ITERATIONS):
         moved = np.einsum("anc,ncd->and", by_node, tangent).reshape(2 * count, 2 * count)
-        step = np.linalg.solve(np.eye(2 * count) - moved, -residual).reshape(count, 2)
+        try:
+            step = np.linalg.solve(np.eye(2 * count) - moved, -residual).reshape(count, 2)
+        except np.linalg.LinAlgError:
+            break
         before, size = position, np.linalg.norm(residual)
-        for halvings in range(MAX_HALVINGS):
+        for halvings in range(MAX_HALVINGS + 1):
             position = before + step / 2.0**halvings
             force, tangent, origin = _forces(problem.row, weight, law, position, start.origin)
             residual = (position - unloaded).ravel() - problem.compliance @ force.ravel()

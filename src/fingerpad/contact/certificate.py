@@ -32,8 +32,8 @@ class Certificate:
     equilibrium: relative residual of the tissue's equilibrium [1]. contact: of the contact equations [1].
     penetration: largest [mm]. smallest_pressure: over the nodes in contact [MPa]. cone_excess: largest shear beyond
     Coulomb's limit, over the largest limit, or without friction over the largest pressing force [1]. dissipation:
-    smallest frictional work so far [N mm per mm]. penetration_share, tension_share, cone_share: of what was allowed
-    there [1].
+    smallest frictional work so far [N mm per mm]. penetration_share, gap_share, tension_share, cone_share: of what was
+    allowed there [1], of penetration, a gap in contact, tension and excess over the friction cone.
     """
 
     equilibrium: float
@@ -43,6 +43,7 @@ class Certificate:
     cone_excess: float
     dissipation: float
     penetration_share: float
+    gap_share: float
     tension_share: float
     cone_share: float
 
@@ -78,9 +79,7 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
         if not found <= allowed:
             raise CertificateError(f"certificate: {name} {found:.2e} > {allowed:.2e}")
     require_within_reach(problem, section, state)
-    _, of_penetration, _, of_tension, of_cone, _ = (
-        found / allowed if found > 0.0 else 0.0 for found, allowed in checks.values()
-    )
+    share = {name: found / allowed if found > 0.0 else 0.0 for name, (found, allowed) in checks.items()}
     return Certificate(
         equilibrium=section.residual,
         contact=state.residual,
@@ -88,9 +87,10 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
         smallest_pressure=smallest,
         cone_excess=beyond,
         dissipation=state.dissipation,
-        penetration_share=of_penetration,
-        tension_share=of_tension,
-        cone_share=of_cone,
+        penetration_share=share["penetration [mm]"],
+        gap_share=share["gap in contact [mm]"],
+        tension_share=share["tension [MPa]"],
+        cone_share=share["excess over the friction cone"],
     )
 
 
@@ -104,6 +104,7 @@ def worst(certificates: Sequence[Certificate]) -> Certificate:
         cone_excess=max(each.cone_excess for each in certificates),
         dissipation=min(each.dissipation for each in certificates),
         penetration_share=max(each.penetration_share for each in certificates),
+        gap_share=max(each.gap_share for each in certificates),
         tension_share=max(each.tension_share for each in certificates),
         cone_share=max(each.cone_share for each in certificates),
     )

@@ -7,12 +7,11 @@ from typing import Any
 
 import pandas as pd
 
-from ..errors import CondensationError, ContactError, MeshError
 from ..perception.claims import claims_table
 from ..perception.correlation import correlation_table
 from ..prediction.edges import edge_intervals
-from ..prediction.scoring import predicted_rows, prepared
-from ..readouts.roughness import KEY, unpredicted_rows, unsolved_rows
+from ..prediction.scoring import solved_rows
+from ..readouts.roughness import KEY, unpredicted_rows
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from .alternatives import AS_CONFIGURED, Alternative
@@ -23,15 +22,10 @@ MEMBER = ["kinematics", "half_cycle", "varied"]  # columns that tell members apa
 def member_scores(
     scenes: Sequence[Scene], kinematics: Kinematics, alternative: Alternative | None, half_cycle: str
 ) -> list[dict[str, Any]]:
-    """Rows of the score table of a member behind MEMBER; where a device cannot be solved, rows without scores, whose
-    note says why.
-    """
+    """Rows of the score table of a member behind MEMBER; what cannot be solved has no score, but a note that says why."""
     rows: list[dict[str, Any]] = []
     for scene in (each.with_kinematics(kinematics) for each in scenes if kinematics in each.computed):
-        try:
-            rows += predicted_rows(scene, prepared(scene, edge_intervals(scene)))
-        except (MeshError, CondensationError, ContactError) as error:
-            rows += unsolved_rows(scene, str(error))
+        rows += solved_rows(scene, edge_intervals(scene))[0]
         rows += unpredicted_rows(scene)
     varied = alternative.name if alternative else AS_CONFIGURED
     return [{"half_cycle": half_cycle, "varied": varied} | row for row in rows]

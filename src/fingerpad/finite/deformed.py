@@ -139,6 +139,7 @@ def solve_deformed_increment(
     length = float(np.abs(actuator - start.actuator).max())
     scale = float(np.abs(actuator).max()) + length
     free, displacement = part.elements.free, start.displacement + length * start.rate
+    first = (part.loads.T @ start.displacement[free]).reshape(-1, 2)
     made, iterations = 0, 0
     changes: list[float] = []
     steps: list[FloatArray] = []
@@ -152,7 +153,6 @@ def solve_deformed_increment(
                 unstable = unstable or _is_unstable(problem, start, tangent)
             back = -tangent.factors.solve(internal_force(part.elements, displacement)[free])
             last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
-            first = (part.loads.T @ start.displacement[free]).reshape(-1, 2)
             found, passed, tangent = _followed(increments, problem, tangent, start, actuator, first, last)
             iterations += found.iterations - start.iterations
             step = back + tangent.factors.solve(part.loads @ found.force.ravel())

@@ -177,7 +177,7 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
     moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
     residual = max((*reached.changes[-1:], *(tangent.residual for tangent in tangents)))
-    condensed = replace(start.undeformed, compliance=compliance, strain=np.empty((0, 2 * free.size)), residual=residual)
+    condensed = replace(start.undeformed, compliance=compliance, residual=residual)
     return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
 
 

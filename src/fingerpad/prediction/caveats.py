@@ -67,6 +67,7 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
         found.append(f"{solution.searches} increments did not settle at once")
     shares = {
         "penetration": certificate.penetration_share,
+        "gap in contact": certificate.gap_share,
         "tension": certificate.tension_share,
         "excess over the friction cone": certificate.cone_share,
     }

@@ -7,16 +7,13 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from ..arrays import FloatArray
-from ..errors import CondensationError, MeshError
 from ..readouts.accuracy import with_error, with_errors
-from ..readouts.roughness import KEY, NO_PREDICTION, SAME, unpredicted_rows, unsolved_rows
-from ..readouts.strain import FilteredReadouts
+from ..readouts.roughness import KEY, SAME, unpredicted_rows
 from ..scene.device import Control
 from ..scene.scene import Scene
 from .caveats import score_caveats
 from .edges import edge_intervals
-from .scoring import Case, Unsolved, error_rows, prepared, read_out, rows_of, rows_without, solve_scene
+from .scoring import error_rows, solved_rows
 
 SILENT = "the device controls forces: its displacements without friction are unknown"
 LEFT_OUT = "skipped by `interfaces` in the device file"
@@ -31,7 +28,7 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     """
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
-        rows, read = _solved_rows(scene, edges, step)
+        rows, read = solved_rows(scene, edges, step)
         checks = error_rows(scene, edges, read, step) if error and read else []
     silent = unpredicted_rows(scene)
     found = [*rows, *silent]
@@ -66,24 +63,3 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
         else 1 + sum(other > row["score"] * (1.0 + SAME) for other in scores[tuple(row[column] for column in KEY)])
         for row in rows
     ]
-
-
-def _solved_rows(
-    scene: Scene, edges: FloatArray, step: Callable[[], object]
-) -> tuple[list[dict[str, Any]], dict[Case, FilteredReadouts]]:
-    """Rows of the score table of what the device moves, and filtered read-outs of the cases that have scores."""
-    try:
-        condensed = prepared(scene, edges)
-    except (MeshError, CondensationError) as refusal:
-        return unsolved_rows(scene, f"{NO_PREDICTION}: {refusal}"), {}
-    step()
-    rows: list[dict[str, Any]] = []
-    read: dict[Case, FilteredReadouts] = {}
-    for solved in solve_scene(scene, condensed):
-        if isinstance(solved.solution, Unsolved):
-            rows += rows_without(scene, solved)
-        else:
-            read[solved.case] = read_out(scene, condensed, solved.solution)
-            rows += rows_of(scene, solved, solved.solution, read[solved.case])
-        step()
-    return rows, read

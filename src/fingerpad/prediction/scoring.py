@@ -16,7 +16,7 @@ from ..finite.pressing import press
 from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows
+from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows, unsolved_rows
 from ..readouts.strain import FilteredReadouts, Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -158,6 +158,32 @@ def predicted_rows(
     return rows
 
 
+def solved_rows(
+    scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None
+) -> tuple[list[dict[str, Any]], dict[Case, FilteredReadouts]]:
+    """Rows of the score table of what the device moves, on a mesh with edges (k, 2) [mm], and filtered read-outs of the
+    cases that have scores. What cannot be meshed or solved has no score, and a note that says why.
+
+    step: called after condensation and after every condition.
+    """
+    try:
+        condensed = prepared(scene, edges)
+    except (MeshError, CondensationError) as refusal:
+        return unsolved_rows(scene, f"{NO_PREDICTION}: {refusal}"), {}
+    step()
+    rows: list[dict[str, Any]] = []
+    read: dict[Case, FilteredReadouts] = {}
+    for solved in solve_scene(scene, condensed):
+        if isinstance(solved.solution, Unsolved):
+            note = f"{NO_PREDICTION}: {solved.solution}"
+            rows += unscored_rows(scene, solved.condition, solved.interface, note)
+        else:
+            read[solved.case] = read_out(scene, condensed, solved.solution)
+            rows += rows_of(scene, solved, solved.solution, read[solved.case])
+        step()
+    return rows, read
+
+
 def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
     """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
     for interface in interfaces or scene.device.interfaces():
@@ -199,11 +225,6 @@ def rows_of(scene: Scene, solved: Solved, solution: Solution, read: FilteredRead
     """Rows of the score table for what was solved, its solution and filtered read-outs, with caveats as their note."""
     caveats = stimulus_caveats(solved.condition) + solution_caveats(scene, solution)
     return score_rows(scene, solved.condition, solved.interface, read, "; ".join(caveats))
-
-
-def rows_without(scene: Scene, solved: Solved) -> list[dict[str, Any]]:
-    """Rows without scores, whose note says why there is no solution."""
-    return unscored_rows(scene, solved.condition, solved.interface, f"{NO_PREDICTION}: {solved.solution}")
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

@@ -159,7 +159,8 @@ def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
     triangles = joined.ravel()[np.hstack([right.t, right.t + right.p.shape[1]])]
     strip = MeshTri2.from_mesh(MeshTri(np.ascontiguousarray(points[:, kept]), triangles))
     mesh = replace(strip, doflocs=row.body.placed(*strip.doflocs))
-    face, base = strip.doflocs[1] == 0.0, strip.doflocs[1] == -row.body.thickness
+    y = strip.doflocs[1]
+    face, base = y == y.max(), y == y.min()
     if not (
         np.array_equal(mesh.doflocs[:, face], strip.doflocs[:, face])
         and np.array_equal(mesh.doflocs[1, base], strip.doflocs[1, base])

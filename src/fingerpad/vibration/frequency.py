@@ -68,14 +68,14 @@ def frequency_rows(
     creep: Creep,
     vibrating: Sequence[Vibrating],
     interface: Interface,
-    note: Callable[[], object] = lambda: None,
+    step: Callable[[], object] = lambda: None,
 ) -> list[dict[str, Any]]:
-    """Rows of the frequency table for one interface, slow cycles first. note: called after each row pair.
+    """Rows of the frequency table for one interface, slow cycles first. step: called after each row pair.
 
-    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises MeshError or
-    ContactError, as `indent_device`, if the device cannot be pressed onto the finger.
+    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises MeshError if an
+    actuator is nearest to no skin node.
     """
-    indented = indent_device(scene, condensed.section, condensed.body, interface)
+    indented = _indented(scene, condensed, interface)
     rows = []
     found: dict[tuple[bytes, bytes, float], Outcome] = {}
     for cycle in scene.device.cycles:
@@ -83,10 +83,22 @@ def frequency_rows(
             frequency = at.frequency if at else SLOWLY
             stimulus = cycle.normal.tobytes(), cycle.tangential.tobytes(), frequency
             if stimulus not in found:
-                found[stimulus] = _outcome(scene, condensed, creep, indented, cycle, at)
+                found[stimulus] = (
+                    indented
+                    if isinstance(indented, Outcome)
+                    else _outcome(scene, condensed, creep, indented, cycle, at)
+                )
             rows += [_row(scene, cycle, frequency, interface, each, found[stimulus]) for each in Readout]
-            note()
+            step()
     return rows
+
+
+def _indented(scene: Scene, condensed: Condensed, interface: Interface) -> Indented | Outcome:
+    """The device pressed onto the finger, or what becomes of all conditions if it cannot be."""
+    try:
+        return indent_device(scene, condensed.section, condensed.body, interface)
+    except ContactError as error:
+        return Outcome({}, 0.0, f"{NO_PREDICTION}: {error}")
 
 
 def _outcome(
