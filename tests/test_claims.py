@@ -11,7 +11,7 @@ import pytest
 from fingerpad.perception.claims import COLUMNS, claims_table
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.perception.verdicts import NEAR, Score, relation
+from fingerpad.readouts.comparison import Relation, Score, relation
 
 ROOT = Path(__file__).parents[1]
 PHASES = (0, 90, 180)
@@ -317,8 +317,8 @@ def test_a_strong_negative_correlation_is_no_weaker_than_a_positive_one() -> Non
 def test_scores_compare_by_the_sum_of_their_errors() -> None:
     """Each may be off by its own error, so that two may be closer than they seem by both."""
     low, high = Score(1.0, 0.1), Score(1.19, 0.1)
-    assert relation(low, high) == NEAR
-    assert relation(low, Score(1.21, 0.1)) == "<"
+    assert relation(low, high) is Relation.NEAR
+    assert relation(low, Score(1.21, 0.1)) is Relation.LESS
 
 
 def test_a_claim_about_ratings_that_are_not_there_has_no_row() -> None:

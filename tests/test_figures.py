@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -600,7 +600,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         iterations=1,
         cuts=0,
         searches=0,
-        certificate=Certificate(*[0.0] * 9),
+        certificate=Certificate(*[0.0] * len(fields(Certificate))),
     )
 
 

@@ -12,7 +12,6 @@ from fingerpad.prediction.variants import (
     VARIANT,
     WAVELENGTH_FACTORS,
     agreement,
-    material_at,
     on_both_sides,
     variant_rows,
 )
@@ -75,8 +74,8 @@ def test_other_side_is_condensed_anew() -> None:
 
 def test_material_is_that_of_the_side() -> None:
     finger = scene(DEVICE).model.finger
-    assert material_at(scene(DEVICE), Side.DERMIS) == finger.layer("dermis").material
-    assert material_at(scene(DEVICE), Side.EPIDERMIS) == finger.layer("viable_epidermis").material
+    names = {side: finger.pad[scene(DEVICE).model.receptor_layer(side)].name for side in Side}
+    assert names == {Side.DERMIS: "dermis", Side.EPIDERMIS: "viable_epidermis"}
 
 
 def variant(condition: str, measure: Measure, score: float) -> dict[str, Any]:

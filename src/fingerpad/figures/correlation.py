@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from ..arrays import FloatArray
 from ..perception.ratings import NO_RATINGS
 from ..perception.wording import OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
-from ..readouts.roughness import SAME
+from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
@@ -107,7 +107,7 @@ def correlation_panel(
         return
     factor = SCORE_SCALE[readout][0]
     x = factor * points["score"].to_numpy()
-    y = _places(x) if rated.empty else points["rating"].to_numpy()
+    y = 1.0 + classes(x) if rated.empty else points["rating"].to_numpy()
     if pd.notna(row["r2"]):
         slope, intercept = np.polyfit(x, y, 1)
         ends = np.array([x.min(), x.max()])
@@ -128,15 +128,6 @@ def correlation_panel(
         statistics(row, x), (1.0, 1.0), xycoords="axes fraction", xytext=(6.0, 0.0), textcoords="offset points",
         va="top", linespacing=1.35,
     )  # fmt: skip
-
-
-def _places(score: FloatArray) -> FloatArray:
-    """Places 1, 2, ... of scores (n,) from the lowest up; those that only rounding tells apart share one.
-
-    >>> _places(np.array([0.1, 0.1, 0.3])).tolist()
-    [1.0, 1.0, 2.0]
-    """
-    return np.cumsum(np.diff(score, prepend=-np.inf) > SAME * np.abs(score)).astype(float)
 
 
 def _name_places(axes: Axes, place: FloatArray, names: Sequence[str]) -> None:

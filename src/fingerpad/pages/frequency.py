@@ -5,7 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pandas as pd
+from scipy.stats import kendalltau
 
+from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
@@ -102,11 +104,16 @@ def _orders(scores: pd.DataFrame) -> pd.DataFrame:
         for frequency in scores.columns[1:]:
             both = own[[slow, frequency]].dropna()
             if len(both) > 1:
-                tau = both[slow].corr(both[frequency], method="kendall")
+                tau = _tau(both[slow], both[frequency])
                 rows.append(
                     {"device": device, "at": _frequency(frequency), "conditions": len(both), "tau": f"{tau:.2f}"}
                 )
     return pd.DataFrame(rows)
+
+
+def _tau(one: pd.Series, other: pd.Series) -> float:
+    """Kendall's tau of scores of the same conditions, of which some may be one."""
+    return float(kendalltau(classes(one.to_numpy()), classes(other.to_numpy())).statistic)
 
 
 def _varied(variants: pd.DataFrame) -> pd.DataFrame:
@@ -119,7 +126,7 @@ def _varied(variants: pd.DataFrame) -> pd.DataFrame:
     for device, own in scores.groupby(level="device", sort=False):
         for other in others:
             moved = PERCENT * (own[other] / own[shipped] - 1.0)
-            tau = own[shipped].corr(own[other], method="kendall")
+            tau = _tau(own[shipped], own[other])
             change = f"{moved.min():+.0f} to {moved.max():+.0f} %"
             rows.append({"device": device, "assumption": other, "change": change, "tau": f"{tau:.2f}"})
     return pd.DataFrame(rows)

@@ -16,7 +16,8 @@ from scipy.stats import kendalltau, pearsonr
 from ..arrays import FloatArray
 from ..csvrows import listed
 from ..errors import RatingError
-from ..readouts.roughness import KEY, NO_PREDICTION, SAME
+from ..readouts.comparison import classes
+from ..readouts.roughness import KEY, NO_PREDICTION
 from ..scene.readout import is_constant
 from .extremes import RatingRange, rating_range, unit
 from .ratings import NO_RATINGS, RatingKind, order_matrix
@@ -121,19 +122,6 @@ def correlation_table(
     return table[COLUMNS].fillna({"published_words": ""})
 
 
-def _classes(score: FloatArray) -> np.ndarray:
-    """Rank (n,) of each score among those that differ, from 0: scores (n,) that only rounding tells apart share one.
-
-    >>> _classes(np.array([2.0, 1.0, 2.0 + 1e-9, 1.5])).tolist()
-    [2, 0, 2, 1]
-    """
-    order = np.argsort(score, kind="stable")
-    steps = np.diff(score[order]) > SAME * np.abs(score).max()
-    ranks = np.empty(score.size, dtype=np.int64)
-    ranks[order] = np.append(0, np.cumsum(steps))
-    return ranks
-
-
 def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame) -> dict[str, Any]:
     """The correlation of one device, interface and read-out; columns that are left out are empty."""
     score = scores.set_index("condition")["score"].astype(float)
@@ -156,7 +144,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}
     notes = []
-    which = _classes(x)
+    which = classes(x)
     distinct = np.bincount(which, x) / np.bincount(which)
     if distinct.size < x.size:
         notes.append(f"{distinct.size} of {x.size} conditions are distinct")

@@ -13,19 +13,19 @@ from typing import Any
 
 import pandas as pd
 
+from ..readouts.comparison import Relation, Score
 from ..readouts.roughness import KEY, TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.readout import READOUT_NAME, Readout
 from .correlation import CONSTANT_SCORE
 from .verdicts import (
-    NEAR,
     Chain,
     Holds,
-    Score,
     all_hold,
     chain_text,
     held,
     is_less,
+    is_lower,
     is_surrogate,
     r_of,
     relations,
@@ -147,7 +147,7 @@ def _along_dispersion(scores: Scores) -> Chains:
     return {f"{phase:g}°": _by_dispersion(scores, phase) for phase in PHASES[1:]}
 
 
-def _all_steps(chains: Chains) -> list[str]:
+def _all_steps(chains: Chains) -> list[Relation]:
     return [step for chain in chains.values() for step in relations(chain)]
 
 
@@ -172,7 +172,8 @@ def _device1_strain(tables: Tables) -> Verdict:
     chains = {**_along_phase(scores), **_along_dispersion(scores)}
     steps = _all_steps(chains)
     missed = {Holds.YES: Holds.NO, Holds.NO: Holds.YES, Holds.UNDECIDED: Holds.UNDECIDED}[rises(steps)]
-    return missed, f"{steps.count('<')} of {len(steps)} steps rise. Scores [{scores.unit}]: {_all_shown(chains)}."
+    rising = f"{steps.count(Relation.LESS)} of {len(steps)} steps rise"
+    return missed, f"{rising}. Scores [{scores.unit}]: {_all_shown(chains)}."
 
 
 def _described(row: Mapping[str, Any]) -> str:
@@ -246,7 +247,7 @@ def _device2_slides(tables: Tables) -> Verdict:
         f"{phase:g}° {without.value:.4g} without shear, {with_shear.value:.4g} with it"
         for phase, (without, with_shear) in zip(PHASES, pairs, strict=True)
     )
-    parts = [is_less(low.value, high.value, low.error + high.error) for low, high in pairs]
+    parts = [is_lower(low, high) for low, high in pairs]
     return all_hold(parts), f"Scores [{on.unit}]: {shown}."
 
 
@@ -255,7 +256,7 @@ def _device1_keeps(tables: Tables) -> Verdict:
     without, with_shear = _both(tables, "device1")
     off, on = ({**_along_phase(scores), **_along_dispersion(scores)} for scores in (without, with_shear))
     pairs = zip(_all_steps(off), _all_steps(on), strict=True)
-    parts = [Holds.UNDECIDED if NEAR in pair else held(pair[0] == pair[1]) for pair in pairs]
+    parts = [Holds.UNDECIDED if Relation.NEAR in pair else held(pair[0] == pair[1]) for pair in pairs]
     effect = _effect_of_shear(tables, "device1", DISPERSIONS)
     return all_hold(parts), (
         f"{parts.count(Holds.YES)} of {len(parts)} steps stay. Leaving out shear changes the scores, relative to their"
@@ -297,7 +298,7 @@ def _device1_insensitive(tables: Tables) -> Verdict:
     """The device that moves normally depends less on shear than the one that moves laterally."""
     one = _effect_of_shear(tables, "device1", DISPERSIONS)
     two = _effect_of_shear(tables, "device2", ["alternate"])
-    return is_less(one.value, two.value, one.error + two.error), (
+    return is_lower(one, two), (
         "Leaving out shear changes the change-of-strain scores, relative to their mean, on average by"
         f" {one.value:.3g} for Device 1 and {two.value:.3g} for Device 2."
     )

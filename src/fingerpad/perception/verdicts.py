@@ -15,10 +15,8 @@ from typing import Any
 
 import pandas as pd
 
-from ..readouts.roughness import SAME
+from ..readouts.comparison import Relation, Score, relation
 from .ratings import RatingKind
-
-NEAR = "\N{ALMOST EQUAL TO}"  # between scores that differ by less than the sum of their errors
 
 
 class Holds(StrEnum):
@@ -27,14 +25,6 @@ class Holds(StrEnum):
     YES = "yes"
     NO = "no"
     UNDECIDED = "undecided"
-
-
-@dataclass(frozen=True)
-class Score:
-    """A score and its error, in one unit; an infinite error where it is not known."""
-
-    value: float
-    error: float
 
 
 @dataclass(frozen=True)
@@ -48,29 +38,20 @@ class Correlation:
     error: float
 
 
+IS_LESS = {
+    Relation.LESS: Holds.YES, Relation.NEAR: Holds.UNDECIDED, Relation.SAME: Holds.NO, Relation.MORE: Holds.NO,
+}  # fmt: skip
 Chain = Sequence[tuple[str, Score]]  # (label, score), in the order in which the scores should rise
 
 
-def relation(low: Score, high: Score) -> str:
-    """How two scores compare: `<`, `=` (but for the solver's tolerance), `≈` (within the sum of both errors) or `>`."""
-    difference = abs(high.value - low.value)
-    if difference <= SAME * max(abs(low.value), abs(high.value)):
-        return "="
-    if difference < low.error + high.error:
-        return NEAR
-    return "<" if low.value < high.value else ">"
-
-
-def relations(chain: Chain) -> list[str]:
+def relations(chain: Chain) -> list[Relation]:
     """The `relation` of every score in a chain to the one after it."""
     return [relation(low, high) for (_, low), (_, high) in pairwise(chain)]
 
 
-def rises(steps: Sequence[str]) -> Holds:
+def rises(steps: Sequence[Relation]) -> Holds:
     """Whether each of the steps rises."""
-    if set(steps) <= {"<", NEAR}:
-        return Holds.UNDECIDED if NEAR in steps else Holds.YES
-    return Holds.NO
+    return all_hold([IS_LESS[step] for step in steps])
 
 
 def chain_text(chain: Chain) -> str:
@@ -96,11 +77,14 @@ def throughout(ends: Sequence[Holds]) -> Holds:
     return ends[0] if len(set(ends)) == 1 else Holds.UNDECIDED
 
 
+def is_lower(low: Score, high: Score) -> Holds:
+    """Whether a score is lower than another."""
+    return IS_LESS[relation(low, high)]
+
+
 def is_less(low: float, high: float, error: float) -> Holds:
     """Whether a number is less than another, by more than an error."""
-    if abs(high - low) < error:
-        return Holds.UNDECIDED
-    return held(low < high - SAME * abs(high))
+    return Holds.UNDECIDED if abs(high - low) < error else held(low < high)
 
 
 def slope_of(row: Mapping[str, Any]) -> int:

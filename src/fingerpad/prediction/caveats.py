@@ -9,7 +9,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
-from ..readouts.roughness import KEY, SAME
+from ..readouts.comparison import Relation, Score, relation
+from ..readouts.roughness import KEY
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -104,7 +105,7 @@ def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
         close = [
             str(other["condition"])
             for other in rows
-            if all(row[column] == other[column] for column in KEY) and _indistinct(row, other)
+            if all(row[column] == other[column] for column in KEY) and _relation(row, other) is Relation.NEAR
         ]
         found.append([f"errors are larger than the difference to {', '.join(close)}"] if close else [])
     return found
@@ -112,14 +113,11 @@ def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
 
 def is_resolved(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     """Whether two scores are there and differ by more than the sum of both errors, which are known."""
-    known = all(each["score"] is not None and each["score_error"] is not None for each in (row, other))
-    if not known or _indistinct(row, other):
-        return False
-    return bool(abs(row["score"] - other["score"]) > SAME * abs(row["score"]))
+    return _relation(row, other) in (Relation.LESS, Relation.MORE)
 
 
-def _indistinct(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    if any(each.get("score_error") is None for each in (row, other)):
-        return False
-    difference = abs(row["score"] - other["score"])
-    return bool(SAME * abs(row["score"]) < difference < row["score_error"] + other["score_error"])
+def _relation(row: Mapping[str, Any], other: Mapping[str, Any]) -> Relation | None:
+    """How the scores of two rows compare, if both are there and their errors known."""
+    if any(each["score"] is None or each["score_error"] is None for each in (row, other)):
+        return None
+    return relation(*(Score(each["score"], each["score_error"]) for each in (row, other)))

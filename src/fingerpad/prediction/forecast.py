@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from ..readouts.accuracy import with_error, with_errors
-from ..readouts.roughness import KEY, SAME, unpredicted_rows
+from ..readouts.comparison import classes
+from ..readouts.roughness import KEY, unpredicted_rows
 from ..scene.device import Control
 from ..scene.scene import Scene
 from .caveats import score_caveats
@@ -53,13 +55,13 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
     >>> ranks([key | {"score": 0.1}, key | {"score": 0.3}, key | {"score": 0.1}, key | {"score": None}])
     [2, 1, 2, None]
     """
-    scores: dict[tuple[str, ...], list[float]] = {}
-    for row in rows:
+    found: list[int | None] = [None] * len(rows)
+    groups: dict[tuple[str, ...], list[int]] = {}
+    for number, row in enumerate(rows):
         if row["score"] is not None:
-            scores.setdefault(tuple(row[column] for column in KEY), []).append(row["score"])
-    return [
-        None
-        if row["score"] is None
-        else 1 + sum(other > row["score"] * (1.0 + SAME) for other in scores[tuple(row[column] for column in KEY)])
-        for row in rows
-    ]
+            groups.setdefault(tuple(row[column] for column in KEY), []).append(number)
+    for own in groups.values():
+        place = classes(np.array([rows[number]["score"] for number in own]))
+        for number, above in zip(own, (place[:, None] < place).sum(axis=1), strict=True):
+            found[number] = 1 + int(above)
+    return found

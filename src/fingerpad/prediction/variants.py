@@ -14,13 +14,13 @@ import numpy as np
 from scipy.stats import kendalltau, pearsonr
 
 from ..contact.solution import Solution
+from ..readouts.comparison import classes
 from ..readouts.gabor import filtered_readouts
 from ..readouts.measures import Measure, measured
 from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import KEY, SCORE_UNIT, score_rows
 from ..readouts.strain import read_receptors
 from ..scene.contact_law import Interface
-from ..scene.finger import Material
 from ..scene.readout import Side, is_constant
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedSection
@@ -44,12 +44,6 @@ def on_both_sides(scene: Scene, own: CondensedSection, mesh: SectionMesh) -> dic
     return {configured: own, other: there}
 
 
-def material_at(scene: Scene, side: Side) -> Material:
-    """Material of the layer on one side of the receptor line."""
-    below = scene.model.layers_above
-    return scene.model.finger.pad[below if side is Side.DERMIS else below - 1].material
-
-
 def variant_rows(
     scene: Scene,
     sections: Mapping[Side, CondensedSection],
@@ -63,7 +57,8 @@ def variant_rows(
     for side, section in sections.items():
         resampling = resampling_to_grid(section.arc, scene.model.gabor.spacing)
         for measure in Measure:
-            of_strain = partial(measured, measure, material=material_at(scene, side))
+            layer = scene.model.finger.pad[scene.model.receptor_layer(side)]
+            of_strain = partial(measured, measure, material=layer.material)
             for (name, interface), solution in solutions.items():
                 settling = scene.device.condition(name).settling
                 read = read_receptors(section.receptor_strain(solution.forces), section.arc, of_strain, settling)
@@ -96,7 +91,7 @@ def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, A
             constant = is_constant(usual) or is_constant(values)
             row = dict(zip([*KEY, *VARIANT], (*key, *variant), strict=True))
             row["n"] = usual.size
-            row["kendall_tau"] = None if constant else float(kendalltau(usual, values).statistic)
+            row["kendall_tau"] = None if constant else float(kendalltau(classes(usual), classes(values)).statistic)
             row["r"] = None if constant else float(pearsonr(usual, values).statistic)
             found.append(row)
     return found

@@ -17,7 +17,6 @@ SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
 TYPESET_UNITS = {SCORE_UNIT: "mm²"}  # where people read them; tables keep to plain letters
 KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table: what has one score a condition
 NO_PREDICTION = "no prediction"
-SAME = 1e-6  # of the larger [1] by which scores differ that count as one; source: those of mirrored stimuli, by 1e-8
 ERROR_UNKNOWN = "error unknown"
 
 

@@ -14,7 +14,7 @@ from .contact_law import ContactLaw
 from .device import Condition, Device
 from .finger import Finger
 from .numerics import Numerics, Skips
-from .readout import GaborFilter, ReadoutRule
+from .readout import GaborFilter, ReadoutRule, Side
 from .tissue_law import Kinematics, TissueLaw
 from .vibration_rule import VibrationRule
 
@@ -50,6 +50,10 @@ class Model:
     def layers_above(self) -> int:
         """How many of the pad's layers lie above the receptor line: the index of the one below."""
         return [layer.name for layer in self.finger.pad].index(self.readout.layer_above) + 1
+
+    def receptor_layer(self, side: Side) -> int:
+        """Index of the pad's layer on one side of the receptor line."""
+        return self.layers_above - (side is Side.EPIDERMIS)
 
     @property
     def receptor_depth(self) -> float:

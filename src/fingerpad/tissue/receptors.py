@@ -6,7 +6,6 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from ..arrays import FloatArray
-from ..scene.readout import Side
 from ..scene.scene import Scene
 from .compliance import GRADIENT
 from .elasticity import facet_gradient, strain_of_gradient
@@ -23,8 +22,7 @@ def receptor_gradient(section: SectionMesh, scene: Scene) -> tuple[FloatArray, c
     """Receptor points (m, 2) [mm] and their displacement gradient (4m, n_unknowns), read from the side that the scene
     asks for.
     """
-    below = scene.model.layers_above
-    wanted = below if scene.model.readout.side is Side.DERMIS else below - 1
+    wanted = scene.model.receptor_layer(scene.model.readout.side)
     adjacent = section.mesh.f2t[:, section.receptor_facets]
     element = np.where(section.layer[adjacent[0]] == wanted, adjacent[0], adjacent[1])
     points, gradient = facet_gradient(section.mesh, section.receptor_facets, element)
