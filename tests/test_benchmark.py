@@ -173,7 +173,8 @@ def test_increments_leave_no_trace(stated: list[dict[str, Any]], coarse: Scene) 
 def test_pages_say_what_the_tables_say(coarse: Scene, switches: list[dict[str, Any]]) -> None:
     """Templates and code ask for the same values, and figures of the tables stand on the page."""
     ledger = pd.DataFrame(switches).astype({"largest_difference": float, "smallest_stated_error": float})
-    page = filled((PAGES / "skipping.md").read_text(), skipping_values(ledger, pd.DataFrame(always_rows(coarse, 1))))
+    tables = {"switches": ledger, "always": pd.DataFrame(always_rows(coarse, 1))}
+    page = filled((PAGES / "skipping.md").read_text(), skipping_values(tables))
     assert "| small | device2 | inactive_nodes |" in page
     assert "${" not in page
 
@@ -266,7 +267,8 @@ def test_the_frequency_page_says_where_scores_do_not_rise() -> None:
         ]
     )
     quasistatic = pd.DataFrame([row | {"kinematics": "small", "score": 2.0, "score_error": 0.03} for row in first])
-    page = filled((PAGES / "frequency.md").read_text(), frequency_values(frequencies, variants, quasistatic))
+    tables = {"frequencies": frequencies, "variants": variants, "scores": quasistatic}
+    page = filled((PAGES / "frequency.md").read_text(), frequency_values(tables))
     assert "does not always rise: at 180° `high` lies below `low` at 80 Hz." in page
     assert "differ by 0 to 32 % over its frequencies, by 0 to 58 % with slow cycles" in page
     assert "80 Hz, the highest that it was asked for, rises with phase at\n2 of 2 dispersions" in page

@@ -693,6 +693,11 @@ def test_values_in_turn_are_those_of_edited_files(coarse: Path) -> None:
     assert table["score"][len(edited) :].tolist() == edited["score"].tolist()
 
 
+def test_prediction_with_unknown_kinematics_is_refused() -> None:
+    with pytest.raises(UsageError, match="kinematics: found 'large'; allowed: 'small', 'finite'"):
+        predict("config/devices/device2.yaml", kinematics="large")
+
+
 def test_python_gives_the_same_table(checkout: Path) -> None:
     table = predict("config/devices/device3.yaml", error=False)
     rows = forecast(scene("device3"), error=False)

@@ -181,7 +181,7 @@ def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFram
 
 
 def test_page_counts_members_and_names_what_turns_a_statement(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
-    values = robustness_values(*tables)
+    values = robustness_values(dict(zip(("claims", "correlations"), tables, strict=True)))
     assert values["members"] == 2
     row = next(
         line for line in str(values["statements"]).splitlines() if "Device 2: the strain correlates well" in line

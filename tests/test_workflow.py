@@ -599,7 +599,7 @@ def test_unknown_condition_is_refused(finished: Project) -> None:
     assert_refused(finished, "results/small/device2/alternate_081/shear/solution.npz", "'alternate_081'", known)
 
 
-@pytest.mark.parametrize("kind", ["scenes", "finite"])
+@pytest.mark.parametrize("kind", ["small", "finite"])
 def test_random_scenes_of_no_number_are_refused(project: Project, nothing: Path, kind: str) -> None:
     target = f"results/stress/{kind}_many.csv"
     run = project.snakemake("-n", target, "--directory", nothing)

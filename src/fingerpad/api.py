@@ -10,6 +10,8 @@ from typing import Any
 import pandas as pd
 
 from .checkout import find_checkout
+from .csvrows import listed
+from .errors import UsageError
 from .prediction.forecast import forecast
 from .scene.tissue_law import Kinematics
 from .scene.validation import check_device
@@ -28,12 +30,14 @@ def predict(
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
-    "finite". config, schemas: those of the checkout around the working folder if not given. Raises SceneError,
-    UsageError if there is no such checkout.
+    "finite". config, schemas: those of the checkout around the working folder if not given. Raises SceneError, and
+    UsageError if there is no such checkout or there are no such kinematics.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
+    if kinematics not in list(Kinematics):
+        raise UsageError(f"kinematics: found {kinematics!r}; allowed: {listed(Kinematics)}")
     model = Path(config) if config else find_checkout(Path.cwd()).config
     folder = Path(schemas) if schemas else find_checkout(Path.cwd()).schemas
     cases = [(values, check_device(Path(device), folder, model, values)) for values in variants(vary)]

@@ -78,7 +78,7 @@ rule increments:
 rule closed_forms:
     input:
         config=ancient(CONFIG),
-        device=ancient(SCENES / "devices" / f"{LAYERED.device.name}.yaml"),
+        device=ancient(file_of(LAYERED.device.name)),
         recordings=ancient(RECORDINGS[LAYERED.device.name]),
     output:
         table="results/accuracy/closed_forms.csv",

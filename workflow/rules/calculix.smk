@@ -31,7 +31,7 @@ rule calculix:
     input:
         config=ancient(CONFIG),
         device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS["device2"]),
+        recordings=ancient(lambda w: RECORDINGS[COMPARED]),
     output:
         table="results/accuracy/calculix.csv",
         decks=directory("results/calculix"),
@@ -45,9 +45,9 @@ rule calculix:
         runtime=120,
     params:
         code=code("calculix.py"),
-        scene=lambda w: scored("device2"),
-        ogden_exponent=lambda w: SCENE["device2"].model.tissue.ogden_exponent,
-        condition="alternate_180",
+        scene=lambda w: scored(COMPARED),
+        ogden_exponent=lambda w: SCENE[COMPARED].model.tissue.ogden_exponent,
+        condition=COMPARED_CONDITION,
         limit=1800,
         cases={
             "base": CALCULIX_CASE,

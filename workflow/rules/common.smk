@@ -25,13 +25,21 @@ SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
 
+COMPARED, COMPARED_CONDITION = ALTERNATE  # what comparisons with CalculiX and of run times are about
+
+
+def file_of(name):
+    """The scene file of a device."""
+    return SCENES / "devices" / f"{name}.yaml"
+
+
 try:
     check_config(CONFIG, SCHEMAS)
     if not (DEVICES := known_devices(SCENES / "devices")):
         raise FingerpadError(
             f"{SCENES / 'devices'}: found no device file; `fingerpad new NAME --from device2` begins one"
         )
-    DEVICE_FILES = [SCENES / "devices" / f"{name}.yaml" for name in DEVICES]
+    DEVICE_FILES = [file_of(name) for name in DEVICES]
     SCENE = {path.stem: check_device(path, SCHEMAS, CONFIG) for path in DEVICE_FILES}
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
@@ -78,17 +86,17 @@ def condition_of(wildcards):
 
 def device_file(wildcards):
     """The scene file of the wildcard device."""
-    return SCENES / "devices" / f"{scene_of(wildcards).device.name}.yaml"
+    return file_of(scene_of(wildcards).device.name)
 
 
 def compared_file(wildcards):
     """The scene file of the device that CalculiX and run times are about; without its condition that is an error."""
-    name, condition = ALTERNATE
-    if (name, condition) not in {(each, own.name) for each in DEVICES for own in SCENE[each].device.conditions}:
+    if ALTERNATE not in {(each, own.name) for each in DEVICES for own in SCENE[each].device.conditions}:
         raise WorkflowError(
-            f"CalculiX and run times are compared on {name}'s {condition}: {SCENES / 'devices'} has no such condition"
+            f"CalculiX and run times are compared on {COMPARED}'s {COMPARED_CONDITION}: {SCENES / 'devices'} has no such"
+            " condition"
         )
-    return SCENES / "devices" / f"{name}.yaml"
+    return file_of(COMPARED)
 
 
 def recordings_of(wildcards):
@@ -98,7 +106,7 @@ def recordings_of(wildcards):
 
 def files_with(kinematics):
     """The scene files of the devices that are predicted with those kinematics."""
-    return [SCENES / "devices" / f"{name}.yaml" for name in DEVICES_WITH[kinematics]]
+    return [file_of(name) for name in DEVICES_WITH[kinematics]]
 
 
 def kinematics_of(wildcards):

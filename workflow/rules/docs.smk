@@ -1,7 +1,7 @@
-# Pages and pictures of docs/ that follow from scene files and from `all`: `snakemake docs`. Those that say what was measured
+# Pages and pictures of docs/ that follow from scene files and from `all`: `snakemake docs`. Those that are filled from tables
 # are in pages.smk.
-# REQUIRED INPUTS: scene files, the code, results/claims.csv, results/figures/figure_5_correlation.png.
-# OUTPUTS: docs/assumptions.md, docs/map.md, docs/claims.md; docs/figures/{figure}.png, also for the pages of pages.smk
+# REQUIRED INPUTS: scene files, the code, docs/claims.md, results/figures/figure_5_correlation.png.
+# OUTPUTS: docs/assumptions.md, docs/map.md; docs/figures/{figure}.png, also for the pages of pages.smk
 
 
 rule docs:
@@ -43,22 +43,6 @@ rule code_map:
         code=code("code_map.py"),
     script:
         "../scripts/code_map.py"
-
-
-rule claims_page:
-    input:
-        template=BASE / "workflow" / "pages" / "claims.md",
-        claims="results/claims.csv",
-    output:
-        page="docs/claims.md",
-    log:
-        "results/logs/claims_page.log",
-    conda:
-        ENVIRONMENT
-    params:
-        code=code("claims_page.py"),
-    script:
-        "../scripts/claims_page.py"
 
 
 rule shown_figure:

@@ -237,7 +237,7 @@ rule figure_map:
 rule figure_workflow:
     input:
         config=ancient(CONFIG),
-        device=ancient(SCENES / "devices" / f"{EXAMPLE}.yaml"),
+        device=ancient(file_of(EXAMPLE)),
         recordings=ancient(RECORDINGS[EXAMPLE]),
         condensed=f"results/small/{EXAMPLE}/condensed.npz",
         solution=f"results/small/{EXAMPLE}/{SCENE[EXAMPLE].device.conditions[0].name}/shear/solution.npz",
@@ -265,7 +265,7 @@ if COMPARED:
     rule figure_shear:
         input:
             config=ancient(CONFIG),
-            device=ancient(SCENES / "devices" / f"{EXAMPLE}.yaml"),
+            device=ancient(file_of(EXAMPLE)),
             recordings=ancient(RECORDINGS[EXAMPLE]),
             scores="results/scores.csv",
             ratings=DATA / "ratings.csv",

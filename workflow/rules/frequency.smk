@@ -95,7 +95,7 @@ rule frequencies:
 rule figure_frequency:
     input:
         config=ancient(CONFIG),
-        devices=ancient([SCENES / "devices" / f"{name}.yaml" for name in VIBRATING]),
+        devices=ancient([file_of(name) for name in VIBRATING]),
         recordings=ancient([path for name in VIBRATING for path in RECORDINGS[name]]),
         table="results/frequency.csv",
     output:

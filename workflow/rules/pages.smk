@@ -1,92 +1,60 @@
-# Pages of docs/ that say what was measured. They need every long target; not part of `all`: `snakemake pages`.
-# REQUIRED INPUTS: results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble, results/scores.csv.
-# OUTPUTS: docs/accuracy.md, docs/skipping.md, docs/frequency.md, docs/robustness.md
+# Pages of docs/ that say what was computed or measured. `snakemake docs` asks for claims.md alone; the others need every long
+# target: `snakemake pages`.
+# REQUIRED INPUTS: results/claims.csv; results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble,
+# results/scores.csv.
+# OUTPUTS: docs/{page}.md
+
+PAGE_TABLES = {  # by page and by what it calls them
+    "accuracy": {
+        "scores": "results/accuracy/scores.csv",
+        "increments": "results/accuracy/increments.csv",
+        "closed_forms": "results/accuracy/closed_forms.csv",
+        "calculix": "results/accuracy/calculix.csv",
+        "stress": "results/stress/summary.csv",
+        "timings": "results/benchmark/timings.csv",
+        "ladder": "results/benchmark/ladder.csv",
+        "exponents": "results/benchmark/exponents.csv",
+        "graph": "results/benchmark/graph.csv",
+    },
+    "claims": {"claims": "results/claims.csv"},
+    "frequency": {
+        "frequencies": "results/frequency.csv",
+        "variants": "results/frequency_variants.csv",
+        "scores": "results/scores.csv",
+    },
+    "robustness": {
+        "claims": "results/ensemble_claims.csv",
+        "correlations": "results/ensemble_correlations.csv",
+    },
+    "skipping": {"switches": "results/benchmark/skipping.csv", "always": "results/benchmark/always.csv"},
+}
+PAGE_FIGURES = {
+    "accuracy": ["accuracy_closed_forms", "accuracy_closed_forms_finite", "benchmark"],
+    "frequency": ["frequency"],
+    "robustness": ["ensemble"],
+}
 
 
 rule pages:
     input:
-        "docs/accuracy.md",
-        "docs/skipping.md",
-        "docs/frequency.md",
-        "docs/robustness.md",
+        expand("docs/{page}.md", page=[name for name in PAGE_TABLES if name != "claims"]),
 
 
-rule accuracy_page:
+rule page:
     input:
-        template=BASE / "workflow" / "pages" / "accuracy.md",
-        scores="results/accuracy/scores.csv",
-        increments="results/accuracy/increments.csv",
-        closed_forms="results/accuracy/closed_forms.csv",
-        calculix="results/accuracy/calculix.csv",
-        stress="results/stress/summary.csv",
-        timings="results/benchmark/timings.csv",
-        ladder="results/benchmark/ladder.csv",
-        exponents="results/benchmark/exponents.csv",
-        graph="results/benchmark/graph.csv",
-        figures=expand(
-            "docs/figures/{name}.png", name=["accuracy_closed_forms", "accuracy_closed_forms_finite", "benchmark"]
-        ),
+        template=BASE / "workflow" / "pages" / "{page}.md",
+        tables=lambda w: PAGE_TABLES[w.page].values(),
+        figures=lambda w: [f"docs/figures/{name}.png" for name in PAGE_FIGURES.get(w.page, [])],
     output:
-        page="docs/accuracy.md",
+        page="docs/{page}.md",
     log:
-        "results/logs/accuracy_page.log",
+        "results/logs/page_{page}.log",
+    wildcard_constraints:
+        page="|".join(PAGE_TABLES),
     conda:
         ENVIRONMENT
     params:
-        code=code("accuracy_page.py"),
+        code=code("page.py"),
+        names=lambda w: list(PAGE_TABLES[w.page]),
     script:
-        "../scripts/accuracy_page.py"
-
-
-rule skipping_page:
-    input:
-        template=BASE / "workflow" / "pages" / "skipping.md",
-        switches="results/benchmark/skipping.csv",
-        always="results/benchmark/always.csv",
-    output:
-        page="docs/skipping.md",
-    log:
-        "results/logs/skipping_page.log",
-    conda:
-        ENVIRONMENT
-    params:
-        code=code("skipping_page.py"),
-    script:
-        "../scripts/skipping_page.py"
-
-
-rule frequency_page:
-    input:
-        template=BASE / "workflow" / "pages" / "frequency.md",
-        table="results/frequency.csv",
-        variants="results/frequency_variants.csv",
-        scores="results/scores.csv",
-        figure="docs/figures/frequency.png",
-    output:
-        page="docs/frequency.md",
-    log:
-        "results/logs/frequency_page.log",
-    conda:
-        ENVIRONMENT
-    params:
-        code=code("frequency_page.py"),
-    script:
-        "../scripts/frequency_page.py"
-
-
-rule robustness_page:
-    input:
-        template=BASE / "workflow" / "pages" / "robustness.md",
-        claims="results/ensemble_claims.csv",
-        correlations="results/ensemble_correlations.csv",
-        figure="docs/figures/ensemble.png",
-    output:
-        page="docs/robustness.md",
-    log:
-        "results/logs/robustness_page.log",
-    conda:
-        ENVIRONMENT
-    params:
-        code=code("robustness_page.py"),
-    script:
-        "../scripts/robustness_page.py"
+        "../scripts/page.py"

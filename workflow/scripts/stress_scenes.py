@@ -3,15 +3,18 @@
 from dataclasses import asdict
 from pathlib import Path
 
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
-from fingerpad.stress.outcomes import outcomes
+from fingerpad.stress.outcomes import deformed_outcomes, outcomes
+
+SOLVE = {Kinematics.SMALL: outcomes, Kinematics.FINITE: deformed_outcomes}
 
 
-def main(first: int, stop: int, scenes: Path) -> None:
+def main(kinematics: str, first: int, stop: int, scenes: Path) -> None:
     """Solve the scenes from first to before stop, write one row a scene."""
-    write_rows(scenes, [asdict(outcome) for outcome in outcomes(range(first, stop))])
+    write_rows(scenes, [asdict(outcome) for outcome in SOLVE[Kinematics(kinematics)](range(first, stop))])
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(job.params.first, job.params.stop, Path(job.output.scenes))
+    main(job.wildcards.kinematics, job.params.first, job.params.stop, Path(job.output.scenes))

@@ -18,5 +18,4 @@ def main(scenes: dict[str, list[Path]], table: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    scenes = {Kinematics.SMALL: job.input.scenes, Kinematics.FINITE: job.input.finite}
-    main({kinematics: [Path(path) for path in paths] for kinematics, paths in scenes.items()}, Path(job.output.summary))
+    main({each: [Path(path) for path in job.input[each]] for each in Kinematics}, Path(job.output.summary))

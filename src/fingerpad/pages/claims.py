@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 
 import pandas as pd
 
@@ -11,8 +12,9 @@ from ..perception.verdicts import Holds
 from .filling import table
 
 
-def claims_values(claims: pd.DataFrame) -> dict[str, object]:
-    """What `workflow/pages/claims.md` asks for, from the table of `claims.claims_table`."""
+def claims_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
+    """What `workflow/pages/claims.md` asks for. tables: claims, of `claims.claims_table`."""
+    claims = tables["claims"]
     return {
         "counts": "\n".join(_counted(*each) for each in verdict_counts(claims.to_dict("records")).items()),
         "verdicts": table(_verdicts(claims)),

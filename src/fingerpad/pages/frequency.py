@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
 
 import pandas as pd
@@ -14,8 +15,11 @@ from ..scene.tissue_law import Kinematics
 from .filling import PERCENT, percent, table
 
 
-def frequency_values(frequencies: pd.DataFrame, variants: pd.DataFrame, quasistatic: pd.DataFrame) -> dict[str, object]:
-    """What `workflow/pages/frequency.md` asks for: frequency.csv, frequency_variants.csv, scores.csv in results/."""
+def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
+    """What `workflow/pages/frequency.md` asks for. tables: frequencies, of all devices; variants, under other
+    assumptions; scores, those of the same conditions as snapshots.
+    """
+    frequencies, variants, quasistatic = (tables[name] for name in ("frequencies", "variants", "scores"))
     shear = frequencies[frequencies["interface"] == Interface.SHEAR]
     change = shear[shear["readout"] == Readout.CHANGE_OF_STRAIN]
     scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import pandas as pd
 
 from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES
@@ -16,8 +18,9 @@ NOTHING = ""
 TOLD = ["claim", "kind"]
 
 
-def robustness_values(claims: pd.DataFrame, correlations: pd.DataFrame) -> dict[str, object]:
-    """What `workflow/pages/robustness.md` asks for, from the tables of `members.ensemble_tables`."""
+def robustness_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
+    """What `workflow/pages/robustness.md` asks for. tables: claims and correlations, of `members.ensemble_tables`."""
+    claims, correlations = tables["claims"], tables["correlations"]
     members = claims["varied"].nunique()
     kinematics = list(claims["kinematics"].unique())
     return {

@@ -1,0 +1,37 @@
+"""Write a page of docs/ that says what was computed or measured."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from fingerpad.files import write_text
+from fingerpad.pages.accuracy import accuracy_values
+from fingerpad.pages.claims import claims_values
+from fingerpad.pages.filling import filled
+from fingerpad.pages.frequency import frequency_values
+from fingerpad.pages.robustness import robustness_values
+from fingerpad.pages.skipping import skipping_values
+
+VALUES = {
+    "accuracy": accuracy_values,
+    "claims": claims_values,
+    "frequency": frequency_values,
+    "robustness": robustness_values,
+    "skipping": skipping_values,
+}
+
+
+def main(name: str, template: Path, tables: dict[str, Path], page: Path) -> None:
+    """Read template and tables, write the page."""
+    values = VALUES[name]({table: pd.read_csv(path) for table, path in tables.items()})
+    write_text(page, filled(template.read_text(encoding="utf-8"), values))
+
+
+if __name__ == "__main__":
+    job = snakemake  # noqa: F821
+    main(
+        job.wildcards.page,
+        Path(job.input.template),
+        dict(zip(job.params.names, map(Path, job.input.tables), strict=True)),
+        Path(job.output.page),
+    )
