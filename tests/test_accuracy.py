@@ -15,8 +15,10 @@ from fingerpad.prediction.scoring import rows_at
 from fingerpad.readouts.accuracy import COARSENING, LEAST, ORDER, score_errors, true_errors, with_errors
 from fingerpad.readouts.roughness import roughness_scores, scene_span
 from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.readout import Readout
+from fingerpad.scene.tissue_law import Kinematics
 from scenes import scene
 
 GRID = np.linspace(-12.0, 12.0, 2401)  # mm
@@ -84,6 +86,23 @@ def test_curves_on_another_grid_are_compared_where_the_first_one_is() -> None:
     found = score_errors(scene("device2"), curves(values, values), coarser)
     scores = roughness_scores(scene("device2"), curves(values, values))
     assert found == pytest.approx({each: LEAST * scores[each] for each in Readout})
+
+
+@pytest.mark.parametrize("kinematics", Kinematics)
+def test_errors_are_of_the_time_that_is_read(kinematics: Kinematics) -> None:
+    """Sideways and back to the other side, without friction: a mirrored row has two peaks, which are mirror images, and
+    a coarser mesh may find the other one larger. The error is that of going to the first peak alone.
+    """
+    base = scene("device2").coarsened(2.0).with_kinematics(kinematics)
+    there = np.full((1, 4), 0.02)
+    once = Condition("once", "a", 0.0, np.array([1.0]), 0.0 * there, there)
+    path = np.concatenate([there, 0.0 * there, -there])
+    both = Condition("both", "a", 1.0, np.array([1.0, 2.0, 3.0]), 0.0 * path, path)
+    found = forecast(replace(base, device=replace(base.device, conditions=(once, both))))
+    without = [row for row in found if row["interface"] == Interface.FRICTIONLESS]
+    errors = {(row["condition"], row["readout"]): row["score_error"] for row in without}
+    for readout in Readout:
+        assert errors["both", readout] == pytest.approx(errors["once", readout], rel=0.01)
 
 
 def test_errors_stand_behind_scores() -> None:

@@ -503,6 +503,12 @@ def test_long_values_are_cut(tmp_path: Path) -> None:
     assert len(message) - len(str(path)) < 250
 
 
+def test_numbers_are_what_people_take_them_for() -> None:
+    """Leading zeros and exponents as in YAML 1.2; a phase of 045 degrees is no octal number."""
+    assert read_values("045, -010, 1e-3, 2E2, +.5, 5.") == [45, -10, 1e-3, 200.0, 0.5, 5.0]
+    assert read_values("0x1F, 1_000, 1:30, 1e, .") == ["0x1F", "1_000", "1:30", "1e", "."]
+
+
 def test_known_devices() -> None:
     assert {"device1", "device2", "device3"} <= set(known_devices(DEVICES))
     assert require_device("device2", DEVICES) == DEVICES / "device2.yaml"

@@ -162,6 +162,13 @@ def filtered_of(wildcards):
     return [f"{folder}/{condition}/{interface}/filtered.npz" for condition, interface in cases_of(wildcards)]
 
 
+def solutions_of(wildcards):
+    """Solutions that hold for all cases of the wildcard device."""
+    solved_as = scene_of(wildcards).solved_as
+    folder = f"results/{wildcards.kinematics}/{wildcards.device}"
+    return [f"{folder}/{solved_as(name).name}/{interface}/solution.npz" for name, interface in cases_of(wildcards)]
+
+
 def tissue_of(wildcards):
     """`tissue_law` of the wildcard device."""
     return tissue_law(scene_of(wildcards).device.name, kinematics_of(wildcards))

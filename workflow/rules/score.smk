@@ -37,6 +37,7 @@ rule check:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
         edges="results/{kinematics}/{device}/edges.csv",
+        solutions=solutions_of,
         filtered=filtered_of,
     output:
         errors="results/{kinematics}/{device}/check.csv",

@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
+from fingerpad.contact.solution import Solution
 from fingerpad.jobs import plain_errors
 from fingerpad.prediction.edges import load_edges
-from fingerpad.prediction.scoring import error_rows
+from fingerpad.prediction.scoring import ReadOut, error_rows
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -13,11 +14,21 @@ from fingerpad.store import load, write_rows
 
 
 def main(
-    config: Path, device: Path, kinematics: str, edges: Path, filtered: dict[tuple[str, Interface], Path], errors: Path
+    config: Path,
+    device: Path,
+    kinematics: str,
+    edges: Path,
+    cases: list[tuple[str, str]],
+    solutions: list[Path],
+    filtered: list[Path],
+    errors: Path,
 ) -> None:
-    """Read the scene, its edges and the filtered read-outs of all cases, solve them coarsely, write errors."""
+    """Read the scene, its edges and what was read in all cases, solve them coarsely, write errors."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    read = {case: load(path, FilteredReadouts) for case, path in filtered.items()}
+    read = {
+        (condition, Interface(interface)): ReadOut(load(solved, Solution).read, load(path, FilteredReadouts))
+        for (condition, interface), solved, path in zip(cases, solutions, filtered, strict=True)
+    }
     write_rows(errors, error_rows(scene, load_edges(edges), read))
 
 
@@ -29,9 +40,8 @@ if __name__ == "__main__":
             Path(job.input.device),
             job.wildcards.kinematics,
             Path(job.input.edges),
-            {
-                (condition, Interface(interface)): Path(path)
-                for (condition, interface), path in zip(job.params.cases, job.input.filtered, strict=True)
-            },
+            job.params.cases,
+            [Path(path) for path in job.input.solutions],
+            [Path(path) for path in job.input.filtered],
             Path(job.output.errors),
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, TypeVar
 
@@ -52,6 +52,14 @@ class Meshed:
     section: SectionMesh
     body: CondensedBody | None
     resampling: Resampling
+
+
+@dataclass(frozen=True)
+class ReadOut:
+    """What was read of a solution: the index of the time, and filtered read-outs."""
+
+    time: int
+    filtered: FilteredReadouts
 
 
 @dataclass(frozen=True)
@@ -105,12 +113,12 @@ def rows_at(
 
 
 def error_rows(
-    scene: Scene, edges: FloatArray, read: Mapping[Case, FilteredReadouts], step: Callable[[], object] = lambda: None
+    scene: Scene, edges: FloatArray, read: Mapping[Case, ReadOut], step: Callable[[], object] = lambda: None
 ) -> list[dict[str, Any]]:
     """Rows with the `score_error` of every score, from a solution with sizes and increments COARSENING times as large
-    and edges (k, 2) [mm]; None where that cannot be had, and a `note` that says why.
+    and edges (k, 2) [mm], which is read at the same time; None where that cannot be had, and a `note` that says why.
 
-    read: filtered read-outs of the cases that have scores. step: called after condensation and after every condition.
+    read: what was read in the cases that have scores. step: called after condensation and after every condition.
     """
     other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
     try:
@@ -118,14 +126,21 @@ def error_rows(
     except (MeshError, CondensationError) as error:
         return [row for case in read for row in _errors_of(scene, case, f"{UNKNOWN}{error}")]
     step()
-    for solved in solve_scene(other, condensed):
-        if solved.case in read:
-            if isinstance(solved.solution, Unsolved):
-                rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")
-            else:
-                coarser = read_out(other, condensed, solved.solution)
-                rows += _errors_of(scene, solved.case, "", score_errors(scene, read[solved.case], coarser))
-        step()
+    for interface in scene.device.interfaces():
+        conditions = [
+            each.until(read[each.name, interface].time) if (each.name, interface) in read else each
+            for each in other.device.conditions
+        ]
+        shown = replace(other, device=replace(other.device, conditions=tuple(conditions)))
+        for solved in solve_scene(shown, condensed, [interface]):
+            if solved.case in read:
+                if isinstance(solved.solution, Unsolved):
+                    rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")
+                else:
+                    coarser = read_out(other, condensed, solved.solution)
+                    errors = score_errors(scene, read[solved.case].filtered, coarser)
+                    rows += _errors_of(scene, solved.case, "", errors)
+            step()
     return rows
 
 
@@ -160,8 +175,8 @@ def predicted_rows(
 
 def solved_rows(
     scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None
-) -> tuple[list[dict[str, Any]], dict[Case, FilteredReadouts]]:
-    """Rows of the score table of what the device moves, on a mesh with edges (k, 2) [mm], and filtered read-outs of the
+) -> tuple[list[dict[str, Any]], dict[Case, ReadOut]]:
+    """Rows of the score table of what the device moves, on a mesh with edges (k, 2) [mm], and what was read in the
     cases that have scores. What cannot be meshed or solved has no score, and a note that says why.
 
     step: called after condensation and after every condition.
@@ -172,14 +187,15 @@ def solved_rows(
         return unsolved_rows(scene, f"{NO_PREDICTION}: {refusal}"), {}
     step()
     rows: list[dict[str, Any]] = []
-    read: dict[Case, FilteredReadouts] = {}
+    read: dict[Case, ReadOut] = {}
     for solved in solve_scene(scene, condensed):
         if isinstance(solved.solution, Unsolved):
             note = f"{NO_PREDICTION}: {solved.solution}"
             rows += unscored_rows(scene, solved.condition, solved.interface, note)
         else:
-            read[solved.case] = read_out(scene, condensed, solved.solution)
-            rows += rows_of(scene, solved, solved.solution, read[solved.case])
+            filtered = read_out(scene, condensed, solved.solution)
+            read[solved.case] = ReadOut(solved.solution.read, filtered)
+            rows += rows_of(scene, solved, solved.solution, filtered)
         step()
     return rows, read
 

@@ -14,6 +14,8 @@ from ..tissue.compliance import VOIGT
 # of a change [1] by which another one differs from it at least; source: proportional ones that are nearly as large as
 # the peak's (`caveats.RIVAL`) differ by a fiftieth
 UNLIKE = 0.1
+# of the largest [1] by which changes differ that count as equally large; source: those at times that mirror, by 1e-11
+TIED = 1e-6
 
 
 def maximum_principal(components: FloatArray) -> FloatArray:
@@ -67,7 +69,7 @@ def read_receptors(
     changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
     size = _size(changes, arc)
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
-    time = int(np.argmax(size))
+    time = int(np.argmax(size >= (1.0 - TIED) * size.max()))  # the first of those that mirror
     return Reading(settling + time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
 
 

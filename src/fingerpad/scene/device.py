@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from enum import StrEnum
 
@@ -153,6 +153,11 @@ class Condition:
     def stroke(self) -> float:
         """Farthest [mm] that it moves an actuator along x or y."""
         return float(np.abs(self.moves).max())
+
+    def until(self, read: int) -> Condition:
+        """The path up to one of its times, at which receptors are read: what follows changes nothing there."""
+        time, normal, tangential = (each[: read + 1] for each in (self.time, self.normal, self.tangential))
+        return replace(self, time=time, normal=normal, tangential=tangential, settling=read)
 
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""

@@ -7,6 +7,7 @@ Every leaf of a scene file is a quantity: a mapping with `value`, `unit` and `so
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,12 @@ from .stimuli import CYCLES, KINDS
 from .tissue_law import Kinematics, Law, TissueLaw
 from .vibration_rule import Relaxation, VibrationRule
 
-MERGE, TEXT = "tag:yaml.org,2002:merge", "tag:yaml.org,2002:str"
+MERGE, TEXT, INTEGER, FLOAT = (f"tag:yaml.org,2002:{name}" for name in ("merge", "str", "int", "float"))
+# numbers as YAML 1.2 has them; PyYAML reads YAML 1.1, in which 045 is 37, 1:30 is 90, and 1e-3 a text
+NUMBERS = {
+    INTEGER: r"[-+]?[0-9]+$",
+    FLOAT: r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$|[-+]?\.(inf|Inf|INF)$|\.(nan|NaN|NAN)$",
+}
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
 KINEMATICS = {"both": tuple(Kinematics), "small": (Kinematics.SMALL,)}  # what files call them
 QUOTES = "; text with a colon or a comma needs quotes"  # what is wrong most often where a flow mapping is not one
@@ -35,8 +41,13 @@ LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema 
 
 class _Loader(yaml.SafeLoader):
     """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, which make lists
-    beyond any memory from a few lines.
+    beyond any memory from a few lines. Its numbers are NUMBERS.
     """
+
+    yaml_implicit_resolvers = {  # noqa: RUF012 - PyYAML's own name, which it copies before it adds to it
+        first: [each for each in known if each[0] not in NUMBERS]
+        for first, known in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
 
     def get_single_node(self) -> yaml.Node | None:
         node = super().get_single_node()
@@ -63,10 +74,16 @@ class _Loader(yaml.SafeLoader):
                 raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
             seen[key.value] = key.start_mark.line + 1
             if key.value.startswith("0") and key.value.isdecimal():
-                key.tag = TEXT  # {value: 0,025} has the key 025, which is 21 to YAML
+                key.tag = TEXT  # {value: 0,025} has the key 025, which is 25 to YAML
         return node
 
+    def construct_integer(self, node: yaml.ScalarNode) -> int:
+        return int(node.value)
 
+
+for _tag, _pattern in NUMBERS.items():
+    _Loader.add_implicit_resolver(_tag, re.compile(_pattern), list("-+.0123456789"))
+_Loader.add_constructor(INTEGER, _Loader.construct_integer)
 _Loader.add_constructor(None, _Loader.construct_undefined)
 
 

@@ -304,8 +304,8 @@ def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
 
 
 def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
-    """What was probably meant by a text for a number (1e-9, which YAML takes for text, 0,6 or 16 mm), or by micrometres
-    or metres that are called mm; or nothing.
+    """What was probably meant by a text for a number (0,6 or 16 mm), or by micrometres or metres that are called mm; or
+    nothing.
     """
     if isinstance(found, str):
         with suppress(ValueError):
