@@ -13,6 +13,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from fingerpad.errors import SceneError
+from fingerpad.scene.scenefile import read_values
 from fingerpad.scene.validation import MOST_REPORTED, check_config, check_device, known_devices, require_device
 
 ROOT = Path(__file__).parents[1]
@@ -142,9 +143,9 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     ),
     "text for a number": ({"finger.width.value": "wide"}, "finger.width.value", ["found wide", "a finite number"]),
     "number as text": (
-        {"numerics.newton_tolerance.value": "1e-9"},
-        "numerics.newton_tolerance.value",
-        ["found 1e-9", "a finite number", "did you mean 1.0e-09?"],
+        {"numerics.growth.value": "0,2"},
+        "numerics.growth.value",
+        ["found 0,2", "a finite number", "did you mean 0.2?"],
     ),
     "boolean for a number": (
         {"contact.friction.value": True},
