@@ -233,6 +233,15 @@ def test_fields_are_those_of_the_condition(coarse: Path, output: str, capsys: py
         assert fields["displacement_mm"][:, 1].max() > 1.0
 
 
+def test_fields_whose_folder_is_a_file_are_refused_before_anything_is_solved(
+    checkout: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (checkout / "path").touch()
+    case = ["--condition", "alternate_180", "--interface", "shear", "-o", "path.pvd"]
+    assert main(["fields", "config/devices/device2.yaml", *case]) == FAILED
+    assert "path: found a file; allowed: a folder" in capsys.readouterr().err
+
+
 # fingerpad predict
 
 
@@ -626,6 +635,26 @@ def test_predict_prints_json_and_csv(
     assert rows[1]["score"] == rows[1]["rank"] == ""
 
 
+@pytest.mark.parametrize("form", ["--json", "--csv"])
+def test_interrupted_predictions_keep_what_is_there(
+    form: str,
+    checkout: Path,
+    quick: list[dict[str, Any]],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def forecast_one(scene: Scene, *given: Any) -> list[dict[str, Any]]:
+        if scene.device.name == "device3":
+            raise KeyboardInterrupt
+        return quick
+
+    monkeypatch.setattr(predicting, "forecast", forecast_one)
+    assert main(["predict", form, "config/devices/device2.yaml", "config/devices/device3.yaml"]) == INTERRUPTED
+    said = capsys.readouterr().out
+    rows = json.loads(said) if form == "--json" else list(csv.DictReader(io.StringIO(said)))
+    assert [row["readout"] for row in rows] == [row["readout"] for row in quick]
+
+
 def test_predict_takes_values_in_turn(
     checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -643,7 +672,7 @@ def test_predict_takes_values_in_turn(
     said = capsys.readouterr().out
     assert "(device2), small strain, contact.friction 0.9\n" in said
     assert said.endswith(
-        "\n\ndevice2: 2 variants\nthese values change no score\n"
+        "\n\ndevice2, small strain: 2 variants\nthese values change no score\n"
         "shear, strain: no two scores differ by more than their errors\n"
     )
 

@@ -34,8 +34,8 @@ solved to a certified solution; 130 interrupted.
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; its exit code. A FingerpadError is printed without a traceback."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    options = _parser(given[:1]).parse_args(given)
     try:
+        options = _parser(given[:1]).parse_args(given)
         options.run(options)
         sys.stdout.flush()
     except BrokenPipeError:  # whoever reads what is printed has read enough, as `head` has

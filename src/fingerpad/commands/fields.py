@@ -42,12 +42,17 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve the condition, and write what it does to the section. Raises UsageError for an output of another kind than
-    ENDINGS, and what `checked_case`, `mesh_device` and `solved_states` raise.
+    ENDINGS or a path whose folder is a file, and what `checked_case`, `mesh_device` and `solved_states` raise.
     """
     output = options.output
     if output.suffix not in ENDINGS:
         raise UsageError(f"{output}: found the ending '{output.suffix}'; allowed: {', '.join(ENDINGS)}")
     require_folder(output)
+    folder, last = output.with_suffix(""), output.with_suffix(".vtu")
+    if output.suffix == ".pvd":
+        require_folder(last)
+        if folder.exists() and not folder.is_dir():
+            raise UsageError(f"{folder}: found a file; allowed: a folder, or nothing, where states on the way go")
     scene, condition, interface = checked_case(options)
     with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
         section = mesh_device(scene)
@@ -57,7 +62,7 @@ def run(options: argparse.Namespace) -> None:
         meshes = field_meshes(section, scene, states)
         bar.update()
         if output.suffix == ".pvd":
-            write_path(output, output.with_suffix(""), output.with_suffix(".vtu"), condition.times, meshes)
+            write_path(output, folder, last, condition.times, meshes)
         else:
             write_vtu(output, meshes[-1])
         bar.update()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from ..scene.tissue_law import Kinematics
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
 from .options import add_scene_options, add_variation, checked_scene, variations
-from .printing import aligned, print_csv, titled
+from .printing import aligned, as_csv, titled
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
@@ -57,7 +58,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Solve every variant of every device; print each table once it is there, or all scores as JSON or CSV.
+    """Solve every variant of every device; print each table once it is there, as text or CSV, or all scores as JSON,
+    which are those that are there if it is interrupted.
 
     Raises ContactError if there is none.
     """
@@ -68,21 +70,28 @@ def run(options: argparse.Namespace) -> None:
         for device in options.devices
     ]
     rows: list[dict[str, Any]] = []
-    with tqdm(total=sum(steps(scene, error) for own in devices for scene in own), leave=False, disable=None) as bar:
-        for own in devices:
-            tables = []
-            for scene, values in zip(own, varied, strict=True):
-                bar.set_description(scene.device.name)
-                tables.append(forecast(scene, error, bar.update))
-                if is_text:
-                    bar.write(("\n" if rows else "") + as_table(scene, tables[-1], values))
-                rows += [values | row for row in tables[-1]]
-            if is_text and error and len(varied) > 1:
-                bar.write("\n".join(["", f"{own[0].device.name}: {len(varied)} variants", *orders(tables)]))
-    if options.json:
-        print(json.dumps(rows, indent=2))
-    elif options.csv:
-        print_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows])
+    total = sum(steps(scene, error) for own in devices for scene in own)
+    try:
+        with tqdm(total=total, leave=False, disable=None) as bar:
+            for own in devices:
+                tables = []
+                for scene, values in zip(own, varied, strict=True):
+                    bar.set_description(scene.device.name)
+                    tables.append(forecast(scene, error, bar.update))
+                    found = [values | row for row in tables[-1]]
+                    if options.csv:
+                        told = [{**row, "caveats": "; ".join(row["caveats"])} for row in found]
+                        bar.write(as_csv(told, header=not rows), end="")
+                    elif is_text:
+                        bar.write(("\n" if rows else "") + as_table(scene, tables[-1], values))
+                    sys.stdout.flush()
+                    rows += found
+                if is_text and error and len(varied) > 1:
+                    title = f"{own[0].device.name}, {kinematics} strain: {len(varied)} variants"
+                    bar.write("\n".join(["", title, *orders(tables)]))
+    finally:
+        if options.json:
+            print(json.dumps(rows, indent=2))
     if all(row["score"] is None for row in rows):
         raise ContactError(f"nothing could be scored: {rows[0]['note']}")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-import sys
+import io
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -33,8 +33,15 @@ def aligned(lines: Sequence[Sequence[str]], right: Sequence[bool]) -> list[str]:
     ]
 
 
-def print_csv(rows: Sequence[Mapping[str, Any]]) -> None:
-    """Rows that share their keys, as CSV on standard output."""
-    writer = csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
+def as_csv(rows: Sequence[Mapping[str, Any]], header: bool = True) -> str:
+    """Rows that share their keys, as lines of CSV, the first with their names if asked for.
+
+    >>> as_csv([{"a": 1, "b": "x"}, {"a": None, "b": "y, z"}])
+    'a,b\\n1,x\\n,"y, z"\\n'
+    """
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    if header:
+        writer.writeheader()
     writer.writerows(rows)
+    return text.getvalue()

@@ -20,7 +20,7 @@ from ..scene.scene import Scene
 from ..vibration.creep import condense_creep
 from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_rows
 from .options import add_scene_options, checked_scene
-from .printing import aligned, print_csv, titled
+from .printing import aligned, as_csv, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 3  # of the progress before any score: mesh, compliance, creep
@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> None:
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
-        print_csv(rows)
+        print(as_csv(rows), end="")
     else:
         print(as_table(scene, rows))
 
