@@ -341,10 +341,20 @@ def test_an_order_that_leaves_the_slope_open_decides_no_correlation() -> None:
     """Two classes of ratings without an order: |r| is 0.999 whichever is rated higher."""
     scores = make_scores({("device2", "shear", "change_of_strain"): [1.0, 1.1, 3.0]})
     correlations = correlate(scores, "surrogate")
-    both = {"r_lowest": -0.9988, "r_highest": 0.9988, "r2_lowest": 0.9976, "r2_highest": 0.9976, "range_error": 0.01}
-    table = claims_table(scores, correlations.assign(**both))
+    both = {"r_lowest": -0.9988, "r_highest": 0.9988, "r2_lowest": 0.9976, "r2_highest": 0.9976}
+    table = claims_table(scores, correlations.assign(**both, range_error=0.01, range_open=0))
     claim = "Device 2: the change of strain correlates very well."
     assert table.loc[table["claim"] == claim, "holds"].item() == "undecided"
+
+
+def test_a_sign_is_certain_where_errors_do_not_turn_it_however_large_they_are() -> None:
+    """They may raise |r| by more than itself."""
+    scores = make_scores({("device2", "frictionless", "strain"): [2.0, 1.5, 1.0]})
+    correlations = correlate(scores).assign(r_error=2.0)
+    claim = "Device 2 without shear: the strain correlates negatively."
+    for is_open, holds in ((0, "yes"), (1, "undecided")):
+        table = claims_table(scores, correlations.assign(slope_open=is_open))
+        assert table.loc[table["claim"] == claim, "holds"].item() == holds
 
 
 def test_committed_page_says_of_small_strain_what_the_recorded_scores_do() -> None:

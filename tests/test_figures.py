@@ -211,7 +211,7 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     assert ("Change of strain score (10⁻³ mm²)", "Perceived roughness\n(ordinal surrogate)") in axis_labels(figure)
     assert "published: poor" in text
     assert "(open)" not in text
-    open_ = words(correlation_figure(SCORES, RATINGS, correlations.assign(r_error=1.1), TITLES, Kinematics.SMALL))
+    open_ = words(correlation_figure(SCORES, RATINGS, correlations.assign(slope_open=1), TITLES, Kinematics.SMALL))
     assert open_.replace("\n", " ").count("ing (open)") == open_.count("R² = ") > 0
 
 
@@ -255,8 +255,8 @@ def test_unrated_conditions_with_one_score_share_a_place() -> None:
 
 
 def test_captions_explain_what_is_there_alone(correlations: pd.DataFrame) -> None:
-    certain = correlations.assign(r_error=0.0)
-    for given, is_open in ((certain, False), (certain.assign(r_error=1.1), True)):
+    certain = correlations.assign(r_error=0.0, slope_open=0)
+    for given, is_open in ((certain, False), (certain.assign(slope_open=1), True)):
         for figure in (
             correlation_figure(SCORES, RATINGS, given, TITLES, Kinematics.SMALL),
             ablation_figure(SCORES, given, TITLES, Kinematics.SMALL),

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from fingerpad.errors import RatingError
-from fingerpad.perception.correlation import COLUMNS, correlation_table, error_in_r
+from fingerpad.perception.correlation import COLUMNS, correlation_table, error_in_r, is_turned
 from fingerpad.perception.extremes import rating_range, up_sets
 from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
@@ -382,7 +382,26 @@ def test_errors_beyond_r_leave_the_slope_open_and_others_do_not(scale: float) ->
     """Scores 1, 3, 2 with ratings 1, 2, 3: the slope vanishes as soon as the outer ones come closer by their distance,
     each by 0.5."""
     score, rating = np.array([1.0, 3.0, 2.0]), np.array([1.0, 2.0, 3.0])
+    assert is_turned(score, rating, np.full(3, 0.5 * scale)) is (scale > 1.0)
     assert (error_in_r(score, rating, np.full(3, 0.5 * scale)) > 0.5) is (scale > 1.0)
+
+
+def test_errors_that_leave_the_sign_may_still_raise_r_by_more_than_itself() -> None:
+    """Where scores' errors rival their spread; over the corners of the box of errors r goes up by 0.48, from 0.26."""
+    score, rating = np.array([3.765, 5.611, 4.379]), np.array([-1.884, -0.778, 0.640])
+    error = np.array([0.168, 0.946, 0.119])
+    corners = score + error * np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
+    r = np.corrcoef(score, rating)[0, 1]
+    found = np.array([np.corrcoef(corner, rating)[0, 1] for corner in corners])
+    assert found.min() > 0.0
+    assert not is_turned(score, rating, error)
+    assert found.max() - r > error_in_r(score, rating, error) > r
+
+
+def test_scores_that_only_rounding_tells_apart_are_constant() -> None:
+    row = make_table(make_scores("device2", [1.0, 1.0 + 2e-8, 1.0 + 3e-8])).iloc[0]
+    assert row["note"] == "constant score"
+    assert pd.isna(row["r2"])
 
 
 def test_a_slope_that_turns_with_some_rating_in_the_order_is_open() -> None:
@@ -390,6 +409,7 @@ def test_a_slope_that_turns_with_some_rating_in_the_order_is_open() -> None:
     scores = make_scores("device2", [-2.556, -1.969, -0.388]).assign(score_error=[0.069, 1.384, 1.222])
     row = make_table(scores).iloc[0]
     assert 0.0 < row["r_lowest"] < row["range_error"]
+    assert (row["slope_open"], row["range_open"]) == (0, 1)
     x, error = scores["score"].to_numpy(), scores["score_error"].to_numpy()
     at_ends = [error_in_r(x, rating, error) for rating in rating_range(x, CHAIN).ratings]
     assert max(at_ends) < row["r_lowest"]

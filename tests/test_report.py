@@ -63,6 +63,7 @@ def correlation(device: str, interface: Interface, readout: Readout, r2: str) ->
         "slope_sign": "-1",
         "r2": r2,
         "r_error": "0.1",
+        "slope_open": "0",
         "r2_lowest": "0.25",
         "r2_highest": "0.75",
         "kendall_tau": "-0.5",

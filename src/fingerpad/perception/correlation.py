@@ -6,7 +6,6 @@ range of R² over *all* ratings which agree with the stated order, which needs n
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -28,11 +27,13 @@ COLUMNS = [
     "slope_sign",
     "r2",
     "r_error",
+    "slope_open",
     "r_lowest",
     "r_highest",
     "r2_lowest",
     "r2_highest",
     "range_error",
+    "range_open",
     "kendall_tau",
     "p",
     "published_r2",
@@ -51,34 +52,39 @@ def error_in_r(score: FloatArray, rating: FloatArray, error: FloatArray) -> floa
     """What errors (n,) of scores (n,) can add up to in r with ratings (n,) [1]; not a number if they are not known.
 
     With x, y centred and scaled to norm 1, |S| the norm of the centred scores and errors d_i, that is to first order
-        sum |y_i - r x_i| d_i / |S|;
-    and the slope can change its sign if and only if sum |y_i| d_i / |S| > |r|: then the error is the larger of both,
-    else at most |r|.
+        sum |y_i - r x_i| d_i / |S|,
+    and no less than what turns the slope, sum |y_i| d_i / |S|, where that is more than |r|.
 
     >>> round(error_in_r(np.array([1.0, 3.0, 2.0]), np.array([1.0, 2.0, 3.0]), np.full(3, 0.25)), 12)
     0.25
     """
+    first, turning, r = _moved(score, rating, error)
+    return max(first, turning) if turning > abs(r) else first
+
+
+def is_turned(score: FloatArray, rating: FloatArray, error: FloatArray) -> bool:
+    """Whether errors (n,) of scores (n,) can change the sign of the slope with ratings (n,): exactly if
+    sum |y_i| d_i / |S| > |r| (see `error_in_r`). Not where they are not known.
+    """
+    _, turning, r = _moved(score, rating, error)
+    return turning > abs(r)
+
+
+def _moved(score: FloatArray, rating: FloatArray, error: FloatArray) -> tuple[float, float, float]:
+    """Both sums of `error_in_r` [1], and r [1]."""
     x, y, share = unit(score), unit(rating), error / np.linalg.norm(score - score.mean())
     r = float(x @ y)
-    first, turning = float(np.abs(y - r * x) @ share), float(np.abs(y) @ share)
-    if turning > abs(r):
-        return max(first, turning)
-    return first if math.isnan(first) else min(first, abs(r))
+    return float(np.abs(y - r * x) @ share), float(np.abs(y) @ share), r
 
 
-def _range_error(score: FloatArray, over: RatingRange, error: FloatArray) -> float:
-    """What errors (n,) of scores (n,) can add up to in the ends of the range of r, and with generators that they turn.
+def _range_errors(score: FloatArray, over: RatingRange, error: FloatArray) -> tuple[float, bool]:
+    """What errors (n,) of scores (n,) can add up to in the ends of the range of r, and with generators that they turn;
+    and whether they turn any rating's slope.
 
     No rating's slope turns if that of no generator does: sum |y_i| d_i <= |<S, y>| then holds for their sums, too.
     """
-    found = [error_in_r(score, rating, error) for rating in over.ratings]
-    r = unit(over.generators) @ unit(score)
-    found += [
-        each
-        for rating, own in zip(over.generators, r, strict=True)
-        if (each := error_in_r(score, rating, error)) > abs(own)
-    ]
-    return max(found)
+    turned = [rating for rating in over.generators if is_turned(score, rating, error)]
+    return max(error_in_r(score, rating, error) for rating in (*over.ratings, *turned)), bool(turned)
 
 
 def correlation_table(
@@ -93,11 +99,11 @@ def correlation_table(
 
     Returns the columns COLUMNS:
     n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what
-    errors of scores can add up to in r (`error_in_r`), larger than |r| where they leave the slope's sign open; empty if
-    they are not known.
+    errors of scores can add up to in r (`error_in_r`), and slope_open: 1 where they leave the slope's sign open, else
+    0; empty if they are not known.
     r_lowest, r_highest: of r over all ratings that agree with the stated order (`rating_range`), and r2_lowest,
-    r2_highest: of R², whichever way the slope then is; range_error: as r_error, the larger of those at both ends of r;
-    larger than |r| at one of the ends if some rating's slope is open; empty without an order.
+    r2_highest: of R², whichever way the slope then is; range_error and range_open: as r_error,
+    the larger of those at both ends of r, and 1 if some rating's slope is open; empty without an order.
     kendall_tau: tau-b; scores that only rounding tells apart are tied. p: two-sided p of the Pearson correlation over
     distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count once with the
     mean of their ratings (the note then says how many are distinct).
@@ -117,7 +123,7 @@ def correlation_table(
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
     ranges = ("r_lowest", "r_highest", "r2_lowest", "r2_highest", "range_error")
     numbers = ("r2", "r_error", *ranges, "kendall_tau", "p", "published_r2")
-    signs = dict.fromkeys(("slope_sign", "published_slope"), "Int64")
+    signs = dict.fromkeys(("slope_sign", "slope_open", "range_open", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
 
@@ -138,23 +144,25 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     x = score.to_numpy()
     y = rating.loc[score.index].to_numpy()
     found: dict[str, Any] = {"n": x.size, "rating_kind": kind}
-    for values, note in ((x, CONSTANT_SCORE), (y, "constant rating")):
-        if is_constant(values):
+    which = classes(x)
+    for is_one, note in ((not which.any(), CONSTANT_SCORE), (is_constant(y), "constant rating")):
+        if is_one:
             return {**found, "note": note}
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}
     notes = []
-    which = classes(x)
     distinct = np.bincount(which, x) / np.bincount(which)
     if distinct.size < x.size:
         notes.append(f"{distinct.size} of {x.size} conditions are distinct")
     error = scores["score_error"].to_numpy(float)
+    known = bool(np.isfinite(error).all())
     if len(order):
         at_most = order_matrix(list(score.index), order)
         over = rating_range(x, at_most)
         found["r_lowest"], found["r_highest"] = over.r
         found["r2_lowest"], found["r2_highest"] = over.r2
-        found["range_error"] = _range_error(x, over, error)
+        found["range_error"], range_open = _range_errors(x, over, error)
+        found["range_open"] = int(range_open) if known else None
         equal = at_most & at_most.T
         if np.any(at_most & ~equal & (y[:, None] >= y[None, :])):
             notes.append("ratings contradict the stated order")
@@ -167,6 +175,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         "slope_sign": int(np.sign(r)),
         "r2": r**2,
         "r_error": error_in_r(x, y, error),
+        "slope_open": int(is_turned(x, y, error)) if known else None,
         "kendall_tau": float(kendalltau(which, y).statistic),
         "p": float(pearsonr(distinct, mean_rating).pvalue) if distinct.size > 2 and np.ptp(mean_rating) > 0.0 else None,
         "note": "; ".join(notes),

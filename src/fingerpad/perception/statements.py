@@ -194,7 +194,8 @@ def _correlates(
     def check(tables: Tables) -> Verdict:
         row = tables.correlation(device, interface, readout)
         r = r_of(row)
-        ends = [is_less(more_than, sign * end, r.error) for end in r.ends]
+        error = r.error if more_than > 0.0 or r.is_open else 0.0  # a sign is certain where errors do not turn it
+        ends = [is_less(more_than, sign * end, error) for end in r.ends]
         return throughout(ends), f"{READOUT_NAME[readout]}, {_described(row)}."
 
     return check

@@ -30,12 +30,14 @@ class Holds(StrEnum):
 @dataclass(frozen=True)
 class Correlation:
     """Pearson's r [1] over all ratings that may be meant: its lowest and highest value, and those of |r|. error: what
-    errors of scores can add up to in it.
+    errors of scores can add up to in it, infinite if they are not known. is_open: whether they leave the sign of some
+    of them open.
     """
 
     ends: tuple[float, float]
     strengths: tuple[float, float]
     error: float
+    is_open: bool
 
 
 IS_LESS = {
@@ -102,16 +104,16 @@ def r_of(row: Mapping[str, Any]) -> Correlation:
     stated. What errors of scores can add up to in it is taken to the first order. A constant score has r = 0.
     """
     if pd.isna(row["r2"]):
-        return Correlation((0.0, 0.0), (0.0, 0.0), 0.0)
+        return Correlation((0.0, 0.0), (0.0, 0.0), error=0.0, is_open=False)
     if not is_surrogate(row):
         r = slope_of(row) * math.sqrt(row["r2"])
-        return Correlation((r, r), (abs(r), abs(r)), _known(row["r_error"]))
+        return Correlation((r, r), (abs(r), abs(r)), *_errors(row["r_error"], row["slope_open"]))
     if pd.isna(row["r2_lowest"]):
-        return Correlation((-1.0, 1.0), (0.0, 1.0), math.inf)
+        return Correlation((-1.0, 1.0), (0.0, 1.0), error=math.inf, is_open=True)
     strengths = math.sqrt(row["r2_lowest"]), math.sqrt(row["r2_highest"])
-    return Correlation((row["r_lowest"], row["r_highest"]), strengths, _known(row["range_error"]))
+    return Correlation((row["r_lowest"], row["r_highest"]), strengths, *_errors(row["range_error"], row["range_open"]))
 
 
-def _known(error: float) -> float:
-    """An error, infinite where it is not known."""
-    return math.inf if pd.isna(error) else float(error)
+def _errors(error: float, is_open: float) -> tuple[float, bool]:
+    """What errors of scores leave open of a correlation: all where they are not known."""
+    return (math.inf, True) if pd.isna(error) else (float(error), bool(is_open))

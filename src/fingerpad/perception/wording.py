@@ -20,10 +20,8 @@ def has_p(p: object, kind: object) -> bool:
 
 
 def is_open(row: Mapping[str, Any]) -> bool:
-    """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text, as
-    they can add up to more than |r|.
-    """
-    return has_error(row) and float(row["r2"]) ** 0.5 < float(row["r_error"])
+    """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text."""
+    return has_error(row) and bool(int(row["slope_open"]))
 
 
 def has_error(row: Mapping[str, Any]) -> bool:
@@ -34,7 +32,8 @@ def has_error(row: Mapping[str, Any]) -> bool:
 def slope_name(row: Mapping[str, Any]) -> str:
     """Which way the slope is of a row of the correlation table, also as text, and whether that is open.
 
-    >>> slope_name({"slope_sign": "-1", "r2": "0.25", "r_error": "0.6"}), slope_name({"slope_sign": 1, "r_error": ""})
+    >>> rows = {"slope_sign": "-1", "r_error": "0.6", "slope_open": "1"}, {"slope_sign": 1, "r_error": ""}
+    >>> tuple(slope_name(row) for row in rows)
     ('falling (open)', 'rising (error unknown)')
     """
     doubt = " (open)" if is_open(row) else "" if has_error(row) else " (error unknown)"

@@ -21,7 +21,7 @@ from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import KEY, SCORE_UNIT, score_rows
 from ..readouts.strain import read_receptors
 from ..scene.contact_law import Interface
-from ..scene.readout import Side, is_constant
+from ..scene.readout import Side
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedSection
 from ..tissue.condensation import condense_section
@@ -88,10 +88,11 @@ def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, A
         usual = np.array(list(reference.values()))
         for variant, scores in variants.items():
             values = np.array([scores[condition] for condition in reference])
-            constant = is_constant(usual) or is_constant(values)
+            ranks = classes(usual), classes(values)
+            constant = not all(each.any() for each in ranks)
             row = dict(zip([*KEY, *VARIANT], (*key, *variant), strict=True))
             row["n"] = usual.size
-            row["kendall_tau"] = None if constant else float(kendalltau(classes(usual), classes(values)).statistic)
+            row["kendall_tau"] = None if constant else float(kendalltau(*ranks).statistic)
             row["r"] = None if constant else float(pearsonr(usual, values).statistic)
             found.append(row)
     return found
