@@ -14,6 +14,7 @@ from fingerpad.calculix.crosscheck import sharpened
 from fingerpad.calculix.deck import FRICTIONLESS, READ_NODES, DeckSettings, input_deck, read_nodes
 from fingerpad.cli import FAILED, main
 from fingerpad.contact.profile import profile
+from fingerpad.errors import SceneError
 from fingerpad.prediction.edges import mesh_device
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scene import Scene
@@ -77,6 +78,11 @@ def surface(blocks: list[Block], name: str) -> FloatArray:
         members = element[int(number)]
         found.append([point[members[k]] for k in SIDES[len(members) // 2][int(side[1:]) - 1]])
     return np.array(found)
+
+
+def test_deck_whose_friction_ends_with_pre_indentation_is_refused() -> None:
+    with pytest.raises(SceneError, match="friction that indents must act too"):
+        replace(DECK, friction_indenting=0.6, friction_acting=0.0)
 
 
 @pytest.mark.parametrize("device", ["device1", "device2", "device3"])

@@ -20,6 +20,7 @@ from fingerpad.scene.device import ActuatorRow, Cycle
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.vibration_rule import Relaxation
+from fingerpad.tissue.compliance import CondensedSection
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.elasticity import mass
 from fingerpad.tissue.mesh import SectionMesh
@@ -329,6 +330,44 @@ def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
     assert [row["readout"] for row in rows] == list(Readout)
     assert all(row["score"] is None for row in rows)
     assert all(row["note"].startswith("no prediction: device=device2, interface=shear, pre-ind") for row in rows)
+
+
+def test_cycles_without_an_actuator_at_its_peak_are_refused() -> None:
+    """All pins a quarter of a cycle ahead would be read as they pass through zero."""
+    device = replace(coarse().device, frequencies=(5.0,), cycles=(normal(0.01),))
+    late = replace(normal(0.01), normal=1j * normal(0.01).normal)
+    assert normal(0.01).is_at_peak
+    assert normal(0.0).is_at_peak
+    with pytest.raises(SceneError, match=r"no actuator is at its peak .* group index 0"):
+        replace(device, cycles=(late,))
+
+
+def test_what_rounding_leaves_of_a_change_is_none() -> None:
+    steady = np.tile([0.1, 0.0, 0.0], (4, 5))
+    noisy = steady * (1.0 + 1e-13 * np.random.default_rng(0).standard_normal(steady.shape))
+    assert not cyclic_readouts(noisy)[Readout.CHANGE_OF_STRAIN].any()
+
+
+def test_inertia_does_not_know_how_receptors_are_spaced() -> None:
+    """Maps of one point of the line, or of three there, to the same strains: linear along the arc."""
+    given = coarse()
+    section = condense_section(mesh(("device2", False)), given)
+    finer = np.interp(
+        np.linspace(0.0, 1.0, 3 * section.arc.size) ** 2, np.linspace(0.0, 1.0, section.arc.size), section.arc
+    )
+    driven = stuck(pressed(Interface.SHEAR), normal(0.01))
+    effects = []
+    for arc in (section.arc, finer):
+        still = replace(section, arc=arc, strain=_interpolated(section, arc))
+        moving = replace(still, strain=still.strain * np.repeat(1.0 + 0.01 * np.abs(arc), 3)[:, None])
+        effects.append(inertia_effect(given, driven, still, moving))
+    assert effects[1] == pytest.approx(effects[0], rel=0.01)
+
+
+def _interpolated(section: CondensedSection, arc: np.ndarray) -> np.ndarray:
+    """The map to strain (3k, 2n) at other arc lengths (k,)."""
+    columns = section.strain.reshape(section.arc.size, -1)
+    return np.array([np.interp(arc, section.arc, column) for column in columns.T]).T.reshape(3 * arc.size, -1)
 
 
 def test_cycles_pass_through_the_snapshot() -> None:

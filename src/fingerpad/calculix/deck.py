@@ -52,7 +52,7 @@ class DeckSettings:
     a step at rest after each of them, or none: CalculiX looks only at the start of an increment where the surfaces
     face each other, and in which direction.
 
-    Raises SceneError if a slope or a number of increments is not positive.
+    Raises SceneError if a slope or a number of increments is not positive, or friction ends with pre-indentation.
     """
 
     indentation: float
@@ -68,6 +68,8 @@ class DeckSettings:
         for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
             if not 0 < getattr(self, name) < math.inf:
                 raise SceneError(f"deck: {_told(name)} must be positive and finite, found {getattr(self, name)}")
+        if self.friction_acting == 0.0 < self.friction_indenting:
+            raise SceneError("deck: friction that indents must act too, found 0 during the stimulus")
         if self.rest_increments < 0:
             raise SceneError(f"deck: {_told('rest_increments')} must not be negative, found {self.rest_increments}")
 

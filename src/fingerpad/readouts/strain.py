@@ -65,12 +65,16 @@ def read_receptors(
     """
     # ASSUME: readout: the change of strain is that from the pre-indented state
     before, *strains = (measure(each) for each in (components[0], *components[1 + settling :]))
-    changes = np.array(strains) - before
-    changes[np.abs(changes).max(axis=1) <= CONSTANT * np.abs(before).max()] = 0.0
+    changes = np.array([without_rounding(each - before, before) for each in strains])
     size = _size(changes, arc)
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
     time = int(np.argmax(size >= (1.0 - TIED) * size.max()))  # the first of those that mirror
     return Reading(settling + time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
+
+
+def without_rounding(change: FloatArray, value: FloatArray) -> FloatArray:
+    """A change (m,), zero where no more than rounding of the values (m,) is left of it."""
+    return change if np.abs(change).max() > CONSTANT * np.abs(value).max() else np.zeros_like(change)
 
 
 def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray) -> float:

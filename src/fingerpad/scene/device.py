@@ -182,6 +182,13 @@ class Cycle:
     normal: ComplexArray
     tangential: ComplexArray
 
+    @property
+    def is_at_peak(self) -> bool:
+        """Whether an actuator is at its peak where receptors are read, at phase 0; one that rests is anywhere."""
+        amplitude = np.concatenate([self.normal, self.tangential])
+        size = np.abs(amplitude)
+        return not size.any() or bool((size > 0.0)[np.abs(amplitude.imag) <= ROUNDING * size].any())
+
 
 @dataclass(frozen=True)
 class Device:
@@ -191,8 +198,8 @@ class Device:
     kinematics: with which it may be predicted; strokes that turn elements inside out leave finite ones out.
     frictionless: whether it may be predicted without friction; rows that only friction holds leave that out.
 
-    Raises SceneError if there is no condition, two share a name, or one moves another number of actuators or neighbours
-    into each other.
+    Raises SceneError if there is no condition, two share a name, one moves another number of actuators or neighbours
+    into each other, or one that is asked for at a frequency has no actuator at its peak where it is read.
     """
 
     name: str
@@ -221,6 +228,11 @@ class Device:
                 self._require_apart(f"condition {condition.name}{when}", -np.diff(tangential))
         for cycle in self.cycles:
             self._require_apart(f"condition {cycle.name}, as a vibration", np.abs(np.diff(cycle.tangential)))
+            require(
+                cycle.is_at_peak or not self.frequencies,
+                f"{self.name}: condition {cycle.name}, as a vibration: no actuator is at its peak where receptors are"
+                " read; allowed: an actuator of group index 0",
+            )
 
     def _require_apart(self, what: str, approach: FloatArray) -> None:
         """Raise SceneError if neighbours that come closer by `approach` (n_actuators - 1,) [mm] run into each other."""

@@ -22,7 +22,7 @@ from ..prediction.caveats import depth_caveats
 from ..prediction.scoring import Condensed
 from ..readouts.gabor import filtered_readouts
 from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
-from ..readouts.strain import maximum_principal
+from ..readouts.strain import maximum_principal, without_rounding
 from ..scene.contact_law import Interface
 from ..scene.device import Cycle
 from ..scene.readout import Readout
@@ -158,7 +158,8 @@ def _highest(indented: Indented, cycle: Cycle) -> FloatArray:
 def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:
     """Both read-outs (m,) [1] at the receptors, from strains (n_times, 3m) over a cycle that ends at phase zero."""
     measured = np.array([maximum_principal(each) for each in strain])
-    return {Readout.STRAIN: measured[-1], Readout.CHANGE_OF_STRAIN: measured[-1] - measured.mean(axis=0)}
+    change = without_rounding(measured[-1] - measured.mean(axis=0), measured[-1])
+    return {Readout.STRAIN: measured[-1], Readout.CHANGE_OF_STRAIN: change}
 
 
 def _require_no_inertia(scene: Scene, frequency: float, effect: float) -> None:

@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix
 from ..arrays import ComplexArray, FloatArray
 from ..contact.formulation import Status
 from ..contact.linear_solution import Indented
-from ..readouts.roughness import score_span
+from ..readouts.roughness import scene_span
 from ..scene.device import Cycle
 from ..scene.scene import Scene
 from ..tissue.compliance import VOIGT, CondensedSection
@@ -81,14 +81,19 @@ def _first_harmonic(values: FloatArray) -> ComplexArray:
 
 
 def inertia_effect(scene: Scene, driven: Driven, still: CondensedSection, moving: CondensedSection) -> float:
-    """Change of the receptors' strain by inertia over that strain's own amplitude [1], root mean squares over the
-    score's span. still, moving: the finger condensed at the frequency without its mass and with it.
+    """Change of the receptors' strain by inertia over that strain's own amplitude [1], root mean squares over arc
+    length within the score's span. still, moving: the finger condensed at the frequency without its mass and with it.
     """
-    start, stop = score_span(scene.device.actuators, scene.model.readout.span_margin)
-    inside = np.repeat((still.arc > start) & (still.arc < stop), VOIGT)
-    first, second = (_strain(each, driven)[inside] for each in (still, moving))
-    strained = float(np.linalg.norm(first))
-    return float(np.linalg.norm(second - first)) / strained if strained > 0.0 else 0.0
+    start, stop = scene_span(scene)
+    inside = (still.arc > start) & (still.arc < stop)
+    first, second = (_strain(each, driven).reshape(-1, VOIGT)[inside] for each in (still, moving))
+    strained, changed = (_norm(each, still.arc[inside]) for each in (first, second - first))
+    return changed / strained if strained > 0.0 else 0.0
+
+
+def _norm(strain: ComplexArray, arc: FloatArray) -> float:
+    """Norm of strain amplitudes (m, 3) over arc length (m,) [mm], of which gxy = 2 exy stands for exy and eyx."""
+    return float(np.sqrt(np.trapezoid(np.abs(strain) ** 2 @ [1.0, 1.0, 0.5], arc)))
 
 
 def _strain(maps: CondensedSection, driven: Driven) -> ComplexArray:
