@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
 import numpy as np
@@ -58,35 +58,34 @@ def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
 
 
 @contextmanager
-def named(what: str, advice: str = "") -> Iterator[None]:
-    """Name in every ContactError what was being solved, and say what else may help; nothing else does against depth."""
+def named(what: str, advice: Callable[[ContactError], str] = lambda error: "") -> Iterator[None]:
+    """Name in every ContactError what was being solved, and say what else may help."""
     try:
         yield
     except ContactError as error:
-        raise type(error)(f"{what}: {error}{'' if isinstance(error, DepthError) else advice}") from error
+        raise type(error)(f"{what}: {error}{advice(error)}") from error
+
+
+def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
+    """`named`, for pre-indentation, which goes the deeper the wider the row is."""
+    full = scene.model.contact.criterion is Criterion.FULL
+
+    def advice(error: ContactError) -> str:
+        # what touches no skin at any height fails the other criterion as well
+        touched = not isinstance(error, CriterionError) or error.touched
+        other = TOUCH if full and touched else ""
+        return f"; a narrower row needs less indentation{other}{left_out(scene, interface)}"
+
+    return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)
+
+
+def named_stimulus(scene: Scene, condition: Condition, interface: Interface) -> AbstractContextManager[None]:
+    """`named`, for the stimulus of a condition; nothing helps against depth."""
+    case = f"device={scene.device.name}, condition={condition.name}, interface={interface}"
+    return named(case, lambda error: "" if isinstance(error, DepthError) else left_out(scene, interface))
 
 
 def left_out(scene: Scene, interface: Interface) -> str:
     """What a device's file may leave out where it cannot be solved."""
     finite, frictionless = scene.kinematics is Kinematics.FINITE, interface is Interface.FRICTIONLESS
     return (SMALL_ALONE if finite else "") + (SHEAR_ALONE if frictionless else "")
-
-
-@contextmanager
-def named_pressing(scene: Scene, interface: Interface) -> Iterator[None]:
-    """`named`, for pre-indentation, which goes the deeper the wider the row is."""
-    try:
-        yield
-    except ContactError as error:
-        # what touches no skin at any height fails the other criterion as well
-        touched = not isinstance(error, CriterionError) or error.touched
-        full = scene.model.contact.criterion is Criterion.FULL
-        advice = "; a narrower row needs less indentation" + (TOUCH if full and touched else "")
-        what = f"device={scene.device.name}, interface={interface}, pre-indentation"
-        raise type(error)(f"{what}: {error}{advice}{left_out(scene, interface)}") from error
-
-
-def named_stimulus(scene: Scene, condition: Condition, interface: Interface) -> AbstractContextManager[None]:
-    """`named`, for the stimulus of a condition."""
-    case = f"device={scene.device.name}, condition={condition.name}, interface={interface}"
-    return named(case, left_out(scene, interface))
