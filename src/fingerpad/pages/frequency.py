@@ -116,8 +116,9 @@ def _orders(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def _tau(one: pd.Series, other: pd.Series) -> float:
-    """Kendall's tau of scores of the same conditions, of which some may be one."""
-    return float(kendalltau(classes(one.to_numpy()), classes(other.to_numpy())).statistic)
+    """Kendall's tau of scores of the same conditions that both have, of which some may be one."""
+    known = (one.notna() & other.notna()).to_numpy()
+    return float(kendalltau(*(classes(each.to_numpy()[known]) for each in (one, other))).statistic)
 
 
 def _varied(variants: pd.DataFrame) -> pd.DataFrame:
