@@ -11,12 +11,10 @@ for name, count in zip(("stress_scenes", "stress_scenes_finite"), STRESS_SCENES.
     if type(count) is not int or count < 1:
         raise WorkflowError(f"--config {name}: found {count!r}; allowed: a whole number, 1 or more")
 STRESS_CHUNK = {"small": 500, "finite": 50}  # scenes a job
-
-
-def stress_chunks(kinematics):
-    """Outcomes of all random scenes with those kinematics, by chunk."""
-    chunks = range(-(-STRESS_SCENES[kinematics] // STRESS_CHUNK[kinematics]))
-    return [f"results/stress/{kinematics}_{chunk}.csv" for chunk in chunks]
+STRESS_CHUNKS = {
+    name: [f"results/stress/{name}_{chunk}.csv" for chunk in range(-(-count // STRESS_CHUNK[name]))]
+    for name, count in STRESS_SCENES.items()
+}
 
 
 rule stress:
@@ -48,8 +46,8 @@ rule stress_scenes:
 
 rule stress_summary:
     input:
-        small=stress_chunks("small"),
-        finite=stress_chunks("finite"),
+        small=STRESS_CHUNKS["small"],
+        finite=STRESS_CHUNKS["finite"],
     output:
         summary="results/stress/summary.csv",
     log:
