@@ -4,10 +4,10 @@
 # REQUIRED INPUTS: scene files, results/scores.csv, results/small/device2/reference.csv.
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
-LADDERS = [each for each in KINEMATICS if COMPARED in DEVICES_WITH[each]]
+LADDERS = [each for each in KINEMATICS if COMPARED_DEVICE in DEVICES_WITH[each]]
 # what a run needs of the project
 COPIED = ["Snakefile", "workflow", "src", "config", "data", "notebooks", "profiles", "environment.yml"]
-SKIPPING_FINITE = [path for path in files_with(Kinematics.FINITE) if path.stem == COMPARED]
+SKIPPING_FINITE = [path for path in files_with(Kinematics.FINITE) if path.stem == COMPARED_DEVICE]
 
 
 rule benchmark:
@@ -68,8 +68,8 @@ rule benchmark_ladder:
     input:
         config=ancient(CONFIG),
         device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS[COMPARED]),
-        reference=f"results/small/{COMPARED}/reference.csv",
+        recordings=ancient(lambda w: RECORDINGS[COMPARED_DEVICE]),
+        reference=f"results/small/{COMPARED_DEVICE}/reference.csv",
     output:
         table="results/benchmark/ladder.csv",
         decks=directory("results/benchmark/decks"),
@@ -83,7 +83,7 @@ rule benchmark_ladder:
         runtime=60,
     params:
         code=code("benchmark_ladder.py"),
-        scenes=lambda w: [scored(COMPARED, each) for each in LADDERS],
+        scenes=lambda w: [scored(COMPARED_DEVICE, each) for each in LADDERS],
         condition=COMPARED_CONDITION,
         kinematics=LADDERS,
         finest=0.5,
@@ -107,7 +107,7 @@ rule benchmark_growth:
     input:
         config=ancient(CONFIG),
         device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS[COMPARED]),
+        recordings=ancient(lambda w: RECORDINGS[COMPARED_DEVICE]),
     output:
         sizes="results/benchmark/growth.csv",
         fits="results/benchmark/exponents.csv",
@@ -121,7 +121,7 @@ rule benchmark_growth:
         runtime=60,
     params:
         code=code("benchmark_growth.py"),
-        scene=lambda w: scored(COMPARED),
+        scene=lambda w: scored(COMPARED_DEVICE),
         factors=[2.0, 1.4, 1.0, 0.7, 0.5],
         counts=[4, 8, 16, 32, 64],
         repeats=3,

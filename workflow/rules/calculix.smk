@@ -31,7 +31,7 @@ rule calculix:
     input:
         config=ancient(CONFIG),
         device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS[COMPARED]),
+        recordings=ancient(lambda w: RECORDINGS[COMPARED_DEVICE]),
     output:
         table="results/accuracy/calculix.csv",
         decks=directory("results/calculix"),
@@ -45,8 +45,8 @@ rule calculix:
         runtime=120,
     params:
         code=code("calculix.py"),
-        scene=lambda w: scored(COMPARED),
-        ogden_exponent=lambda w: SCENE[COMPARED].model.tissue.ogden_exponent,
+        scene=lambda w: scored(COMPARED_DEVICE),
+        ogden_exponent=lambda w: SCENE[COMPARED_DEVICE].model.tissue.ogden_exponent,
         condition=COMPARED_CONDITION,
         limit=1800,
         cases={

@@ -25,7 +25,7 @@ SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
 
-COMPARED, COMPARED_CONDITION = ALTERNATE  # what comparisons with CalculiX and of run times are about
+COMPARED_DEVICE, COMPARED_CONDITION = ALTERNATE  # what comparisons with CalculiX and of run times are about
 
 
 def file_of(name):
@@ -93,10 +93,10 @@ def compared_file(wildcards):
     """The scene file of the device that CalculiX and run times are about; without its condition that is an error."""
     if ALTERNATE not in {(each, own.name) for each in DEVICES for own in SCENE[each].device.conditions}:
         raise WorkflowError(
-            f"CalculiX and run times are compared on {COMPARED}'s {COMPARED_CONDITION}: {SCENES / 'devices'} has no such"
+            f"CalculiX and run times are compared on {COMPARED_DEVICE}'s {COMPARED_CONDITION}: {SCENES / 'devices'} has no such"
             " condition"
         )
-    return file_of(COMPARED)
+    return file_of(COMPARED_DEVICE)
 
 
 def recordings_of(wildcards):

@@ -26,9 +26,9 @@ rule stress_scenes:
     output:
         scenes="results/stress/{kinematics}_{chunk}.csv",
     log:
-        "results/logs/stress_{kinematics}_{chunk}.log",
+        "results/logs/stress_scenes_{kinematics}_{chunk}.log",
     benchmark:
-        "results/benchmarks/stress_{kinematics}_{chunk}.tsv"
+        "results/benchmarks/stress_scenes_{kinematics}_{chunk}.tsv"
     wildcard_constraints:
         chunk=r"\d+",
     conda:
