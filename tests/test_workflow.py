@@ -440,17 +440,17 @@ def test_edited_title_reruns_what_shows_it_alone(changeable: Project) -> None:
     assert not rules & {*SOLVER, "filter", "score", "check", "scores"}
 
 
-def test_new_mesh_that_equals_the_old_one_hides_no_edited_tissue(changeable: Project) -> None:
-    changeable.edit(CONFIG, lambda text: text.replace("modulus: {value: 0.08,", "modulus: {value: 0.09,"))
-    mesh, condensed = "results/small/device2/mesh.npz", "results/small/device2/condensed.npz"
-    run = changeable.snakemake(mesh)  # as if the run of everything had been interrupted here
-    assert run.status == 0, run.text
-    assert condensed in changeable.snakemake("-n", condensed).outputs
-
-
-def test_mesh_that_equals_the_old_one_hides_no_edited_margin(changeable: Project) -> None:
-    """How much skin is considered is no part of the mesh."""
-    changeable.edit(CONFIG, lambda text: text.replace("contact_margin: {value: 0.25,", "contact_margin: {value: 0.5,"))
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("modulus: {value: 0.08,", "modulus: {value: 0.09,"),
+        ("contact_margin: {value: 0.25,", "contact_margin: {value: 0.5,"),
+    ],
+    ids=["tissue", "margin"],
+)
+def test_new_mesh_that_equals_the_old_one_hides_no_other_edit(changeable: Project, old: str, new: str) -> None:
+    """What tissue is made of and how much skin is considered are no part of the mesh."""
+    changeable.edit(CONFIG, lambda text: text.replace(old, new))
     mesh, condensed = "results/small/device2/mesh.npz", "results/small/device2/condensed.npz"
     run = changeable.snakemake(mesh)  # as if the run of everything had been interrupted here
     assert run.status == 0, run.text

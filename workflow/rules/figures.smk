@@ -2,13 +2,13 @@
 # REQUIRED INPUTS: results of solve, filter, score and correlate. OUTPUTS: results/figures/*.{png,pdf}, fields.npz
 
 DISPERSIONS = {name: sorted({condition.dispersion for condition in SCENE[name].device.conditions}) for name in DEVICES}
-COMPARED = [name for name in DEVICES if compares_interfaces(SCENE[name].device)]  # what figure 6 can show
+SLIDING = [name for name in DEVICES if compares_interfaces(SCENE[name].device)]  # what figure 6 can show
 EXAMPLE = example_device([SCENE[name].device for name in DEVICES]).name  # what figures 3 and 6 show
 # of each kinematics, with the devices that it shows
 SHOWN = {
     "figure_4_receptors": DEVICES,
     "figure_5_correlation": DEVICES,
-    "figure_6_shear": [EXAMPLE] if COMPARED else [],
+    "figure_6_shear": [EXAMPLE] if SLIDING else [],
     "ablation_shear": DEVICES,
 }
 FIGURES = [
@@ -260,7 +260,7 @@ rule figure_workflow:
         "../scripts/figure_workflow.py"
 
 
-if COMPARED:
+if SLIDING:
 
     rule figure_shear:
         input:
