@@ -96,7 +96,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     assert fields.strain[0, near].min() * 0.97 < strain[middle] < fields.strain[0, near].max() * 1.03
     before = maximum_principal(found.strain @ solution.indented_force.ravel())
     change = strain[middle] - before[middle]
-    assert change == pytest.approx(solution.change_of_strain[middle], rel=1e-12)  # but for rounding
+    assert change == pytest.approx(solution.reading.change_of_strain[middle], rel=1e-12)  # but for rounding
     assert fields.change[0, near].min() * 0.97 < change < fields.change[0, near].max() * 1.03
     for lines, facets in ((fields.interface, mesh.interfaces()), (fields.boundary, mesh.mesh.boundary_facets())):
         assert np.array_equal(fields.corner[:, lines], mesh.mesh.doflocs[:, mesh.mesh.facets[:, facets].T])

@@ -46,7 +46,7 @@ from fingerpad.figures.style import (
 )
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.perception.correlation import correlation_table
-from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.readouts.strain import FilteredReadouts, Reading
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow, Body, Condition, Control, Device
 from fingerpad.scene.finger import Material
@@ -588,15 +588,12 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         indented_force=force,
         force=none,
         contact=none,
-        read=0,
+        arc=none,
+        reading=Reading(time=0, strain=none, change_of_strain=none, rival_peak=0.0),
         pressure=traction,
         shear=0.5 * traction,
         place=place,
         status=np.where(traction > 0.0, Status.STICK, Status.OPEN),
-        arc=none,
-        strain=none,
-        change_of_strain=none,
-        rival_peak=0.0,
         iterations=1,
         cuts=0,
         searches=0,
@@ -650,7 +647,7 @@ def test_maps_show_a_history_when_it_is_read(section: SectionMesh) -> None:
     found = make_solution(make_contact(device.actuators), device.actuators, pressed)
     middle = {}
     for read in (0, 1):
-        solutions = {"tap": replace(found, read=read)}
+        solutions = {"tap": replace(found, reading=replace(found.reading, time=read))}
         figure = strain_map_figure(Scene(MODEL, device), "only", fields, solutions)
         tractions = next(axes for axes in figure.axes if axes.get_ylabel() == "Traction (kPa)")
         drawn = [line.get_xdata() for line in tractions.lines if len(line.get_xdata()) > 2]

@@ -49,7 +49,7 @@ def test_configured_variant_has_the_configured_score() -> None:
     for condition in scene(DEVICE).device.conditions:
         solution = solved(DEVICE, condition.name, Interface.SHEAR)
         resampling = resampling_to_grid(solution.arc, model.gabor.spacing)
-        read = filtered_readouts(resampling, solution.readouts, model.gabor)
+        read = filtered_readouts(resampling, solution.reading.readouts, model.gabor)
         expected += score_rows(scene(DEVICE), condition, Interface.SHEAR, read)
     assert [row["score"] for row in usual] == pytest.approx([row["score"] for row in expected], rel=1e-12)
     assert [row["unit"] for row in usual] == [row["unit"] for row in expected]

@@ -38,10 +38,10 @@ def main(
         actuators = load(body, CondensedBody) if body else None
         finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
         states = [deformed_states(scene, finger, each).displacement for each in scene.device.distinct_conditions]
-        read = (each[1 + one.read] for each, one in zip(states, solved, strict=True))
+        read = (each[1 + one.reading.time] for each, one in zip(states, solved, strict=True))
         displacement = np.array([states[0][0], *read])
     else:
-        forces = np.array([solved[0].indented_force, *(each.force[each.read] for each in solved)])
+        forces = np.array([solved[0].indented_force, *(each.force[each.reading.time] for each in solved)])
         displacement = recover_displacement(section, scene, forces)
     save(fields, states_fields(scene, section, displacement))
 

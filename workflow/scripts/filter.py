@@ -12,7 +12,7 @@ from fingerpad.store import load, save
 def main(config: Path, device: Path, resampling: Path, solution: Path, filtered: Path) -> None:
     """Read the receptors' strains, filter them, write both on the uniform grid."""
     gabor = load_scene(config, device).model.gabor
-    save(filtered, filtered_readouts(load(resampling, Resampling), load(solution, Solution).readouts, gabor))
+    save(filtered, filtered_readouts(load(resampling, Resampling), load(solution, Solution).reading.readouts, gabor))
 
 
 if __name__ == "__main__":

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..readouts.strain import read_receptors
-from ..scene.readout import Readout
+from ..readouts.strain import Reading, read_receptors
 from ..tissue.compliance import CondensedSection
 from .certificate import Certificate
 from .depth import depth
@@ -24,11 +23,9 @@ class Solution:
     actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
     the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
-    `forces` but where the normal turns. read: index of the time at which receptors are read (`strain.Reading`). What
-    follows is at that time. pressure, shear: (n,) [MPa]. place: (n,) x of the skin nodes from their actuator's centre
-    [mm]. status: (n,). arc: (m,) receptors [mm]. strain, change_of_strain: (m,) [1]. rival_peak: change at the time
-    that comes next to being read over that which is read [1] (`strain.Reading`). iterations, cuts, searches: of the
-    whole path. certificate.
+    `forces` but where the normal turns. arc: (m,) receptors [mm]. reading: what they say [1], and when. At that time:
+    pressure, shear: (n,) [MPa]; place: (n,) x of the skin nodes from their actuator's centre [mm]; status: (n,).
+    iterations, cuts, searches: of the whole path. certificate.
     """
 
     indentation: float
@@ -37,24 +34,16 @@ class Solution:
     indented_force: FloatArray
     force: FloatArray
     contact: FloatArray
-    read: int
+    arc: FloatArray
+    reading: Reading
     pressure: FloatArray
     shear: FloatArray
     place: FloatArray
     status: np.ndarray
-    arc: FloatArray
-    strain: FloatArray
-    change_of_strain: FloatArray
-    rival_peak: float
     iterations: int
     cuts: int
     searches: int
     certificate: Certificate
-
-    @property
-    def readouts(self) -> dict[Readout, FloatArray]:
-        """Both read-outs (m,) [1] at the receptors."""
-        return {Readout.STRAIN: self.strain, Readout.CHANGE_OF_STRAIN: self.change_of_strain}
 
     @property
     def forces(self) -> FloatArray:
@@ -73,8 +62,8 @@ def solution(
     """Gather a solution from the pre-indented state and those at the stimulus's times, and the receptors' strains
     (1 + n_times, 3m) [1] in them, which may be read after so many times of settling.
     """
-    read = read_receptors(strains, section.arc, settling=settling)
-    before, last, shown = states[0], states[-1], states[1 + read.time]
+    reading = read_receptors(strains, section.arc, settling=settling)
+    before, last, shown = states[0], states[-1], states[1 + reading.time]
     contact = shearing_and_pressing(problem, states)
     return Solution(
         indentation=float(before.actuator[0, 1]),
@@ -83,15 +72,12 @@ def solution(
         indented_force=before.force,
         force=np.array([state.force for state in states[1:]]),
         contact=contact,
-        read=read.time,
-        pressure=contact[1 + read.time, :, 1] / section.weight,
-        shear=contact[1 + read.time, :, 0] / section.weight,
+        arc=section.arc,
+        reading=reading,
+        pressure=contact[1 + reading.time, :, 1] / section.weight,
+        shear=contact[1 + reading.time, :, 0] / section.weight,
         place=shown.place,
         status=shown.status,
-        arc=section.arc,
-        strain=read.strain,
-        change_of_strain=read.change_of_strain,
-        rival_peak=read.rival_peak,
         iterations=last.iterations,
         cuts=last.cuts,
         searches=last.searches,

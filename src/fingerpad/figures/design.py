@@ -198,7 +198,7 @@ def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
     solution, row = answer.solution, answer.scene.device.actuators
     (condition,) = answer.scene.device.conditions
     nearest = row.nearest(solution.position[:, 0])
-    x = (np.asarray(row.positions) + condition.tangential[solution.read])[nearest] + solution.place
+    x = (np.asarray(row.positions) + condition.tangential[solution.reading.time])[nearest] + solution.place
     touched = np.flatnonzero(solution.pressure > 0.0)
     found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
     return tuple(np.insert(found, np.flatnonzero(np.diff(nearest[touched])) + 1, np.nan, axis=1))

@@ -95,7 +95,7 @@ def strain_map_figure(
             drawn = _draw_map(axes, shown, mapped, loading)
             solution = solutions[condition.name]
             rise = np.array([0.0, solution.indentation])
-            draw_actuators(axes, device.actuators, condition.moves[solution.read] + rise, 2.0 * BELOW)
+            draw_actuators(axes, device.actuators, condition.moves[solution.reading.time] + rise, 2.0 * BELOW)
             axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
             axes.text(0.0, window[1][1] - ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
         _label_first(row, panels.columns, "y (mm)")
@@ -272,7 +272,7 @@ def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMe
 def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
     """Pressure and shear of the nodes in contact, one line an actuator."""
     nearest = row.nearest(solution.position[:, 0])
-    centre = np.asarray(row.positions) + condition.tangential[solution.read]
+    centre = np.asarray(row.positions) + condition.tangential[solution.reading.time]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear
     for number in range(len(row.positions)):

@@ -51,10 +51,10 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
         found.append(f"actuators that leave the skin, counted from the left: {left}; positive normal points into it")
-    if solution.rival_peak > RIVAL:
+    if solution.reading.rival_peak > RIVAL:
         found.append(
-            f"at another time strain changes by {solution.rival_peak:.1%} as much, in a different pattern: the mesh may"
-            " decide which is read, and the error does not cover that"
+            f"at another time strain changes by {solution.reading.rival_peak:.1%} as much, in a different pattern:"
+            " the mesh may decide which is read, and the error does not cover that"
         )
     elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
     if elements < FEW:

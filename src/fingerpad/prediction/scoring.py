@@ -127,19 +127,21 @@ def error_rows(
         return [row for case in read for row in _errors_of(scene, case, f"{UNKNOWN}{error}")]
     step()
     for interface in scene.device.interfaces():
-        conditions = [
-            each.until(read[each.name, interface].time) if (each.name, interface) in read else each
+        asked = tuple(
+            each.until(read[each.name, interface].time)
             for each in other.device.conditions
-        ]
-        shown = replace(other, device=replace(other.device, conditions=tuple(conditions)))
+            if (each.name, interface) in read
+        )
+        if not asked:
+            continue
+        shown = replace(other, device=replace(other.device, conditions=asked))
         for solved in solve_scene(shown, condensed, [interface]):
-            if solved.case in read:
-                if isinstance(solved.solution, Unsolved):
-                    rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")
-                else:
-                    coarser = read_out(other, condensed, solved.solution)
-                    errors = score_errors(scene, read[solved.case].filtered, coarser)
-                    rows += _errors_of(scene, solved.case, "", errors)
+            if isinstance(solved.solution, Unsolved):
+                rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")
+            else:
+                coarser = read_out(other, condensed, solved.solution)
+                errors = score_errors(scene, read[solved.case].filtered, coarser)
+                rows += _errors_of(scene, solved.case, "", errors)
             step()
     return rows
 
@@ -194,7 +196,7 @@ def solved_rows(
             rows += unscored_rows(scene, solved.condition, solved.interface, note)
         else:
             filtered = read_out(scene, condensed, solved.solution)
-            read[solved.case] = ReadOut(solved.solution.read, filtered)
+            read[solved.case] = ReadOut(solved.solution.reading.time, filtered)
             rows += rows_of(scene, solved, solved.solution, filtered)
         step()
     return rows, read
@@ -245,4 +247,4 @@ def rows_of(scene: Scene, solved: Solved, solution: Solution, read: FilteredRead
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:
     """Filtered read-outs of a solution."""
-    return filtered_readouts(condensed.resampling, solution.readouts, scene.model.gabor)
+    return filtered_readouts(condensed.resampling, solution.reading.readouts, scene.model.gabor)

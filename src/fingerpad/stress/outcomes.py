@@ -202,7 +202,7 @@ def _outcome(number: int, scene: Scene, contact_nodes: int, result: Solution | F
         iterations=found.iterations if found else 0,
         cuts=found.cuts if found else 0,
         searches=found.searches if found else 0,
-        largest_strain=float(found.strain.max()) if found else 0.0,
+        largest_strain=float(found.reading.strain.max()) if found else 0.0,
     )
 
 
@@ -214,8 +214,9 @@ def solved(scene: Scene, section: CondensedSection, condition: Condition) -> Sol
 
 def with_numbers(solution: Solution) -> Solution:
     """The solution. Raises CertificateError if a number in it is not finite."""
-    for name in ("force", "pressure", "shear", "place", "strain", "change_of_strain"):
-        if not np.all(np.isfinite(getattr(solution, name))):
+    numbers = {"force": solution.force, "pressure": solution.pressure, "shear": solution.shear, "place": solution.place}
+    for name, values in (numbers | solution.reading.readouts).items():
+        if not np.all(np.isfinite(values)):
             raise CertificateError(f"{name} is not finite")
     return solution
 
