@@ -14,7 +14,6 @@ from ..arrays import FloatArray
 from .acceleration import accelerated
 from .active_set import (
     MAX_ITERATIONS,
-    SIMULTANEOUS,
     SLIP_SIGN,
     SMALLEST,
     STICK,
@@ -100,7 +99,7 @@ def solve_increment(
         bias = np.zeros(2 * nodes.size) if bias is None else bias
         increment = PatchProblem(problem, patch, origin[nodes].T, bias, gap_scale)
         settled = settle(increment, start, guess[nodes], status[nodes], reference, iterations)
-        iterations, searched = iterations + settled.iterations, searched or settled.iterations > SIMULTANEOUS
+        iterations, searched = iterations + settled.iterations, searched or settled.searched
         found = _everywhere(increment, origin, there, settled.trial, settled.status)
         status, guess, reference = found.status, found.place, settled.reference
         missed = (status == OPEN) & (found.gap < -problem.tolerance * gap_scale)
