@@ -592,6 +592,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         reading=Reading(time=0, strain=none, change_of_strain=none, rival_peak=0.0),
         pressure=traction,
         shear=0.5 * traction,
+        actuator=row.nearest(contact.position[:, 0]),
         place=place,
         status=np.where(traction > 0.0, Status.STICK, Status.OPEN),
         iterations=1,

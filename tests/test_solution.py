@@ -18,10 +18,24 @@ from fingerpad.contact.certificate import (
 )
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.force_curve import small_strain_curve
-from fingerpad.contact.formulation import ContactProblem, ContactState, face_shape, rest, touch, touching_height
+from fingerpad.contact.formulation import (
+    ContactProblem,
+    ContactState,
+    face_shape,
+    reevaluated_gap,
+    rest,
+    touch,
+    touching_height,
+)
 from fingerpad.contact.increment import AMISS
 from fingerpad.contact.indentation import END_TOLERANCE
-from fingerpad.contact.linear_solution import follow_condition, indent_device, indented_state, solve_condition
+from fingerpad.contact.linear_solution import (
+    follow_condition,
+    indent_device,
+    indented_state,
+    solve_condition,
+    stimulate,
+)
 from fingerpad.contact.path import follow
 from fingerpad.contact.problem import contact_problem, named_stimulus
 from fingerpad.contact.solution import Solution
@@ -118,6 +132,63 @@ def pressed_over_faces(state: ContactState, problem: ContactProblem) -> np.ndarr
     """Whether each node presses that lies over a flat face, but for what may be missing at the criterion's end."""
     over_face = np.abs(state.place) < problem.row.half_face - END_TOLERANCE
     return np.asarray(state.force[over_face, 1] > 0.0)
+
+
+def ending(base: Scene, criterion: Criterion, mirrored_half: bool = True, **asked: float) -> Scene:
+    """The scene with another end of pre-indentation, solved on one half of the row or on all of it."""
+    law = replace(base.model.contact, criterion=criterion, **asked)
+    return replace(
+        base, model=replace(base.model, contact=law, skips=replace(base.model.skips, mirrored_half=mirrored_half))
+    )
+
+
+@pytest.mark.parametrize("interface", Interface)
+def test_pre_indentation_ends_at_the_depth_or_the_force_that_is_asked_for(interface: Interface) -> None:
+    """One path leads to both: the force at a depth is borne at that depth, on half of the row as on all of it. The row
+    becomes stiffer as it is pressed, so of the depth no larger share is missing than of the force.
+    """
+    base, (section, body) = scene("device2"), condensed("device2")
+    problem = contact_problem(base, section, body, interface)
+    touch, depth = touching_height(problem), 1.1
+    deep = indented_state(ending(base, Criterion.DEPTH, depth=depth), problem)
+    assert deep.actuator[:, 1] - touch == pytest.approx(depth, abs=END_TOLERANCE)
+    borne = float(deep.force[:, 1].sum())
+    for mirrored_half in (True, False):
+        heavy = indented_state(ending(base, Criterion.FORCE, mirrored_half, force=borne), problem)
+        assert heavy.force[:, 1].sum() == pytest.approx(borne, rel=END_TOLERANCE)
+        # what increments of another length leave of the path's friction comes on top
+        assert heavy.actuator[:, 1] - touch == pytest.approx(depth, rel=10.0 * END_TOLERANCE)
+
+
+def test_a_row_that_cannot_be_covered_is_pressed_as_hard_as_is_asked() -> None:
+    """Eleven pins across the finger: the outer ones touch nothing, and the middle ones bear what there is."""
+    base, still = row_of(11, 1.3, 0.6, [0.0] * 11)
+    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    with pytest.raises(CriterionError, match=r"depth or force needs as much as you ask for"):
+        indent_device(base, found, None, Interface.SHEAR)
+    heavy = ending(base, Criterion.FORCE, force=0.05)
+    solution = solve_condition(heavy, found, None, still, Interface.SHEAR)
+    borne = np.bincount(solution.actuator, solution.indented_force[:, 1], 11)
+    assert borne.sum() == pytest.approx(0.05, rel=END_TOLERANCE)
+    assert borne[[0, -1]] == pytest.approx(0.0, abs=1e-15)
+    assert borne[4:7].sum() > 0.9 * borne.sum()
+
+
+@pytest.mark.parametrize(
+    ("criterion", "asked", "said"),
+    [
+        (
+            Criterion.DEPTH,
+            {"depth": 6.0},
+            r"did not reach a depth of 6 mm within 5 mm from first touch: 1\.\d+ mm short",
+        ),
+        (Criterion.FORCE, {"force": 50.0}, r"did not reach a force of 50 N/mm within 5 mm .*: [\d.]+ N/mm short at 4"),
+    ],
+)
+def test_what_is_out_of_reach_is_said(criterion: Criterion, asked: dict[str, float], said: str) -> None:
+    base, (section, body) = scene("device2"), condensed("device2")
+    with pytest.raises(CriterionError, match=said + rf".*; try less contact\.{criterion}"):
+        indent_device(ending(base, criterion, **asked), section, body, Interface.SHEAR)
 
 
 @pytest.mark.parametrize("interface", list(Interface))
@@ -223,7 +294,7 @@ def test_a_row_too_wide_says_what_helps() -> None:
     still = lateral("still", [0.0, 0.0])
     row = replace(base.device.actuators, positions=(-7.0, 7.0))
     wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,)))
-    advice = r"a narrower row needs less indentation, and so may contact\.criterion: touch \(in config/config\.yaml"
+    advice = r"a narrower row needs less indentation, and so may contact\.criterion: touch; .* \(in config/config\.yaml"
     with pytest.raises(ContactError, match=advice):
         solve_anew(wide.coarsened(4.0), still)
 
@@ -247,8 +318,9 @@ def test_rows_of_narrow_pins_say_what_helps(pitch: float, solved_by_touch: bool)
 
 
 def test_a_stimulus_is_not_blamed_for_where_pressing_ended() -> None:
-    """Five pins on so curved a pad: contact leaves the skin that was considered before anything has moved."""
+    """Five pins on so curved a pad: with little skin beside them, contact leaves it before anything has moved."""
     base = scene("device2")
+    base = base.with_numerics(replace(base.model.numerics, contact_margin=0.25))
     still = lateral("still", [0.0] * 5)
     row = replace(base.device.actuators, positions=(-5.0, -2.5, 0.0, 2.5, 5.0))
     wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,), cycles=()))
@@ -509,9 +581,38 @@ def test_body_mesh_may_be_finer_than_the_skin() -> None:
 
 
 def test_a_larger_margin_considers_as_much_more_skin() -> None:
-    """To an element: 0.6 mm beside the row in place of the shipped 0.25."""
+    """To an element: 0.6 mm beside the row in place of 0.25."""
     base = scene("device2")
-    wider = base.with_numerics(replace(base.model.numerics, contact_margin=0.6))
+    section, numerics = mesh_device(base), base.model.numerics
+    near, far = (
+        contact_tractions(section, base.with_numerics(replace(numerics, contact_margin=margin))).position[:, 0].max()
+        for margin in (0.25, 0.6)
+    )
+    assert far - near == pytest.approx(0.35, abs=numerics.face_size)
+
+
+def test_skin_on_the_mid_line_is_left_out_only_where_no_face_gets_to() -> None:
+    """Both halves of a row that mirrors are then alike, however much skin is considered."""
+    base, margin = scene("device2"), replace(scene("device2").model.numerics, contact_margin=2.0)
     section = mesh_device(base)
-    near, far = (contact_tractions(section, each).position[:, 0].max() for each in (base, wider))
-    assert far - near == pytest.approx(0.35, abs=base.model.numerics.face_size)
+    for stroke, reached in ((0.7, False), (0.8, True)):  # the inner pins' faces end 0.75 mm beside it
+        moved = replace(base, device=replace(base.device, conditions=(lateral("moved", [stroke] * 4),), cycles=()))
+        x = contact_tractions(section, moved.with_numerics(margin)).position[:, 0]
+        assert (0.0 in x) is reached
+
+
+def test_skin_belongs_to_the_actuator_that_it_was_pressed_to() -> None:
+    """Skin under the outer pins of a dense row goes sideways by more than half of a gap, so that pins that slide touch
+    skin that lay nearer to a neighbour before.
+    """
+    base, condition = row_of(6, 1.7, 1.44, [0.088] * 6, edge_radius=0.186)
+    found = condense_section(mesh_device(base), base)
+    pressed = indent_device(base, found, None, Interface.FRICTIONLESS)
+    assert np.any(pressed.problem.actuator_of != base.device.actuators.nearest(found.position[:, 0]))
+    gap = reevaluated_gap(pressed.problem, pressed.state)
+    assert np.abs(gap - pressed.state.gap).max() < 1e-9
+    stimulate(base, found, pressed, condition)
+    undeformed = replace(pressed.problem, given=None)
+    before = replace(pressed, problem=undeformed, state=indented_state(base, undeformed))
+    with pytest.raises(ReachError, match="reaches skin that only its neighbour's may touch; skin there has moved"):
+        stimulate(base, found, before, condition)

@@ -141,7 +141,7 @@ def test_the_bend_is_the_change_of_the_slope() -> None:
     ],
 )
 def test_it_turns_where_asked_and_where_friction_acts(turning: TurningNormal, kinematics: set[Kinematics]) -> None:
-    law = ContactLaw(FRICTION, turning, Criterion.FULL)
+    law = ContactLaw(FRICTION, turning, Criterion.FULL, depth=1.0, force=1.0)
     assert {each for each in Kinematics if law.turns(each, Interface.SHEAR)} == kinematics
     assert not any(law.turns(each, Interface.FRICTIONLESS) for each in Kinematics)
     assert not any(replace(law, friction=0.0).turns(each, Interface.SHEAR) for each in Kinematics)

@@ -109,12 +109,12 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "unknown key": (
         {"contact.colour": quantity(1.0, "1")},
         "contact.colour",
-        ["an unknown key", "the keys friction, turning_normal, criterion ("],
+        ["an unknown key", "the keys friction, turning_normal, criterion, depth, force ("],
     ),
     "key that is a number": (
-        {"contact": {1: 2}},
-        "contact[1]",
-        ["an unknown key", "friction, turning_normal, criterion"],
+        {"readout": {1: 2}},
+        "readout[1]",
+        ["an unknown key", "the keys layer_above, side, span_margin"],
     ),
     "missing key": (
         {"numerics.growth": DELETED},

@@ -28,7 +28,8 @@ examples:
 """
 TOO_WIDE = (
     "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
-    " minutes to solve and may have no solution. A narrower row, or contact.criterion: touch, needs less."
+    " minutes to solve and may have no solution. A narrower row, or contact.criterion: touch, needs less; depth and"
+    " force press as far as they say."
 )
 # Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
 # of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
@@ -80,11 +81,12 @@ def described(scene: Scene) -> str:
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
     rise, pad = _rise(scene), scene.model.finger.pad_thickness
-    deep = scene.model.contact.criterion is Criterion.FULL and rise > WIDE * pad
+    law = scene.model.contact
+    deep = law.criterion is Criterion.FULL and rise > WIDE * pad
     farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
     warned = {
         TOO_WIDE: deep,
-        TOO_FAR: rise + normal > pad,
+        TOO_FAR: (law.depth if law.criterion is Criterion.DEPTH else rise) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
     doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]

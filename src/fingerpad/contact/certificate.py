@@ -135,8 +135,12 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
         aside = abs(state.place[node] + centre[own[node], 0] - x[node])
         moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
         less = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
-        advice = f"{less}; a larger numerics.contact_margin considers more skin"
-        raise ReachError(
-            f"certificate: contact at the actuator at x = {problem.row.positions[own[node]]:g} mm reaches the edge of"
-            f" the modelled contact zone; skin there has moved {aside:.2g} mm sideways{advice}"
-        )
+        centre = problem.row.positions[own[node]]
+        if active[node] and (first | last)[node]:
+            reaches = f"at the actuator at x = {centre:g} mm reaches the edge of the modelled contact zone"
+            advice = f"{less}; a larger numerics.contact_margin considers more skin"
+        else:
+            neighbour = problem.row.positions[nearest[node]]
+            reaches = f"at the actuator at x = {neighbour:g} mm reaches skin that only its neighbour's may touch"
+            advice = less
+        raise ReachError(f"certificate: contact {reaches}; skin there has moved {aside:.2g} mm sideways{advice}")

@@ -77,5 +77,5 @@ def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:
     touch = touching_height(problem)
     solve: SolveIncrement[ContactState, Patch | None] = recording(solve_increment, states.append)
     limit, (count, _) = scene.model.finger.pad_thickness, increments(scene, problem)
-    end = raise_until(problem, scene.model.contact.criterion, count, limit, rest(problem, touch), solve)
+    end = raise_until(problem, scene.model.contact, count, limit, rest(problem, touch), solve)
     return curve_of(states, touch, end)

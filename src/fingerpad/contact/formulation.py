@@ -58,6 +58,8 @@ class ContactProblem:
     tolerance: relative, on forces and gaps. max_cuts: halvings of an increment. patches: whether an increment takes
     only nodes in contact or about to be, or all. free: (n, 2) displacement of the nodes without contact forces [mm],
     of tissue linearised about a deformed state; None is zero. turning: whether the normal turns on rounded edges.
+    given: index (n,) of the actuator that each node is given to; None is the one nearest to undeformed skin.
+    images: how many like it there are [1]: two where it is one half of a row that mirrors.
     """
 
     position: FloatArray
@@ -70,11 +72,13 @@ class ContactProblem:
     patches: bool = True
     free: FloatArray | None = None
     turning: bool = False
+    given: np.ndarray | None = None
+    images: int = 1
 
     @cached_property
     def actuator_of(self) -> np.ndarray:
-        """Index (n,) of the actuator nearest to each undeformed node: the only one that it can touch."""
-        return self.row.nearest(self.position[:, 0])
+        """Index (n,) of the actuator that each node is given to: the only one that it can touch."""
+        return self.row.nearest(self.position[:, 0]) if self.given is None else self.given
 
     @cached_property
     def spans(self) -> tuple[slice, ...]:
@@ -172,6 +176,19 @@ def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     centre = np.stack([np.asarray(problem.row.positions), np.zeros(len(problem.row.positions))], axis=1)
     position = problem.position if problem.free is None else problem.position + problem.free
     return np.asarray(position - (actuator + centre)[problem.actuator_of])
+
+
+def given_anew(problem: ContactProblem, state: ContactState) -> tuple[ContactProblem, ContactState]:
+    """The problem and its pre-indented state with open nodes given to the actuator that they are nearest to now, as
+    skin that is pressed goes sideways. Nodes beside contact stay, as hats there reach to them.
+    """
+    row, own, height = problem.row, problem.actuator_of, state.gap - profile(problem.row, state.place)[0]
+    centre = np.asarray(row.positions)
+    x = state.place + centre[own]
+    apart = ~np.convolve(state.status != OPEN, np.ones(3), "same").astype(bool)
+    given = np.where(apart, row.nearest(x), own)
+    place = x - centre[given]
+    return replace(problem, given=given), replace(state, place=place, gap=height + profile(row, place)[0])
 
 
 def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray]:

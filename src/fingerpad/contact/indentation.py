@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import CriterionError
-from ..scene.contact_law import Criterion
+from ..scene.contact_law import ContactLaw, Criterion
 from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .path import Carried, SolveIncrement, advance
@@ -16,31 +16,36 @@ from .profile import profile
 
 State = TypeVar("State", bound=ContactState)
 
-END_TOLERANCE = 1e-4  # mm of face or gap that may be missing at its end; source: 6e-5 of Device 2's indentation
+# What may be missing at its end: mm of face, gap or depth, share [1] of a force; source: 6e-5 of Device 2's indentation
+END_TOLERANCE = 1e-4
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
 END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: as END_TOLERANCE
+SHALLOW = (
+    0.1  # of the limit [1], the least way in whose increments a force is sought; source: a third of the devices' way
+)
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
 
 
-def indent(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
-    """Raise all actuators together until the criterion holds, on linear tissue. Raises as `raise_until`."""
+def indent(problem: ContactProblem, law: ContactLaw, increments: int, limit: float) -> ContactState:
+    """Raise all actuators together until the law's criterion holds, on linear tissue. Raises as `raise_until`."""
     start = rest(problem, touching_height(problem))
-    return raise_until(problem, criterion, increments, limit, start, solve_increment)
+    return raise_until(problem, law, increments, limit, start, solve_increment)
 
 
 def raise_until(
     problem: ContactProblem,
-    criterion: Criterion,
+    law: ContactLaw,
     increments: int,
     limit: float,
     state: State,
     solve: SolveIncrement[State, Carried | None],
 ) -> State:
-    """Raise all actuators together until the criterion holds.
+    """Raise all actuators together until the law's criterion holds.
 
-    FULL: contact reaches both ends of every flat face. TOUCH: every actuator carries some skin. increments: number for
-    the way from first touch to where the undeformed skin over the outermost face would lie. limit: largest
-    indentation [mm]. state: at first touch. solve: an increment.
+    FULL: contact reaches both ends of every flat face. TOUCH: every actuator carries some skin. DEPTH: that of the row
+    from first touch. FORCE: that all press with. increments: number for the way to that depth, or from first touch to
+    where the undeformed skin over the outermost face would lie. limit: largest indentation [mm]. state: at first touch.
+    solve: an increment.
 
     Raises CriterionError if the criterion is not met within the limit, and what `path.advance` raises.
     """
@@ -48,8 +53,9 @@ def raise_until(
     carried: Carried | None = None
     over_face = np.abs(state.place) <= problem.row.half_face
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
-    stride = max(rise / increments, END_STEP)
-    missing, step = _missing(problem, state, criterion), stride
+    way = {Criterion.DEPTH: law.depth, Criterion.FORCE: max(rise, SHALLOW * limit)}.get(law.criterion, rise)
+    stride = max(way / increments, END_STEP)
+    missing, step = _missing(problem, state, law, touch), stride
     least = missing, touch  # that was missing, and at which height
     beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
     weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
@@ -57,14 +63,14 @@ def raise_until(
         height = float(state.actuator[0, 1]) + step
         if height - touch > limit:
             raise CriterionError(
-                f"pre-indentation did not reach '{criterion}' contact within {limit:g} mm from first touch:"
-                f" {_lacking(missing)} at {height - step - touch:.3g} mm{_nearest(*least, touch)}",
+                f"pre-indentation did not reach {_wanted(law)} within {limit:g} mm from first touch:"
+                f" {_lacking(missing, law)} at {height - step - touch:.3g} mm{_nearest(*least, touch, law)}",
                 touched=bool(np.isfinite(least[0])),
             )
         target = state.actuator.copy()
         target[:, 1] = height
         advanced, carried = advance(problem, state, target, 1, carried, solve)
-        left = _missing(problem, advanced, criterion)
+        left = _missing(problem, advanced, law, touch)
         least = min(least, (left, height))
         if left < -END_TOLERANCE and step > END_STEP:
             weight = weight / 2.0 if beyond else 1.0
@@ -84,10 +90,16 @@ def raise_until(
     return state
 
 
-def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion) -> float:
-    """What the criterion still waits for [mm]: face that is not covered, or gap that is not closed; < 0 beyond."""
+def _missing(problem: ContactProblem, state: ContactState, law: ContactLaw, touch: float) -> float:
+    """What the criterion still waits for: face that is not covered, gap that is not closed, way [mm] that is to go from
+    a height of first touch [mm], or the share of the force that is not borne [1]; < 0 beyond.
+    """
     touching = state.status != OPEN
-    if criterion is Criterion.TOUCH:
+    if law.criterion is Criterion.DEPTH:
+        return touch + law.depth - float(state.actuator[0, 1])
+    if law.criterion is Criterion.FORCE:
+        return 1.0 - problem.images * float(state.force[:, 1].sum()) / law.force
+    if law.criterion is Criterion.TOUCH:
         return max(0.0 if touching[own].any() else float(state.gap[own].min()) for own in problem.spans)
     height = state.gap - profile(problem.row, state.place)[0]
     covered = min(
@@ -98,16 +110,25 @@ def _missing(problem: ContactProblem, state: ContactState, criterion: Criterion)
     return problem.row.half_face - covered
 
 
-def _lacking(missing: float) -> str:
-    """In words what is missing [mm]."""
+def _wanted(law: ContactLaw) -> str:
+    """In words where pre-indentation is to end."""
+    asked = {Criterion.DEPTH: f"a depth of {law.depth:g} mm", Criterion.FORCE: f"a force of {law.force:g} N/mm"}
+    return asked.get(law.criterion, f"'{law.criterion}' contact")
+
+
+def _lacking(missing: float, law: ContactLaw) -> str:
+    """In words what is missing."""
+    if law.criterion is Criterion.FORCE:
+        return f"{missing * law.force:.3g} N/mm short"
     return f"{missing:.3g} mm short" if np.isfinite(missing) else "an actuator touches no skin"
 
 
-def _nearest(least: float, height: float, touch: float) -> str:
-    """In words at which height least was missing [mm]."""
+def _nearest(least: float, height: float, touch: float, law: ContactLaw) -> str:
+    """In words at which height least was missing."""
     if not np.isfinite(least):
         return ", and all never touched at once"
-    return f", at best {least:.3g} mm at {height - touch:.3g} mm"
+    short = _lacking(least, law).removesuffix(" short")
+    return f", at best {short} at {height - touch:.3g} mm"
 
 
 def front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:

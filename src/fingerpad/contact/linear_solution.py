@@ -14,7 +14,7 @@ from ..scene.scene import Scene
 from ..tissue.compliance import CondensedBody, CondensedSection
 from .certificate import Certificate, certify, require_within_reach, worst
 from .depth import require_tissue
-from .formulation import ContactProblem, ContactState
+from .formulation import ContactProblem, ContactState, given_anew
 from .increment import solve_increment
 from .indentation import indent
 from .patch import Patch
@@ -38,7 +38,7 @@ def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
     """State after pre-indentation: the same for all conditions of a device and interface. Raises ContactError."""
     solve = indent_by_halves if scene.model.skips.mirrored_half else indent
     count, _ = increments(scene, problem)
-    return solve(problem, scene.model.contact.criterion, count, scene.model.finger.pad_thickness)
+    return solve(problem, scene.model.contact, count, scene.model.finger.pad_thickness)
 
 
 def follow_condition(
@@ -68,7 +68,8 @@ def indent_device(
     problem = contact_problem(scene, section, body, interface)
     with named_pressing(scene, interface):
         state = indented_state(scene, problem)
-        return Indented(interface, problem, state, certify(problem, section, state))
+        certificate = certify(problem, section, state)
+        return Indented(interface, *given_anew(problem, state), certificate)
 
 
 def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:

@@ -17,7 +17,10 @@ from .formulation import ContactProblem
 
 FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
-TOUCH = ", and so may contact.criterion: touch (in config/config.yaml, where it changes every device)"
+ASKED = "needs as much as you ask for (in config/config.yaml, where it changes every device)"
+NARROWER = f"; a narrower row needs less indentation, and contact.criterion: depth or force {ASKED}"
+TOUCH = f"; a narrower row needs less indentation, and so may contact.criterion: touch; depth or force {ASKED}"
+LESS = {Criterion.DEPTH: "; try less contact.depth", Criterion.FORCE: "; try less contact.force"}
 SMALL_ALONE = "; `kinematics: {value: small, ...}` in the device file skips finite strain (docs/troubleshooting.md)"
 SHEAR_ALONE = "; `interfaces: {value: shear, ...}` in the device file skips the frictionless case"
 
@@ -68,13 +71,13 @@ def named(what: str, advice: Callable[[ContactError], str] = lambda error: "") -
 
 def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:
     """`named`, for pre-indentation, which goes the deeper the wider the row is."""
-    full = scene.model.contact.criterion is Criterion.FULL
+    criterion = scene.model.contact.criterion
 
     def advice(error: ContactError) -> str:
-        # what touches no skin at any height fails the other criterion as well
+        # what touches no skin at any height fails with `touch` as well
         touched = not isinstance(error, CriterionError) or error.touched
-        other = TOUCH if full and touched else ""
-        return f"; a narrower row needs less indentation{other}{left_out(scene, interface)}"
+        less = LESS.get(criterion, TOUCH if criterion is Criterion.FULL and touched else NARROWER)
+        return f"{less}{left_out(scene, interface)}"
 
     return named(f"device={scene.device.name}, interface={interface}, pre-indentation", advice)
 

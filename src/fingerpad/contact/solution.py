@@ -24,8 +24,8 @@ class Solution:
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
     the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
     `forces` but where the normal turns. arc: (m,) receptors [mm]. reading: what they say [1], and when. At that time:
-    pressure, shear: (n,) [MPa]; place: (n,) x of the skin nodes from their actuator's centre [mm]; status: (n,).
-    iterations, cuts, searches: of the whole path. certificate.
+    pressure, shear: (n,) [MPa]; actuator: (n,) index of the one that a skin node may touch; place: (n,) x of the skin
+    nodes from that actuator's centre [mm]; status: (n,). iterations, cuts, searches: of the whole path. certificate.
     """
 
     indentation: float
@@ -38,6 +38,7 @@ class Solution:
     reading: Reading
     pressure: FloatArray
     shear: FloatArray
+    actuator: np.ndarray
     place: FloatArray
     status: np.ndarray
     iterations: int
@@ -76,6 +77,7 @@ def solution(
         reading=reading,
         pressure=contact[1 + reading.time, :, 1] / section.weight,
         shear=contact[1 + reading.time, :, 0] / section.weight,
+        actuator=problem.actuator_of,
         place=shown.place,
         status=shown.status,
         iterations=last.iterations,

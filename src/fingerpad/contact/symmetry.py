@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..scene.contact_law import Criterion
+from ..scene.contact_law import ContactLaw
 from ..tissue.compliance import MIRROR, CondensedBody
 from .formulation import ContactProblem, ContactState, Status
 from .indentation import indent
@@ -20,11 +20,11 @@ ALIKE = 1e-10  # of the largest compliance [1]; source: rounding of a condensati
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])
 
 
-def indent_by_halves(problem: ContactProblem, criterion: Criterion, increments: int, limit: float) -> ContactState:
+def indent_by_halves(problem: ContactProblem, law: ContactLaw, increments: int, limit: float) -> ContactState:
     """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
     if not mirrors(problem):
-        return indent(problem, criterion, increments, limit)
-    return unfolded(indent(fold(problem), criterion, increments, limit))
+        return indent(problem, law, increments, limit)
+    return unfolded(indent(fold(problem), law, increments, limit))
 
 
 def mirrors(problem: ContactProblem) -> bool:
@@ -61,7 +61,8 @@ def half_of(problem: ContactProblem) -> ContactProblem:
     """The problem with the right half's nodes and actuators, whatever its compliance."""
     positions = tuple(x for x in problem.row.positions if x > 0.0)
     half = problem.position.shape[0] // 2
-    return replace(problem, position=problem.position[half:], row=replace(problem.row, positions=positions))
+    row = replace(problem.row, positions=positions)
+    return replace(problem, position=problem.position[half:], row=row, images=2)
 
 
 def unfolded(state: ContactState) -> ContactState:

@@ -197,11 +197,11 @@ def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Where the skin in contact now is [mm], pressure and shear there [kPa]; a gap of NaN between pins."""
     solution, row = answer.solution, answer.scene.device.actuators
     (condition,) = answer.scene.device.conditions
-    nearest = row.nearest(solution.position[:, 0])
-    x = (np.asarray(row.positions) + condition.tangential[solution.reading.time])[nearest] + solution.place
+    centre = np.asarray(row.positions) + condition.tangential[solution.reading.time]
+    x = centre[solution.actuator] + solution.place
     touched = np.flatnonzero(solution.pressure > 0.0)
     found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
-    return tuple(np.insert(found, np.flatnonzero(np.diff(nearest[touched])) + 1, np.nan, axis=1))
+    return tuple(np.insert(found, np.flatnonzero(np.diff(solution.actuator[touched])) + 1, np.nan, axis=1))
 
 
 def _hold(axes: Axes, lines: list[Line2D], headroom: float = 1.0) -> None:

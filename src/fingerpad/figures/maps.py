@@ -271,12 +271,11 @@ def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMe
 
 def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
     """Pressure and shear of the nodes in contact, one line an actuator."""
-    nearest = row.nearest(solution.position[:, 0])
     centre = np.asarray(row.positions) + condition.tangential[solution.reading.time]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear
     for number in range(len(row.positions)):
-        own = np.flatnonzero(nearest == number)
+        own = np.flatnonzero(solution.actuator == number)
         touched = own[pressure[own] > 0.0]
         if touched.size == 0:
             continue

@@ -14,7 +14,7 @@ from scipy.sparse import csr_matrix
 from ..arrays import FloatArray
 from ..contact.certificate import Certificate, certify, worst
 from ..contact.depth import require_tissue
-from ..contact.formulation import ContactProblem
+from ..contact.formulation import ContactProblem, given_anew
 from ..contact.problem import contact_problem, increments, named_pressing, named_stimulus
 from ..contact.solution import Solution, solution
 from ..scene.contact_law import Interface
@@ -58,14 +58,15 @@ def pressed_finger(
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement
     skin = skin_of(section, dofs, halved=False)
-    problem, free = contact_problem(scene, pressed.section, body, interface), pressed.free
+    problem, state = given_anew(contact_problem(scene, pressed.section, body, interface), pressed.state)
+    free = pressed.free
     sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
     condensing = partial(whole_part, scene, section, True)
     tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, sprung)
     if tissue.spring is not None:
-        borne = (problem.compliance - tissue.spring.compliance) @ pressed.state.force.ravel()
+        borne = (problem.compliance - tissue.spring.compliance) @ state.force.ravel()
         problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
-    start = Equilibrium(state=pressed.state, displacement=displacement, free=free, tangents=0, defect=0.0)
+    start = Equilibrium(state=state, displacement=displacement, free=free, tangents=0, defect=0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(
         interface=interface,

@@ -98,9 +98,9 @@ def press(scene: Scene, section: SectionMesh, body: CondensedBody | None, interf
     """
     start = _start(scene, section, body, interface)
     solve, states = _recorded(section, start)
-    criterion, limit = scene.model.contact.criterion, scene.model.finger.pad_thickness
+    law, limit = scene.model.contact, scene.model.finger.pad_thickness
     with named_pressing(scene, interface):
-        reached = raise_until(start.problem, criterion, start.increments[0], limit, start.state, solve)
+        reached = raise_until(start.problem, law, start.increments[0], limit, start.state, solve)
         require_elliptic(start.tissues[0].elements, reached.displacement)
         return _pressed(section, start, states, reached)
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ..requirements import require
+from ..requirements import require, require_positive
 from .tissue_law import Kinematics
 
 
@@ -26,25 +26,33 @@ class TurningNormal(StrEnum):
 
 
 class Criterion(StrEnum):
-    """When pre-indentation ends: every flat face wholly in contact, or every actuator touching."""
+    """When pre-indentation ends: every flat face wholly in contact, every actuator touching, or the row as deep or as
+    heavy as it is to be, whatever touches.
+    """
 
     FULL = "full"
     TOUCH = "touch"
+    DEPTH = "depth"
+    FORCE = "force"
 
 
 @dataclass(frozen=True)
 class ContactLaw:
     """Coulomb friction coefficient [1], where the contact normal turns, and the criterion that ends pre-indentation.
 
-    Raises SceneError if friction is negative or not finite.
+    depth: from first touch [mm], of Criterion.DEPTH alone. force: of the row per mm of finger [N/mm], of
+    Criterion.FORCE alone. Raises SceneError if friction is negative or not finite, depth or force not positive.
     """
 
     friction: float
     turning_normal: TurningNormal
     criterion: Criterion
+    depth: float
+    force: float
 
     def __post_init__(self) -> None:
         require(math.isfinite(self.friction) and self.friction >= 0, f"contact: friction {self.friction} < 0")
+        require_positive("contact", depth=self.depth, force=self.force)
 
     def coefficient(self, interface: Interface) -> float:
         """Friction coefficient [1] of an interface: 0 with shear off."""

@@ -191,6 +191,8 @@ def build_model(config: dict[str, Any]) -> Model:
             friction=contact["friction"],
             turning_normal=TurningNormal(contact["turning_normal"]),
             criterion=Criterion(contact["criterion"]),
+            depth=contact["depth"],
+            force=contact["force"],
         ),
         gabor=GaborFilter(**_values(config["filter"])),
         readout=ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),

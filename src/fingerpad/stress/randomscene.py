@@ -43,6 +43,8 @@ BODY_ELEMENTS = 8  # of a deformable actuator along its smallest division [1]
 ELEMENTS = (12, 30)  # of skin along the row [1]
 CLOSENESS = 1e-3  # smallest element on the skin over the largest [1], for one actuator; times their number squared
 FRICTION = (0.01, 10.0)  # [1], beside 0
+DEEP = (1e-3, 1.0)  # pre-indentation to a depth, over the pad's thickness [1]
+PRESSED = (1e-4, 1.0)  # force of a row over its length [MPa], over the modulus of the softest layer [1]
 AMPLITUDE = (1e-6, 2.0)  # of a stimulus [mm]
 INDENTATION_INCREMENTS = (3, 15)  # [1]
 STIMULUS_INCREMENTS = (1, 3)  # [1]
@@ -50,7 +52,7 @@ ROWS = (1, 8)  # of a stimulus's history [1]
 CYCLES = 10  # most in a stimulus [1]
 ROWS_A_CYCLE = 6  # [1]
 STILL = VibrationRule(Relaxation((), (), ()), 1e-9, 1.0, 8)  # nothing vibrates
-TOLERANCE, MAX_CUTS, CONTACT_MARGIN = 1e-9, 10, 0.25  # of the shipped model (config/config.yaml)
+TOLERANCE, MAX_CUTS, CONTACT_MARGIN = 1e-9, 10, 0.5  # of the shipped model (config/config.yaml)
 # with finite kinematics
 LAWS = (Law.HENCKY, Law.NEO_HOOKEAN, Law.OGDEN)
 OGDEN_EXPONENT = (1.0, 12.0)  # [1]
@@ -78,7 +80,7 @@ def random_scene(number: int) -> Scene:
     # half of the rows are what the mesh was made for
     row = _row(rng, span) if rng.random() < 0.5 else _finished(rng, inner)
     friction = 0.0 if rng.random() < 0.1 else _decades(rng, FRICTION)
-    criterion = Criterion(rng.choice(list(Criterion)))
+    law = _law(rng, friction, group, span)
     numerics = replace(
         group.model.numerics,
         edge_size=row.width / BODY_ELEMENTS,
@@ -86,11 +88,22 @@ def random_scene(number: int) -> Scene:
         indentation_increments=_whole(rng, INDENTATION_INCREMENTS),
         stimulus_increments=_whole(rng, STIMULUS_INCREMENTS),
     )
-    model = replace(
-        group.model, contact=replace(group.model.contact, friction=friction, criterion=criterion), numerics=numerics
-    )
+    model = replace(group.model, contact=law, numerics=numerics)
     condition = _apart(row, _condition(rng, len(row.positions), group.device.stroke))
     return Scene(model, Device(f"stress_{number:05d}", "random", Control.DISPLACEMENT, row, (condition,)))
+
+
+def _law(rng: np.random.Generator, friction: float, group: Scene, span: float) -> ContactLaw:
+    """That friction, and an end of pre-indentation for a row of that span [mm]."""
+    pad = group.model.finger.pad
+    softest = min(layer.material.modulus for layer in pad)
+    return replace(
+        group.model.contact,
+        friction=friction,
+        criterion=Criterion(rng.choice(list(Criterion))),
+        depth=group.model.finger.pad_thickness * _decades(rng, DEEP),
+        force=softest * span * _decades(rng, PRESSED),
+    )
 
 
 def random_deformed_scene(number: int) -> Scene:
@@ -162,7 +175,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     model = Model(
         finger=finger,
         tissue=TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
-        contact=ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH),
+        contact=ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH, depth=1.0, force=1.0),
         gabor=GaborFilter(2.8, 1.15, 1.12, 0.02),
         readout=ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
         vibration=STILL,
