@@ -422,6 +422,17 @@ def test_a_face_of_few_elements_is_doubted() -> None:
     assert solution_caveats(narrow, solution) == ["actuators are 2.0 elements wide: try a smaller numerics.edge_size"]
 
 
+def test_round_actuators_say_that_they_only_touch() -> None:
+    """`full` asks for flat faces to be covered; a depth or a force is what it says, whatever the faces."""
+    given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
+    row = replace(given.device.actuators, edge_radius=given.device.actuators.width / 2.0)
+    domes = replace(given, device=replace(given.device, actuators=row))
+    (caveat,) = solution_caveats(domes, solution)
+    assert caveat.startswith("round actuators have no flat face to cover")
+    law = replace(domes.model.contact, criterion=Criterion.FORCE)
+    assert solution_caveats(replace(domes, model=replace(domes.model, contact=law)), solution) == []
+
+
 def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:
     given = scene("device2")
     gabor = replace(given.model.gabor, wavelength_change=0.1)

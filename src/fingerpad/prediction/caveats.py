@@ -11,6 +11,7 @@ from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..readouts.comparison import Relation, Score, relation
 from ..readouts.roughness import KEY
+from ..scene.contact_law import Criterion
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -40,12 +41,17 @@ def stimulus_caveats(condition: Condition) -> list[str]:
 
 
 def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
-    """Actuators too deep for small strain, too narrow for the mesh, without force where pre-indentation ends or off the
-    skin, a filter too fine for the mesh, a peak that another time comes near to, many increments that were cut or did
-    not settle at once, and figures of the certificate near their limits.
+    """Actuators too deep for small strain, too narrow for the mesh, without a face to cover, without force where
+    pre-indentation ends or off the skin, a filter too fine for the mesh, a peak that another time comes near to, many
+    increments that were cut or did not settle at once, and figures of the certificate near their limits.
     """
     certificate = solution.certificate
     found = depth_caveats(scene, solution.depth)
+    if scene.model.contact.criterion is Criterion.FULL and scene.device.actuators.half_face <= 0.0:
+        found.append(
+            "round actuators have no flat face to cover: pre-indentation ends where all touch;"
+            " contact.criterion: depth or force presses them"
+        )
     pressing = _pressing(scene, solution)
     if idle := _numbers(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
@@ -78,9 +84,8 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
 
 def _pressing(scene: Scene, solution: Solution) -> FloatArray:
     """Pressing forces (1 + n_times, n_actuators) [N/mm] of actuators after pre-indentation and along the stimulus."""
-    row = scene.device.actuators
-    nearest, count = row.nearest(solution.position[:, 0]), len(row.positions)
-    return np.array([np.bincount(nearest, each[:, 1], minlength=count) for each in solution.forces])
+    count = len(scene.device.actuators.positions)
+    return np.array([np.bincount(solution.actuator, each[:, 1], minlength=count) for each in solution.forces])
 
 
 def _numbers(which: np.ndarray) -> str:
