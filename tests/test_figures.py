@@ -399,6 +399,16 @@ def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
     assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]) == 4
 
 
+def test_receptor_figure_shows_the_whole_row_though_not_all_of_it_touches() -> None:
+    """Scores are of the whole row; only what skin touches is shaded."""
+    whole = make_readouts(PHASED)
+    faces = whole.faces.copy()
+    faces[0] = np.nan
+    one, all_ = (receptor_figure([each], Kinematics.SMALL).axes[0] for each in (replace(whole, faces=faces), whole))
+    assert one.get_xlim() == all_.get_xlim()
+    assert len(one.patches) == len(all_.patches) - 1
+
+
 def test_receptor_figure_explains_what_is_drawn_and_says_what_is_not() -> None:
     """Of a single pin all phases are one stimulus. Legends are read by rows, with dispersions below phases."""
     taps = [replace(make_condition(f"tap_{p}", "lone", 0.0, 1), phase_deg=p) for p in (0.0, 45.0)]

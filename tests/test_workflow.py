@@ -444,7 +444,7 @@ def test_edited_title_reruns_what_shows_it_alone(changeable: Project) -> None:
     ("old", "new"),
     [
         ("modulus: {value: 0.08,", "modulus: {value: 0.09,"),
-        ("contact_margin: {value: 0.25,", "contact_margin: {value: 0.5,"),
+        ("contact_margin: {value: 0.5,", "contact_margin: {value: 0.6,"),
     ],
     ids=["tissue", "margin"],
 )

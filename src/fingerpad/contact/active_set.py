@@ -8,8 +8,8 @@ forces f = K u only few unknowns remain,
     open:  f_x = f_y = 0        for u_x and u_y
 and a change of state costs a small dense system.
 
-If ever fewer nodes ask for another state, all of them change at once. If not, steps are damped by a line search and one
-node of each actuator changes, until they are fewer again (block pivoting: Judice and Pires 1994).
+As long as ever fewer nodes ask for another state, all of them change at once. If not, steps are damped by a line search
+and one node of each actuator changes, then one of all, until fewer ask (block pivoting: Judice and Pires 1994).
 
 The equations of every set of states have a determinant, and its sign tells more than whether they can be solved. Where
 it is positive for all states the solution is unique, as without friction on a flat face, where K is positive definite.
@@ -31,7 +31,7 @@ from .patch import Patch
 from .profile import bend, profile
 
 MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: usual count is 2-6 (measured)
-# Iterations [1] in which all nodes change state at once though no fewer ask for it; then the worst of each actuator
+# Iterations [1] in which all nodes change state at once though no fewer ask for it, and then the worst of each actuator
 # alone; source: fewest seconds of 3, 6, 12 (strokes of 0.02 to 0.6 mm, measured)
 PATIENCE = 12
 MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is below any step that was ever needed
@@ -140,13 +140,13 @@ def settle(
     trial = _at(increment, moved, states, reference[nodes])
     released = np.zeros(nodes.size, dtype=bool)
     residual, turned = float("inf"), False
-    fewest, patience, searched = nodes.size + 1, PATIENCE, False  # nodes that asked for another state
+    fewest, waited, searched = nodes.size + 1, 0, False  # nodes that asked for another state, and iterations since then
     for iteration in range(MAX_ITERATIONS - done):
         matrix, right = _newton_equations(increment, trial, states)
         step = _solved(matrix, right, states.unknown, 2 * nodes.size)
         if step is None:
             break
-        settling = patience == 0
+        settling = waited >= PATIENCE
         turned = turned or (iteration >= PATIENCE and _is_turned(matrix))
         trial = (_searched if settling else _stepped)(increment, trial, step, states, reference[nodes])
         slip = trial.place - reference[nodes]
@@ -163,11 +163,11 @@ def settle(
             continue
         if settling and residual > SETTLED:
             continue
-        patience = PATIENCE if changed.size < fewest else max(patience - 1, 0)
+        waited = 0 if changed.size < fewest else waited + 1
         fewest = min(fewest, changed.size)
-        if patience == 0:
+        if waited >= PATIENCE:
             searched = True
-            changed = _worst(increment, trial, slip, status, changed)
+            changed = _worst(increment, trial, slip, status, changed, alone=waited >= 2 * PATIENCE)
         was, now = status[changed], following[changed]
         touching = changed[(was == OPEN) & ~released[changed]]
         status = status.copy()
@@ -363,10 +363,14 @@ def dragged(shearing: FloatArray) -> np.ndarray:
 
 
 def _worst(
-    increment: PatchProblem, trial: Trial, slip: FloatArray, status: np.ndarray, changed: np.ndarray
+    increment: PatchProblem, trial: Trial, slip: FloatArray, status: np.ndarray, changed: np.ndarray, alone: bool
 ) -> np.ndarray:
-    """Of the patch's nodes (k,) that ask for another state the one of each actuator that is farthest beyond its own."""
+    """Of the patch's nodes (k,) that ask for another state the one of each actuator that is farthest beyond its own; or
+    of all of them one alone, as two that mirror may go in circles together.
+    """
     beyond = _violation(increment, trial, slip, status)[changed]
+    if alone:
+        return changed[[int(np.argmax(beyond))]]
     actuator = increment.problem.actuator_of[increment.patch.nodes[changed]]
     order = np.lexsort((beyond, actuator))
     last = np.append(np.diff(actuator[order]) != 0, True)

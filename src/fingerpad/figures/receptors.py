@@ -86,8 +86,8 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics) -
     ]
     styles = condition_styles(conditions_of(entry.device for entry in devices), drawn)
     grid = figure.subplots(len(rows), len(Readout), squeeze=False)
-    faces = np.concatenate([entry.faces for entry in devices])
-    shown = np.nanmin(faces) - MARGIN, np.nanmax(faces) + MARGIN
+    ends = np.concatenate([_ends(entry) for entry in devices])
+    shown = ends.min() - MARGIN, ends.max() + MARGIN
     for row, (entry, dispersion, own) in zip(grid, rows, strict=True):
         alike = _alike(entry.device, own)
         for axes, readout in zip(row, Readout, strict=True):
@@ -111,6 +111,13 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics) -
     caption = CAPTION.format(kinematics=KINEMATICS_NAME[kinematics]) + (ZERO if kinematics is Kinematics.FINITE else "")
     legend_below(figure, styles.legend, caption, [*styles.spreads, face_handle()])
     return figure
+
+
+def _ends(entry: DeviceReadouts) -> FloatArray:
+    """Arc lengths (n_actuators, 2) [mm] to show: of the faces, and of those that touch nothing about their place."""
+    row = entry.device.actuators
+    place = np.asarray(row.positions)[:, None] + [-row.width / 2.0, row.width / 2.0]
+    return np.where(np.isnan(entry.faces), place, entry.faces)
 
 
 def _alike(device: Device, conditions: Sequence[Condition]) -> list[list[Condition]]:

@@ -15,7 +15,7 @@ MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their c
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one, as skin
     that is pressed farther goes farther sideways too; and on its mirror image. Without skin on the mid-line both halves
-    are alike, and one is enough: it is left out where no face gets to.
+    are alike, and one is enough: it is left out where no face gets near.
 
     Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
     """
@@ -25,7 +25,7 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     distance = np.min(np.abs(x[:, None] - np.asarray(row.positions)), axis=1)
     beside = distance - row.width / 2.0 - scene.device.stroke
     within = (beside <= scene.model.numerics.contact_margin) & (y < scene.model.finger.height / 2.0)
-    left_out = (x == 0.0) & (beside > 0.0)
+    left_out = (x == 0.0) & (beside > scene.model.numerics.contact_margin / 2.0)
     near = within[1::2] & ~left_out[:-1:2] & ~left_out[2::2]
     if not near.any():
         raise MeshError(
