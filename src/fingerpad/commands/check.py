@@ -28,8 +28,8 @@ examples:
 """
 TOO_WIDE = (
     "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
-    " minutes to solve and may have no solution. A narrower row, or contact.criterion: touch, needs less; depth and"
-    " force press as far as they say."
+    " minutes to solve and may have no solution. A narrower row needs less,"
+    " and so may contact.criterion: touch, depth or force."
 )
 # Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
 # of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
