@@ -185,8 +185,11 @@ def given_anew(problem: ContactProblem, state: ContactState) -> tuple[ContactPro
     row, own, height = problem.row, problem.actuator_of, state.gap - profile(problem.row, state.place)[0]
     centre = np.asarray(row.positions)
     x = state.place + centre[own]
-    apart = ~np.convolve(state.status != OPEN, np.ones(3), "same").astype(bool)
-    given = np.where(apart, row.nearest(x), own)
+    touching = state.status != OPEN
+    kept = touching.copy()
+    kept[1:] |= touching[:-1]
+    kept[:-1] |= touching[1:]
+    given = np.where(kept, own, row.nearest(x))
     place = x - centre[given]
     return replace(problem, given=given), replace(state, place=place, gap=height + profile(row, place)[0])
 

@@ -20,9 +20,8 @@ State = TypeVar("State", bound=ContactState)
 END_TOLERANCE = 1e-4
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
 END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: as END_TOLERANCE
-SHALLOW = (
-    0.1  # of the limit [1], the least way in whose increments a force is sought; source: a third of the devices' way
-)
+# Of the limit [1], the least way in whose increments a force is sought; source: a third of the devices' way
+SHALLOW = 0.1
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
 
 
