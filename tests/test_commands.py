@@ -19,6 +19,7 @@ import pytest
 import yaml
 
 import fingerpad.commands.predict as predicting
+import fingerpad.commands.robustness as varying
 from conftest import Project, coarsened
 from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
@@ -686,6 +687,56 @@ def test_predict_takes_values_in_turn(
         "\n\ndevice2, small strain: 2 variants\nthese values change no score\n"
         "shear, strain: no two scores differ by more than their errors\n"
     )
+
+
+def test_robustness_says_which_assumptions_orders_hang_on(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Device 2 with scores of its own: friction turns the order of strain, the other half-cycle has no prediction."""
+
+    def forecast_one(scene: Scene, error: bool, *given: Any) -> list[dict[str, Any]]:
+        friction, first = scene.model.contact.friction, scene.device.conditions[-1].tangential[0, 0] >= 0.0
+        scores = [1.0, 2.0, 3.0] if friction > 0.5 else [3.0, 2.0, 1.0]
+        return [ROW | {"condition": condition.name, "kinematics": str(scene.kinematics),
+                       "score": score if first else None, "score_error": 0.1 if error else None,
+                       "note": "" if first else "no prediction: too far", "caveats": []}
+                for condition, score in zip(scene.device.conditions, scores, strict=True)]  # fmt: skip
+
+    monkeypatch.setattr(varying, "forecast", forecast_one)
+    assumptions = checkout / "assumptions.yaml"
+    assumptions.write_text(
+        "model:\n- {key: contact.friction, values: [0.3, 0.9], source: 'assumption: dry and moist'}\n"
+        "devices:\n- {key: actuators.pitch, times: [0.1, 1.1], source: 'assumption: no, and wider'}\n",
+        encoding="utf-8",
+    )
+    command = ["robustness", "config/devices/device2.yaml", "--assumptions", str(assumptions)]
+    assert main(command) == 0
+    said = capsys.readouterr().out
+    assert said.startswith(
+        "Device 2: lateral pins (device2), small strain: 2 assumptions varied, one at a time\n\nshear, strain\n"
+        "  alternate_000 < alternate_090 holds in 0 of 1; turned with contact.friction 0.3;"
+        " no prediction with stimulus.half_cycle second\n"
+    )
+    assert "\nwithout effect: contact.friction 0.9, actuators.pitch times 1.1, kinematics finite\n" in said
+    assert "\nstimulus.half_cycle second: no prediction: too far\n" in said
+    assert "\nleft out: actuators.pitch times 0.1: config/devices/device2.yaml" in said
+
+    assert main([*command, "--csv"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert list(dict.fromkeys(row["varied"] for row in rows)) == [
+        "as configured", "contact.friction 0.3", "contact.friction 0.9", "actuators.pitch times 1.1",
+        "stimulus.half_cycle second", "kinematics finite",
+    ]  # fmt: skip
+    assert {row["score_error"] for row in rows if row["varied"] == "as configured"} == {"0.1"}
+
+
+def test_robustness_of_a_device_that_cannot_be_solved_is_an_error(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    unsolved = [ROW | {"score": None, "score_error": None, "note": "no prediction: too far"}]
+    monkeypatch.setattr(varying, "forecast", lambda *given: unsolved)
+    assert main(["robustness", "config/devices/device2.yaml"]) == UNSOLVED
+    assert "nothing could be scored: no prediction: too far" in capsys.readouterr().err
 
 
 def test_orders_count_scores_that_differ_by_more_than_their_errors() -> None:

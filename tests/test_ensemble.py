@@ -24,6 +24,7 @@ from fingerpad.ensemble.alternatives import (
     write_scenes,
 )
 from fingerpad.ensemble.members import ensemble_tables, member_scores
+from fingerpad.ensemble.robustness import changed, orders_held, reasons, varied_values
 from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.pages.robustness import robustness_values
@@ -32,6 +33,7 @@ from fingerpad.prediction import scoring
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
+from fingerpad.scene.variation import with_value
 from scenes import scene
 from test_claims import CONDITIONS, make_scores
 
@@ -202,3 +204,51 @@ def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.Data
     marks = sum(len(line.get_xdata()) for line in figure.axes[0].lines if line.get_linestyle() == "None")
     assert marks == len(tables[0])
     assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == [AS_CONFIGURED, FRICTION.name]
+
+
+def test_a_device_varies_in_what_it_assumes_and_in_what_its_model_may_be() -> None:
+    """What another device has, what is known and what is as it is already are no variants."""
+    varied = varied_values(CONFIG, DEVICES["device2"], read_ensemble(SHIPPED))
+    assert varied["finger.height times 0.9"] == {"finger.height": 11.7}
+    assert varied["actuators.pitch times 0.8"] == {"actuators.pitch": 2.0}
+    assert varied["stimulus.half_cycle second"] == {"stimulus.half_cycle": SECOND}
+    keys = {key for values in varied.values() for key in values}
+    assert not keys & {"actuators.body.poisson", "stimulus.relative_to", "stimulus.dispersions.low"}
+    known = with_value(DEVICES["device2"], "actuators.pitch", 2.5, "our data sheet")
+    assert "actuators.pitch times 0.8" not in varied_values(CONFIG, known, read_ensemble(SHIPPED))
+    already = with_value(CONFIG, "contact.friction", 0.38, "measured")
+    assert "contact.friction 0.38" not in varied_values(already, known, read_ensemble(SHIPPED))
+    with pytest.raises(SceneError, match=r"contact\.fricton: found no such value"):
+        varied_values(CONFIG, known, [Alternative("model", "contact.fricton", 0.1, None, "s")])
+
+
+def table_of(**scores: float | None) -> list[dict[str, Any]]:
+    """Rows of one interface and read-out, with errors of a tenth."""
+    return [
+        {"condition": name, "interface": "shear", "readout": "strain", "score": score, "note": "" if score else "lost"}
+        | {"score_error": score and 0.1 * score}
+        for name, score in scores.items()
+    ]
+
+
+def test_orders_hold_are_open_turn_or_are_lost() -> None:
+    """Errors of members are a tenth of their scores, too: 3 and 3.5 are open."""
+    configured = table_of(a=1.0, b=2.0, c=3.0)
+    members = {"like": table_of(a=10.0, b=20.0, c=30.0), "near": table_of(a=1.0, b=3.0, c=3.5),
+               "turns": table_of(a=1.0, b=3.0, c=2.0), "none": table_of(a=1.0, b=2.0, c=None)}  # fmt: skip
+    first, outer, last = orders_held(configured, members)
+    assert (first.low, first.high, first.holds) == ("a", "b", ("like", "near", "turns", "none"))
+    assert (outer.low, outer.high, outer.holds) == ("a", "c", ("like", "near", "turns"))
+    assert (last.low, last.high) == ("b", "c")
+    assert (last.holds, last.open, last.turned, last.lost) == (("like",), ("near",), ("turns",), ("none",))
+    assert (first.scored, last.scored) == (4, 3)
+    assert [(each.low, each.high) for each in orders_held(configured, {"like": configured})] == [("a", "b"), ("b", "c")]
+    assert reasons(configured, members["none"]) == ["lost"]
+    assert not reasons(table_of(a=1.0, b=2.0, c=None), members["none"])
+
+
+def test_a_score_that_is_another_or_gone_has_changed() -> None:
+    configured = table_of(a=1.0, b=None)
+    assert not changed(configured, table_of(a=1.0 + 1e-9, b=None))
+    assert changed(configured, table_of(a=1.01, b=None))
+    assert changed(configured, table_of(a=None, b=None))

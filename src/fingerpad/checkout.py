@@ -20,6 +20,11 @@ class Checkout:
         return self.root / "config" / "config.yaml"
 
     @property
+    def ensemble(self) -> Path:
+        """What its assumptions might be as well."""
+        return self.root / "config" / "ensemble.yaml"
+
+    @property
     def devices(self) -> Path:
         """The folder of device files."""
         return self.root / "config" / "devices"

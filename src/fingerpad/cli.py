@@ -19,6 +19,7 @@ COMMANDS: Mapping[str, str] = {  # each a module in `commands`, which is loaded 
     "new": "begin a device file of your own",
     "check": "check a device file and draw the device",
     "predict": "predict the roughness scores of devices",
+    "robustness": "tell which assumptions the orders of a device's scores hang on",
     "vibrate": "score a device's conditions as vibrations",
     "fields": "write the fields of a condition for ParaView",
     "export": "write a condition as an input deck for Abaqus or CalculiX",

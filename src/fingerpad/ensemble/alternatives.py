@@ -135,7 +135,12 @@ def _varied(document: Document, alternative: Alternative) -> Document:
 def assuming(devices: Mapping[str, Document], key: str) -> list[str]:
     """Names of the devices whose value at a key is an assumption, by their documents."""
     found = {name: dict(quantities_of(document)).get(key, {}) for name, document in devices.items()}
-    return [name for name, quantity in found.items() if str(quantity.get("source")).startswith(Origin.ASSUMPTION)]
+    return [name for name, quantity in found.items() if is_assumed(quantity)]
+
+
+def is_assumed(quantity: Mapping[str, Any]) -> bool:
+    """Whether a quantity of a scene file is an assumption, by its source."""
+    return str(quantity.get("source")).startswith(Origin.ASSUMPTION)
 
 
 def named_alternative(alternatives: Sequence[Alternative], member: str) -> Alternative | None:

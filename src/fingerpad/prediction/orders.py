@@ -50,15 +50,15 @@ def orders(tables: Sequence[Sequence[Row]]) -> Iterator[str]:
                 yield f"{interface}, {readout}: no two scores differ by more than their errors"
             for count in sorted(set(counts.values()), reverse=True):
                 pairs = [pair for pair in counts if counts[pair] == count]
-                pairs = _without_implied(pairs) if count == len(tables) else pairs
+                pairs = without_implied(pairs) if count == len(tables) else pairs
                 said = ", ".join(f"{low} < {high}" for low, high in pairs)
                 yield f"{interface}, {readout}, in {count} of {len(tables)}: {said}"
 
 
-def _without_implied(pairs: Sequence[Pair]) -> list[Pair]:
+def without_implied(pairs: Sequence[Pair]) -> list[Pair]:
     """Pairs that do not follow from two others.
 
-    >>> _without_implied([("a", "b"), ("a", "c"), ("b", "c")])
+    >>> without_implied([("a", "b"), ("a", "c"), ("b", "c")])
     [('a', 'b'), ('b', 'c')]
     """
     known = set(pairs)

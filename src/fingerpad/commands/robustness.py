@@ -1,0 +1,144 @@
+"""`fingerpad robustness`: which assumptions the orders of a device's scores hang on."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from ..checkout import find_checkout
+from ..ensemble.alternatives import AS_CONFIGURED, read_ensemble
+from ..ensemble.robustness import Order, changed, orders_held, reasons, varied_values
+from ..errors import ContactError, SceneError
+from ..prediction.forecast import forecast, steps
+from ..scene.scene import Scene
+from ..scene.scenefile import read_yaml
+from ..scene.tissue_law import Kinematics
+from .options import add_scene_options, checked_scene
+from .printing import as_csv, titled
+
+DESCRIPTION = """\
+Tell which assumptions the orders of a device's scores hang on. What config/ensemble.yaml lists is varied, one at a
+time: of the model, and of what the device file assumes; the other half of the stimulus' cycle and the other
+kinematics, too.
+An order holds where two scores differ the same way by more than the errors of both. Errors are those that
+`fingerpad predict` states, in proportion to the scores.
+
+examples:
+  fingerpad robustness config/devices/device2.yaml
+  fingerpad robustness --kinematics finite config/devices/device2.yaml
+  fingerpad robustness --csv config/devices/device2.yaml > device2.csv
+"""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    parser.add_argument("--csv", action="store_true", help="print all scores, with what is varied in the first column")
+    parser.add_argument(
+        "--kinematics",
+        choices=[str(each) for each in Kinematics],
+        default=str(Kinematics.SMALL),
+        help="of the tissue, as configured (default: %(default)s); the other is one of the assumptions",
+    )
+    parser.add_argument(
+        "--assumptions",
+        type=Path,
+        metavar="FILE",
+        help="what is varied (default: config/ensemble.yaml of the checkout)",
+    )
+    add_scene_options(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Solve the device as configured, with errors, and once for each assumption; print what becomes of the orders.
+
+    Raises ContactError if nothing can be scored as configured.
+    """
+    scene = _distinct(checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics)))
+    varied, refused = _varied(scene, options)
+    total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
+    with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
+        configured = forecast(scene, True, bar.update)
+        if all(row["score"] is None for row in configured):
+            raise ContactError(f"nothing could be scored: {configured[0]['note']}")
+        tables = {name: forecast(each, False, bar.update) for name, each in varied.items()}
+    if options.csv:
+        named = {AS_CONFIGURED: configured, **tables}
+        rows = [{"varied": name} | row for name, own in named.items() for row in own]
+        print(as_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows]), end="")
+    else:
+        print("\n".join(_told(scene, configured, tables, refused)))
+
+
+def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene], dict[str, str]]:
+    """Scenes by the names of the assumptions that are varied in them; and why some names have none.
+
+    Raises SceneError, and UsageError outside a checkout.
+    """
+    config = options.config or find_checkout(Path.cwd()).config
+    alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
+    found: dict[str, Scene] = {}
+    refused: dict[str, str] = {}
+    for name, values in varied_values(read_yaml(config), read_yaml(options.device), alternatives).items():
+        try:
+            other = checked_scene(options.device, options, values)
+        except SceneError as error:  # as a pattern of four actuators is no alternative for three
+            refused[name] = str(error)
+        else:
+            found[name] = _only(other.with_kinematics(scene.kinematics), scene)
+    for kinematics in scene.computed:
+        if kinematics is not scene.kinematics:
+            found[f"kinematics {kinematics}"] = scene.with_kinematics(kinematics)
+    return found, refused
+
+
+def _distinct(scene: Scene) -> Scene:
+    """The scene with one condition of each stimulus."""
+    return replace(scene, device=replace(scene.device, conditions=tuple(scene.device.distinct_conditions)))
+
+
+def _only(scene: Scene, other: Scene) -> Scene:
+    """The scene with the conditions that another one has."""
+    known = {each.name for each in other.device.conditions}
+    kept = tuple(each for each in scene.device.conditions if each.name in known)
+    return replace(scene, device=replace(scene.device, conditions=kept))
+
+
+def _told(
+    scene: Scene,
+    configured: Sequence[Mapping[str, Any]],
+    tables: Mapping[str, Sequence[Mapping[str, Any]]],
+    refused: Mapping[str, str],
+) -> Iterator[str]:
+    """Lines that say what becomes of the orders, then what could not be varied or changes nothing."""
+    idle = [name for name, rows in tables.items() if not changed(configured, rows)]
+    members = {name: rows for name, rows in tables.items() if name not in idle}
+    yield f"{titled(scene)}: {len(members)} assumptions varied, one at a time"
+    found = orders_held(configured, members)
+    if not found:
+        yield "no two scores differ by more than their errors"
+    for (interface, readout), orders in groupby(found, key=lambda each: (each.interface, each.readout)):
+        yield f"\n{interface}, {readout}"
+        yield from map(_as_line, orders)
+    yield ""
+    if idle:
+        yield f"without effect: {', '.join(idle)}"
+    for name, rows in members.items():
+        yield from (f"{name}: {note}" for note in reasons(configured, rows))
+    yield from (f"left out: {name}: {why}" for name, why in refused.items())
+
+
+def _as_line(order: Order) -> str:
+    """An order, in how many members it holds, and in which not."""
+    kinds = {"open": order.open, "turned": order.turned, "no prediction": order.lost}
+    others = [f"{kind} with {', '.join(names)}" for kind, names in kinds.items() if names]
+    held = f"  {order.low} < {order.high} holds in {len(order.holds)} of {order.scored}"
+    return "; ".join([held, *others])
