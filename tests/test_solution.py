@@ -379,6 +379,46 @@ def test_wider_sharp_pins_are_covered_deeper(interface: Interface) -> None:
     assert np.abs(fit(np.log(widths)) - np.log(depths)).max() < 0.03
 
 
+@pytest.mark.parametrize("count", [3, 4])
+def test_pins_are_covered_the_deeper_the_wider_until_they_abut(count: int) -> None:
+    """Skin in a gap of few nodes, or of one, covers the faces beside it whosever node it is."""
+    depths = []
+    for gap in (0.1, 0.05, 0.03, 0.02, 0.01, 0.0):
+        base, still = row_of(count, 1.0, 1.0 - gap, [0.0] * count)
+        base = base.coarsened(2.0)
+        found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+        depths.append(solve_condition(base, found, None, still, Interface.SHEAR).depth)
+    assert np.all(np.diff(depths) > 0.0)
+    assert depths[-1] < 1.1 * depths[0]  # as much as the faces are wider
+
+
+@pytest.mark.parametrize("interface", Interface)
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_touch_ends_where_the_last_pin_bears_something(count: int, interface: Interface) -> None:
+    base, still = row_of(count, 1.2, 0.8, [0.0] * count)
+    base = ending(base.coarsened(2.0), Criterion.TOUCH)
+    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    solution = solve_condition(base, found, None, still, interface)
+    borne = np.bincount(solution.actuator, solution.indented_force[:, 1], count)
+    assert np.all(borne > 0.0)
+    lower = replace(base.model.contact, criterion=Criterion.DEPTH, depth=solution.depth - 0.01)
+    if count == 3:  # one or two touch from the start
+        less = solve_condition(
+            replace(base, model=replace(base.model, contact=lower)), found, None, still, interface
+        ).indented_force
+        assert np.bincount(solution.actuator, less[:, 1], count)[[0, -1]] == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("interface", Interface)
+@pytest.mark.parametrize("force", [1e-4, 1e-2])
+def test_light_forces_are_met_as_well(force: float, interface: Interface) -> None:
+    base, still = row_of(1, 1.0, 0.8, [0.0])
+    base = ending(base.coarsened(2.0), Criterion.FORCE, force=force)
+    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    borne = solve_condition(base, found, None, still, interface).indented_force[:, 1].sum()
+    assert borne == pytest.approx(force, rel=END_TOLERANCE)
+
+
 @pytest.mark.parametrize("interface", Interface)
 def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> None:
     """States that obey all laws but one, which the error names; half of what a law allows passes, and is told."""

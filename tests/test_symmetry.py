@@ -7,16 +7,37 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fingerpad.contact.certificate import certify
 from fingerpad.contact.linear_solution import indented_state
 from fingerpad.contact.problem import contact_problem
 from fingerpad.contact.symmetry import mirrors
+from fingerpad.errors import UniquenessError
+from fingerpad.finite.pressing import press
 from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import ActuatorRow
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.compliance import MIRROR
+from fingerpad.tissue.condensation import condense_section
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from scenes import condensed, scene
 
 # Gaps are solved to 1e-9 of the indentation of some 2 mm
 LENGTH = 1e-7  # mm; the height at which the last edge touches follows gaps tenfold (measured: up to 3e-8)
 SHARE = 1e-5  # of the largest [1]; forces at edges, pressed by some 0.01 mm, follow heights (measured: up to 1.3e-6)
+
+
+def without_halves(base: Scene) -> Scene:
+    return replace(base, model=replace(base.model, skips=replace(base.model.skips, mirrored_half=False)))
+
+
+def with_row(row: ActuatorRow) -> Scene:
+    """Device 2 with another row at rest, on a mesh of twice the sizes."""
+    base = scene("device2")
+    still = np.zeros((1, len(row.positions)))
+    condition = replace(base.device.conditions[0], time=np.array([1.0]), normal=still, tangential=still)
+    device = replace(base.device, actuators=row, conditions=(condition,), cycles=(), frequencies=())
+    return replace(base, device=device).coarsened(2.0)
 
 
 @pytest.mark.parametrize(
@@ -29,14 +50,71 @@ def test_halves_give_the_same_state_as_the_whole(device: str, interface: Interfa
     problem = contact_problem(base, *condensed(device), interface)
     assert mirrors(problem)
     halves = indented_state(base, problem)
-    whole = indented_state(
-        replace(base, model=replace(base.model, skips=replace(base.model.skips, mirrored_half=False))), problem
-    )
+    whole = indented_state(without_halves(base), problem)
     assert np.abs(halves.actuator - whole.actuator).max() < LENGTH
     assert np.abs(halves.force - whole.force).max() < SHARE * whole.force.max()
     assert np.abs(halves.place - whole.place).max() < LENGTH
     assert np.array_equal(halves.status > 0, whole.status > 0)
     assert halves.dissipation == pytest.approx(whole.dissipation, rel=SHARE)
+
+
+@pytest.mark.parametrize("interface", Interface)
+@pytest.mark.parametrize(
+    "row",
+    [
+        ActuatorRow((0.0,), 1.0, 0.1),
+        ActuatorRow((-2.2, 0.0, 2.2), 1.2, 0.15),
+        ActuatorRow((-2.0, -1.0, 0.0, 1.0, 2.0), 0.7, 0.05),
+        ActuatorRow((-0.5, 0.5), 0.9, 0.0),
+    ],
+    ids=["one", "three", "five", "close"],
+)
+def test_a_node_in_the_middle_belongs_to_both_halves(row: ActuatorRow, interface: Interface) -> None:
+    """A pin over the mid-line, or pins so close beside it that they might reach the skin there."""
+    base = with_row(row)
+    section = condense_section(mesh_section(base, nominal_edges(row)), base)
+    problem = contact_problem(base, section, None, interface)
+    assert (problem.position[:, 0] == 0.0).sum() == 1
+    assert mirrors(problem)
+    halves = indented_state(base, problem)
+    whole = indented_state(without_halves(base), problem)
+    assert np.abs(halves.actuator - whole.actuator).max() < LENGTH
+    assert np.abs(halves.force - whole.force).max() < SHARE * whole.force.max()
+    assert np.abs(halves.trend - whole.trend).max() < 0.01 * np.abs(whole.trend).max()  # of a last, short increment
+    assert np.abs(halves.place - whole.place).max() < LENGTH
+    assert np.array_equal(halves.status > 0, whole.status > 0)
+
+
+@pytest.mark.parametrize("interface", Interface)
+def test_deformed_tissue_is_pressed_by_halves_with_a_pin_in_the_middle(interface: Interface) -> None:
+    """The condensed section, too, is that of the whole: its compliance, and where skin would be without contact."""
+    row = ActuatorRow((-2.2, 0.0, 2.2), 1.2, 0.15)
+    base = with_row(row).with_kinematics(Kinematics.FINITE)
+    mesh = mesh_section(base, nominal_edges(row))
+    halves, whole = (press(each, mesh, None, interface) for each in (base, without_halves(base)))
+    assert np.abs(halves.state.actuator - whole.state.actuator).max() < LENGTH
+    assert np.abs(halves.state.force - whole.state.force).max() < SHARE * whole.state.force.max()
+    assert np.abs(halves.displacement - whole.displacement).max() < LENGTH
+    scale = np.abs(whole.section.compliance).max()
+    assert np.abs(halves.section.compliance - whole.section.compliance).max() < SHARE * scale
+    assert np.abs(halves.free - whole.free).max() < LENGTH
+    assert halves.curve[-1] == pytest.approx(whole.curve[-1], rel=SHARE)
+
+
+@pytest.mark.parametrize("edge_radius", [0.0, 0.05])
+def test_close_pins_are_pressed_though_a_row_that_sways_might_go_elsewhere(edge_radius: float) -> None:
+    """At first touch pins 0.3 mm apart have one node each, on edges that face each other. There friction lets the row
+    slip to either side, and the states of the whole row are refused as not unique; the mirrored ones are.
+    """
+    row = ActuatorRow((-1.5, -0.5, 0.5, 1.5), 0.7, edge_radius)
+    base = with_row(row)
+    section = condense_section(mesh_section(base, nominal_edges(row)), base)
+    problem = contact_problem(base, section, None, Interface.SHEAR)
+    state = indented_state(base, problem)
+    assert state.force[:, 1] == pytest.approx(state.force[::-1, 1], abs=SHARE * state.force.max())
+    certify(problem, section, state)
+    with pytest.raises(UniquenessError):
+        indented_state(without_halves(base), problem)
 
 
 def test_a_lopsided_row_presses_as_its_mirror_image_does() -> None:

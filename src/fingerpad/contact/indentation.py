@@ -19,10 +19,12 @@ State = TypeVar("State", bound=ContactState)
 # What may be missing at its end: mm of face, gap or depth, share [1] of a force; source: 6e-5 of Device 2's indentation
 END_TOLERANCE = 1e-4
 FAR = 4.0  # ways from first touch to the outermost face [1] after which increments grow; source: devices need 1.8
-END_STEP = 1e-4  # mm of height below which an increment is not taken back; source: as END_TOLERANCE
+END_STEP = 1e-4  # mm of height below which an increment is not taken back, but for a force; source: as END_TOLERANCE
 # Of the limit [1], the least way in whose increments a force is sought; source: a third of the devices' way
 SHALLOW = 0.1
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
+NEARLY = 2.0 * END_TOLERANCE  # mm
+NOBODY = -1  # in place of an actuator's index: beyond the mid-line of a half
 
 
 def indent(problem: ContactProblem, law: ContactLaw, increments: int, limit: float) -> ContactState:
@@ -71,7 +73,7 @@ def raise_until(
         advanced, carried = advance(problem, state, target, 1, carried, solve)
         left = _missing(problem, advanced, law, touch)
         least = min(least, (left, height))
-        if left < -END_TOLERANCE and step > END_STEP:
+        if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
             weight = weight / 2.0 if beyond else 1.0
             beyond = height, left  # too far: again from the same state
         else:
@@ -99,14 +101,26 @@ def _missing(problem: ContactProblem, state: ContactState, law: ContactLaw, touc
     if law.criterion is Criterion.FORCE:
         return 1.0 - problem.images * float(state.force[:, 1].sum()) / law.force
     if law.criterion is Criterion.TOUCH:
-        return max(0.0 if touching[own].any() else float(state.gap[own].min()) for own in problem.spans)
+        # more than the gap, so that it does not end just before contact
+        return max(0.0 if touching[own].any() else float(state.gap[own].min()) + NEARLY for own in problem.spans)
+    return problem.row.half_face - _covered(problem, state)
+
+
+def _covered(problem: ContactProblem, state: ContactState) -> float:
+    """How far [mm] from their centres skin covers the faces at least, on either side."""
+    centres, own = np.asarray(problem.row.positions), problem.actuator_of
+    x, closed = state.place + centres[own], state.status != OPEN
     height = state.gap - profile(problem.row, state.place)[0]
-    covered = min(
-        front(sign * state.place[own][::sign], height[own][::sign], touching[own][::sign])
-        for own in problem.spans
+    if problem.images > 1:  # beyond the mid-line lies the mirror image
+        beyond = np.flatnonzero(problem.position[:, 0] > 0.0)[::-1]
+        own = np.concatenate([np.where(centres[own] == 0.0, own, NOBODY)[beyond], own])
+        x = np.concatenate([-x[beyond], x])
+        closed, height = (np.concatenate([each[beyond], each]) for each in (closed, height))
+    return min(
+        front(sign * (x - centre)[::sign], height[::sign], (closed & (own == number))[::sign])
+        for number, centre in enumerate(centres)
         for sign in (1, -1)
     )
-    return problem.row.half_face - covered
 
 
 def _wanted(law: ContactLaw) -> str:
@@ -130,18 +144,22 @@ def _nearest(least: float, height: float, touch: float, law: ContactLaw) -> str:
     return f", at best {short} at {height - touch:.3g} mm"
 
 
-def front(place: FloatArray, height: FloatArray, active: np.ndarray) -> float:
-    """Place [mm] up to which one actuator's skin is in contact in the direction of ascending place (n,).
+def front(place: FloatArray, height: FloatArray, touched: np.ndarray) -> float:
+    """Place [mm] up to which skin covers a face in the direction of ascending place (n,), from the last node (n,) that
+    touches the actuator on: skin that is no higher than the face, whatever it touches.
 
-    The front is where height to the power FRONT_POWER of the first two open nodes extrapolates to zero: smooth in the
+    The front is where height to the power FRONT_POWER of the first two higher nodes extrapolates to zero: smooth in the
     load, though nodes close one by one.
     """
-    closed = active.nonzero()[0]
-    if closed.size == 0:
-        return float("-inf")  # not even touched
-    last = int(closed[-1])
+    if not touched.any():
+        return float("-inf")
+    last = int(touched.nonzero()[0][-1])
+    higher = (height[last + 1 :] > 0.0).nonzero()[0]
+    if higher.size == 0:
+        return float(place[-1])
+    last += int(higher[0])
     near, far = np.maximum(height[last + 1 : last + 3], 0.0) ** FRONT_POWER if last + 2 < place.size else (0.0, 0.0)
     if far <= near:
-        return float(place[min(last + 1, place.size - 1)])
+        return float(place[last + 1])
     beyond = (place[last + 2] - place[last + 1]) * near / (far - near)
     return float(max(place[last + 1] - beyond, place[last]))

@@ -70,7 +70,7 @@ def advance(
     Raises as `follow`; on tissue that deforms much InvertedError or SnapError, if that is why.
     """
     start = state.actuator
-    standing = _stand(start, target)
+    standing = stands(start, target)
     if standing and not drifting:
         return state, carried
     target = start if standing else target
@@ -81,7 +81,8 @@ def advance(
     while done < 1.0:
         goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
         try:
-            state, carried = solve(problem, state, start + goal * (target - start), carried)
+            place = target if goal == 1.0 else start + goal * (target - start)
+            state, carried = solve(problem, state, place, carried)
             done = goal
             step = min(2.0 * step, longest)
         except NotConvergedError as failure:
@@ -115,13 +116,13 @@ def drifting_to(
         problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
     ) -> tuple[ContactState, Patch]:
         first = np.zeros_like(last) if problem.free is None else problem.free
-        way = 1.0 if _stand(begin, target) else float(np.abs(actuator - begin).max()) / length
+        way = 1.0 if stands(begin, target) else float(np.abs(actuator - begin).max()) / length
         return solve_increment(replace(problem, free=first + way**power * (last - first)), state, actuator, patch)
 
     return solve
 
 
-def _stand(begin: FloatArray, target: FloatArray) -> bool:
+def stands(begin: FloatArray, target: FloatArray) -> bool:
     """Whether the way from `begin` to `target` (n_actuators, 2) [mm] is none."""
     return bool(np.abs(target - begin).max() <= NEGLIGIBLE * max(np.abs(begin).max(), np.abs(target).max()))
 

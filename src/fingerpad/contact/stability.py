@@ -32,5 +32,8 @@ def unstable_directions(problem: ContactProblem, status: np.ndarray, place: Floa
     there = touch(problem, place)
     if there is not None:
         compliance = compliance + face_compliance(problem, there, active)
-    held = np.flatnonzero(np.concatenate([status[active] == Status.STICK, np.ones(active.size, dtype=bool)]))
+    held = np.flatnonzero(
+        np.concatenate([status[active] == Status.STICK, np.ones(active.size, dtype=bool)])
+        & (np.diag(compliance) != 0.0)  # what a mid-line holds, contact need not hold
+    )
     return negative - int(np.count_nonzero(np.linalg.eigvalsh(compliance[np.ix_(held, held)]) < 0.0))

@@ -2,7 +2,9 @@
 
 Raising a row of actuators that mirrors about x = 0 against a section that does loads both halves alike, so the right
 half answers with C_RR + C_RL M, where M mirrors the forces on the right to the left. Half the unknowns, an eighth of
-the work, and the same state.
+the work, and the same state: the mirrored one, though from first touch on some states that sway might do as well.
+
+A node on x = 0 stays there, and the half bears half of its force.
 """
 
 from __future__ import annotations
@@ -24,19 +26,17 @@ def indent_by_halves(problem: ContactProblem, law: ContactLaw, increments: int, 
     """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
     if not mirrors(problem):
         return indent(problem, law, increments, limit)
-    return unfolded(indent(fold(problem), law, increments, limit))
+    half = fold(problem)
+    return unfolded(indent(half, law, increments, limit), half)
 
 
 def mirrors(problem: ContactProblem) -> bool:
-    """Whether nodes and actuators mirror about x = 0, with none of them on it, and bodies each in itself."""
-    x = problem.position[:, 0]
+    """Whether nodes and actuators mirror about x = 0, and bodies each in itself, none of them on it."""
     positions = np.asarray(problem.row.positions)
     return bool(
         np.array_equal(problem.position[::-1] * MIRROR, problem.position)
         and np.array_equal(-positions[::-1], positions)
-        and np.all(x != 0.0)
-        and np.all(positions != 0.0)
-        and (problem.body is None or _body_mirrors(problem.body))
+        and (problem.body is None or (_body_mirrors(problem.body) and np.all(positions != 0.0)))
     )
 
 
@@ -50,32 +50,43 @@ def _body_mirrors(body: CondensedBody) -> bool:
 
 def fold(problem: ContactProblem) -> ContactProblem:
     """The right half's problem, its compliance under loads that mirror."""
-    half = problem.position.shape[0] // 2
+    half, middle = divmod(problem.position.shape[0], 2)
     of_right = problem.compliance[2 * half :]
     # the left image of right node j is node count - 1 - j; its x and y unknowns keep their order
     of_images = (of_right[:, : 2 * half].reshape(-1, half, 2)[:, ::-1] * MIRROR).reshape(-1, 2 * half)
-    return replace(half_of(problem), compliance=of_right[:, 2 * half :] + of_images)
+    compliance = of_right[:, 2 * half :].copy()
+    compliance[:, 2 * middle :] += of_images
+    if middle:
+        compliance[0] = compliance[:, 0] = 0.0
+        compliance[:, 1] *= 2.0
+    return replace(half_of(problem), compliance=compliance)
 
 
 def half_of(problem: ContactProblem) -> ContactProblem:
-    """The problem with the right half's nodes and actuators, whatever its compliance."""
-    positions = tuple(x for x in problem.row.positions if x > 0.0)
+    """The problem with the nodes and actuators of the right half and the middle, whatever its compliance."""
+    positions = tuple(x for x in problem.row.positions if x >= 0.0)
     half = problem.position.shape[0] // 2
     row = replace(problem.row, positions=positions)
     return replace(problem, position=problem.position[half:], row=row, images=2)
 
 
-def unfolded(state: ContactState) -> ContactState:
-    """The whole state of the right half's."""
+def unfolded(state: ContactState, problem: ContactProblem) -> ContactState:
+    """The whole state of the half's, which `half_of` made a problem of."""
+    force, trend = state.force.copy(), state.trend.copy()
+    node = int(problem.position[0, 0] == 0.0)  # how many there are in the middle, which both halves share
+    actuator = int(problem.row.positions[0] == 0.0)
+    for halved in (force, trend):
+        halved[:node] *= 2.0
     return replace(
         state,
-        actuator=np.concatenate([state.actuator[::-1] * MIRROR, state.actuator]),
-        force=np.concatenate([state.force[::-1] * MIRROR, state.force]),
-        status=np.concatenate([MIRRORED_STATUS[state.status[::-1]], state.status]),
-        place=np.concatenate([-state.place[::-1], state.place]),
-        gap=np.concatenate([state.gap[::-1], state.gap]),
-        heading=np.concatenate([state.heading[::-1] * MIRROR, state.heading]),
-        drift=np.concatenate([state.drift[::-1] * MIRROR, state.drift]),
-        trend=np.concatenate([state.trend[::-1] * MIRROR, state.trend]),
+        actuator=np.concatenate([state.actuator[::-1] * MIRROR, state.actuator[actuator:]]),
+        force=np.concatenate([force[::-1] * MIRROR, force[node:]]),
+        status=np.concatenate([MIRRORED_STATUS[state.status[::-1]], state.status[node:]]),
+        place=np.concatenate([-state.place[::-1], state.place[node:]]),
+        gap=np.concatenate([state.gap[::-1], state.gap[node:]]),
+        heading=np.concatenate([state.heading[::-1] * MIRROR, state.heading[actuator:]]),
+        drift=np.concatenate([state.drift[::-1] * MIRROR, state.drift[node:]]),
+        trend=np.concatenate([trend[::-1] * MIRROR, trend[node:]]),
+        largest_force=max(state.largest_force, float(np.abs(force).max())),
         dissipation=2.0 * state.dissipation,
     )

@@ -25,7 +25,7 @@ from ..contact.acceleration import accelerated
 from ..contact.formulation import ContactProblem, ContactState
 from ..contact.increment import solve_increment
 from ..contact.patch import Patch
-from ..contact.path import advance, drifting_to
+from ..contact.path import advance, drifting_to, stands
 from ..errors import ContactError
 from ..tissue.factors import factorise
 from .deformation import internal_force, internal_force_and_tangent
@@ -122,7 +122,7 @@ def move(
     problem: condensed about the tissue's displacement. Where corrections do not settle the move is made again, with new
     tangents. Raises what `path.advance` raises.
     """
-    if np.array_equal(target, start.state.actuator):
+    if stands(start.state.actuator, target):
         return start
     try:
         return _corrected(tissue, problem, start, target, increments)

@@ -11,6 +11,8 @@ from ..errors import CondensationError
 
 PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue of contrast 1e6 stays above 1e-10
 
+SINGULAR = "the stiffness is singular: nothing holds some of the tissue"
+
 
 def fill_reducing_order(
     matrix: csc_matrix, dofs: np.ndarray, held: np.ndarray, last: np.ndarray | None = None
@@ -44,10 +46,13 @@ def factorise(permuted: csc_matrix) -> SuperLU:
 
     Raises CondensationError if it is singular.
     """
-    factors = _factorise(permuted, "NATURAL")
+    try:
+        factors = _factorise(permuted, "NATURAL")
+    except RuntimeError as error:  # a pivot is zero to the last bit
+        raise CondensationError(SINGULAR) from error
     pivots = np.abs(factors.U.diagonal())
-    if pivots.min() < PIVOT_LIMIT * pivots.max():
-        raise CondensationError("the stiffness is singular: nothing holds some of the tissue")
+    if not pivots.min() >= PIVOT_LIMIT * pivots.max():
+        raise CondensationError(SINGULAR)
     return factors
 
 
