@@ -50,6 +50,7 @@ from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.stimuli import phased
 from fingerpad.tissue.actuator_body import condense_body
+from fingerpad.tissue.compliance import MIRROR
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
@@ -161,8 +162,8 @@ def test_pre_indentation_ends_at_the_depth_or_the_force_that_is_asked_for(interf
 
 
 def test_a_row_that_cannot_be_covered_is_pressed_as_hard_as_is_asked() -> None:
-    """Eleven pins across the finger: the outer ones touch nothing, and the middle ones bear what there is."""
-    base, still = row_of(11, 1.3, 0.6, [0.0] * 11)
+    """Pins so far apart that the outer ones touch nothing: the middle one bears what there is."""
+    base, still = row_of(5, 3.8, 0.3, [0.0] * 5)
     found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
     with pytest.raises(
         CriterionError,
@@ -171,10 +172,10 @@ def test_a_row_that_cannot_be_covered_is_pressed_as_hard_as_is_asked() -> None:
         indent_device(base, found, None, Interface.SHEAR)
     heavy = ending(base, Criterion.FORCE, force=0.05)
     solution = solve_condition(heavy, found, None, still, Interface.SHEAR)
-    borne = np.bincount(solution.actuator, solution.indented_force[:, 1], 11)
+    borne = solution.pressing[0]
     assert borne.sum() == pytest.approx(0.05, rel=END_TOLERANCE)
     assert borne[[0, -1]] == pytest.approx(0.0, abs=1e-15)
-    assert borne[4:7].sum() > 0.9 * borne.sum()
+    assert borne[2] > 0.9 * borne.sum()
 
 
 @pytest.mark.parametrize(
@@ -302,19 +303,21 @@ def test_a_row_too_wide_says_what_helps() -> None:
         solve_anew(wide.coarsened(4.0), still)
 
 
-@pytest.mark.parametrize(("pitch", "solved_by_touch"), [(0.2, False), (0.15, True)])
-def test_rows_of_narrow_pins_say_what_helps(pitch: float, solved_by_touch: bool) -> None:
-    """Of forty pins on 8 mm some touch no skin at any height, so that `touch` is no way out; on 6 mm it is."""
-    fine, _ = row_of(40, pitch, 0.15, [0.0] * 40, edge_radius=0.05)
-    wide = fine.coarsened(1.5)
+@pytest.mark.parametrize(("row", "solved_by_touch"), [((5, 3.8, 0.3), False), ((3, 7.4, 0.6), True)])
+def test_rows_that_are_never_covered_say_what_helps(row: tuple[int, float, float], solved_by_touch: bool) -> None:
+    """Of five pins on 15 mm the outer ones touch no skin at any height that the inner ones allow, so that `touch` is no
+    way out; of three on as many it is.
+    """
+    wide, _ = row_of(*row, [0.0] * row[0])
+    wide = wide.with_numerics(replace(wide.model.numerics, contact_margin=1.0))
     found = condense_section(mesh_section(wide, nominal_edges(wide.device.actuators)), wide)
     with pytest.raises(CriterionError, match="a narrower row needs less indentation") as failure:
         indent_device(wide, found, None, Interface.SHEAR)
     assert ("at best" in str(failure.value)) is solved_by_touch
     assert ("contact.criterion: touch" in str(failure.value)) is solved_by_touch
-    touching = replace(wide, model=replace(wide.model, contact=replace(wide.model.contact, criterion=Criterion.TOUCH)))
+    touching = ending(wide, Criterion.TOUCH)
     if solved_by_touch:
-        assert indent_device(touching, found, None, Interface.SHEAR).state.actuator[0, 1] < 1.0
+        assert np.all(indent_device(touching, found, None, Interface.SHEAR).state.force[:, 1] >= 0.0)
     else:
         with pytest.raises(CriterionError):
             indent_device(touching, found, None, Interface.SHEAR)
@@ -385,7 +388,6 @@ def test_pins_are_covered_the_deeper_the_wider_until_they_abut(count: int) -> No
     depths = []
     for gap in (0.1, 0.05, 0.03, 0.02, 0.01, 0.0):
         base, still = row_of(count, 1.0, 1.0 - gap, [0.0] * count)
-        base = base.coarsened(2.0)
         found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
         depths.append(solve_condition(base, found, None, still, Interface.SHEAR).depth)
     assert np.all(np.diff(depths) > 0.0)
@@ -396,26 +398,23 @@ def test_pins_are_covered_the_deeper_the_wider_until_they_abut(count: int) -> No
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_touch_ends_where_the_last_pin_bears_something(count: int, interface: Interface) -> None:
     base, still = row_of(count, 1.2, 0.8, [0.0] * count)
-    base = ending(base.coarsened(2.0), Criterion.TOUCH)
+    base = ending(base, Criterion.TOUCH)
     found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
     solution = solve_condition(base, found, None, still, interface)
-    borne = np.bincount(solution.actuator, solution.indented_force[:, 1], count)
-    assert np.all(borne > 0.0)
-    lower = replace(base.model.contact, criterion=Criterion.DEPTH, depth=solution.depth - 0.01)
+    assert np.all(solution.pressing[0] > 0.0)
     if count == 3:  # one or two touch from the start
-        less = solve_condition(
-            replace(base, model=replace(base.model, contact=lower)), found, None, still, interface
-        ).indented_force
-        assert np.bincount(solution.actuator, less[:, 1], count)[[0, -1]] == pytest.approx(0.0, abs=1e-15)
+        less = ending(base, Criterion.DEPTH, depth=solution.depth - 0.01)
+        borne = solve_condition(less, found, None, still, interface).pressing[0]
+        assert borne[[0, -1]] == pytest.approx(0.0, abs=1e-15)
 
 
 @pytest.mark.parametrize("interface", Interface)
 @pytest.mark.parametrize("force", [1e-4, 1e-2])
 def test_light_forces_are_met_as_well(force: float, interface: Interface) -> None:
     base, still = row_of(1, 1.0, 0.8, [0.0])
-    base = ending(base.coarsened(2.0), Criterion.FORCE, force=force)
+    base = ending(base, Criterion.FORCE, force=force)
     found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
-    borne = solve_condition(base, found, None, still, interface).indented_force[:, 1].sum()
+    borne = solve_condition(base, found, None, still, interface).pressing[0].sum()
     assert borne == pytest.approx(force, rel=END_TOLERANCE)
 
 
@@ -535,12 +534,35 @@ def test_a_long_stroke_is_not_halved_again_and_again() -> None:
     assert np.abs(few.force - many.force).max() < 1e-8 * np.abs(many.force).max()
 
 
-def test_a_stroke_beyond_reach_ends_where_it_leaves_it() -> None:
-    """What follows is no solution: four pins that sweep over their neighbours' skin had no unique one, they said."""
-    base, condition = row_of(4, 1.0, 0.6, [3.0] * 4)
-    found = condense_section(mesh_device(base), base)
-    with pytest.raises(ReachError, match=r"condition=stroke, .* shorter strokes"):
-        solve_condition(base, found, None, condition, Interface.SHEAR)
+@pytest.mark.parametrize("interface", Interface)
+def test_pins_sweep_over_skin_that_lay_under_others(interface: Interface) -> None:
+    """By three times their distance, to one side as to the other."""
+    there, back = row_of(4, 1.0, 0.6, [3.0] * 4), row_of(4, 1.0, 0.6, [-3.0] * 4)
+    found = condense_section(mesh_device(there[0]), there[0])
+    one, other = (solve_condition(base, found, None, condition, interface) for base, condition in (there, back))
+    assert np.any(one.actuator != there[0].device.actuators.nearest(one.position[:, 0]))
+    largest = np.abs(one.force[-1]).max()
+    assert np.abs(one.force[-1] - other.force[-1][::-1] * MIRROR).max() < 1e-6 * largest
+
+
+@pytest.mark.parametrize("interface", Interface)
+@pytest.mark.parametrize("stroke", [0.05, 0.4])
+def test_pins_that_abut_and_move_together_are_one(stroke: float, interface: Interface) -> None:
+    """Skin slides from one face to the next. What the corners between them leave is as small as they are, 2e-3 mm."""
+    row, condition = row_of(4, 1.0, 1.0, [stroke] * 4, edge_radius=0.0)
+    wide, same = row_of(1, 4.0, 4.0, [stroke], edge_radius=0.0)
+    mesh = mesh_section(row, nominal_edges(row.device.actuators))
+    many, one = (
+        solve_condition(pressed, condense_section(mesh, pressed), None, moved, interface)
+        for pressed, moved in (
+            (ending(row, Criterion.DEPTH, depth=0.5), condition),
+            (ending(wide, Criterion.DEPTH, depth=0.5), same),
+        )
+    )
+    assert many.pressing.sum(axis=1) == pytest.approx(one.pressing.sum(axis=1), rel=1e-3)
+    assert np.abs(many.reading.strain - one.reading.strain).max() < 1e-3 * one.reading.strain.max()
+    change = many.reading.change_of_strain - one.reading.change_of_strain
+    assert np.abs(change).max() < 1e-3 * one.reading.strain.max()
 
 
 @pytest.mark.parametrize("interface", Interface)
@@ -644,18 +666,18 @@ def test_skin_on_the_mid_line_is_left_out_only_where_no_face_gets_near() -> None
         assert (0.0 in x) is reached
 
 
-def test_skin_belongs_to_the_actuator_that_it_was_pressed_to() -> None:
-    """Skin under the outer pins of a dense row goes sideways by more than half of a gap, so that pins that slide touch
-    skin that lay nearer to a neighbour before.
+@pytest.mark.parametrize("interface", Interface)
+def test_skin_belongs_to_the_actuator_that_it_is_pressed_to(interface: Interface) -> None:
+    """Skin under the outer pins of a dense row goes sideways by more than half of a gap. With friction it goes with the
+    pins; without they slide by more than a gap over skin that others touched.
     """
-    base, condition = row_of(6, 1.7, 1.44, [0.088] * 6, edge_radius=0.186)
+    base, condition = row_of(6, 1.7, 1.44, [0.6] * 6, edge_radius=0.186)
     found = condense_section(mesh_device(base), base)
-    pressed = indent_device(base, found, None, Interface.FRICTIONLESS)
-    assert np.any(pressed.problem.actuator_of != base.device.actuators.nearest(found.position[:, 0]))
+    pressed = indent_device(base, found, None, interface)
+    assert np.any(pressed.state.given != base.device.actuators.nearest(found.position[:, 0]))
     gap = reevaluated_gap(pressed.problem, pressed.state)
     assert np.abs(gap - pressed.state.gap).max() < 1e-9
-    stimulate(base, found, pressed, condition)
-    undeformed = replace(pressed.problem, given=None)
-    before = replace(pressed, problem=undeformed, state=indented_state(base, undeformed))
-    with pytest.raises(ReachError, match="reaches skin that only its neighbour's may touch; skin there has moved"):
-        stimulate(base, found, before, condition)
+    slid = stimulate(base, found, pressed, condition)
+    before, after = pressed.state.given, slid.actuator
+    touching = (pressed.state.status != 0) & (slid.status != 0)
+    assert np.any((before != after)[touching]) == (interface is Interface.FRICTIONLESS)

@@ -81,7 +81,9 @@ def test_a_node_in_the_middle_belongs_to_both_halves(row: ActuatorRow, interface
     assert np.abs(halves.actuator - whole.actuator).max() < LENGTH
     assert np.abs(halves.force - whole.force).max() < SHARE * whole.force.max()
     assert np.abs(halves.trend - whole.trend).max() < 0.01 * np.abs(whole.trend).max()  # of a last, short increment
-    assert np.abs(halves.place - whole.place).max() < LENGTH
+    # skin half-way between two pins is either's
+    places = [state.place + np.asarray(row.positions)[state.given] for state in (halves, whole)]
+    assert np.abs(places[0] - places[1]).max() < LENGTH
     assert np.array_equal(halves.status > 0, whole.status > 0)
 
 

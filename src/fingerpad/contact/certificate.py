@@ -9,8 +9,15 @@ import numpy as np
 
 from ..errors import CertificateError, ReachError
 from ..tissue.compliance import CondensedSection
-from .formulation import ContactProblem, ContactState, Status, reevaluated_gap, shearing_and_pressing
-from .profile import profile
+from .formulation import (
+    ContactProblem,
+    ContactState,
+    Status,
+    nearest_now,
+    overlapped,
+    reevaluated_gap,
+    shearing_and_pressing,
+)
 
 # distance of two nodes over the skin that belongs to them [1]; source: of equal elements 1/2 if they share one, 2/3 at
 # the end of a face, at least 1 if there is another between
@@ -117,22 +124,16 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
     Contact may reach an actuator's last node where the next node of the skin is a neighbour's; but no node may press
     into another actuator than the one it was given to.
     """
-    own, x = problem.actuator_of, problem.position[:, 0]
+    own, x = state.given, problem.position[:, 0]
     allowed = PENETRATION_LIMIT * float(np.abs(state.actuator).max())
     active = state.status != Status.OPEN
     adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
     first = np.append(True, ~adjacent)
     last = np.append(~adjacent, True)
-    centre = np.asarray(problem.row.positions)[:, None] + state.actuator[:, :1]
-    place = (state.place + centre[own, 0] - centre).T  # (n, n_actuators)
-    nearest = np.argmin(np.abs(place), axis=1)
-    there = place[np.arange(x.size), nearest]
-    height = state.gap - profile(problem.row, state.place)[0] + (state.actuator[own] - state.actuator[nearest])[:, 1]
-    overlapping = (nearest != own) & (height + profile(problem.row, there)[0] < -allowed)
-    beyond = np.flatnonzero(active & (first | last) | overlapping)
+    beyond = np.flatnonzero(active & (first | last) | overlapped(problem, state, allowed))
     if beyond.size:
         node = beyond[0]
-        aside = abs(state.place[node] + centre[own[node], 0] - x[node])
+        aside = abs(state.place[node] + problem.row.positions[own[node]] + state.actuator[own[node], 0] - x[node])
         moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
         less = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
         centre = problem.row.positions[own[node]]
@@ -140,7 +141,7 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
             reaches = f"at the actuator at x = {centre:g} mm reaches the edge of the modelled contact zone"
             advice = f"{less}; a larger numerics.contact_margin considers more skin"
         else:
-            neighbour = problem.row.positions[nearest[node]]
+            neighbour = problem.row.positions[nearest_now(problem, state)[node]]
             reaches = f"at the actuator at x = {neighbour:g} mm reaches skin that only its neighbour's may touch"
             advice = less
         raise ReachError(f"certificate: contact {reaches}; skin there has moved {aside:.2g} mm sideways{advice}")

@@ -58,7 +58,8 @@ class ContactProblem:
     tolerance: relative, on forces and gaps. max_cuts: halvings of an increment. patches: whether an increment takes
     only nodes in contact or about to be, or all. free: (n, 2) displacement of the nodes without contact forces [mm],
     of tissue linearised about a deformed state; None is zero. turning: whether the normal turns on rounded edges.
-    given: index (n,) of the actuator that each node is given to; None is the one nearest to undeformed skin.
+    given: index (n,) of the actuator that each node is given to, and of no other; None is the one nearest to
+    undeformed skin. It changes along a path, with `ContactState.given`.
     images: how many like it there are [1]: two where it is one half of a row that mirrors.
     """
 
@@ -112,7 +113,8 @@ class ContactState:
     """A converged state.
 
     actuator: (n_actuators, 2) displacement from the row's position [mm]. force: (n, 2) on the skin [N/mm].
-    status: (n,) Status. place: (n,) x of each node from its actuator's centre [mm]. gap: (n,) [mm].
+    given: (n,) index of the actuator that each node may touch. status: (n,) Status. place: (n,) x of each node from
+    that actuator's centre [mm]. gap: (n,) [mm].
     length: of the last increment, the largest movement of an actuator [mm]; zero at rest. heading: (n_actuators, 2)
     movement of the actuators over that length [1]. drift: (n, 2) change of place and gap over it [1]. trend: (n, 2)
     change of force over it [N/mm²].
@@ -123,6 +125,7 @@ class ContactState:
 
     actuator: FloatArray
     force: FloatArray
+    given: np.ndarray
     status: np.ndarray
     place: FloatArray
     gap: FloatArray
@@ -155,6 +158,7 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
     return ContactState(
         actuator=actuator,
         force=nothing,
+        given=problem.actuator_of,
         status=status,
         place=x,
         gap=gap,
@@ -173,25 +177,71 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
 
 def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     """Undeformed nodes (n, 2) [mm] in the frame of their actuator, which stands at `actuator` (n_actuators, 2)."""
-    centre = np.stack([np.asarray(problem.row.positions), np.zeros(len(problem.row.positions))], axis=1)
+    centre = np.stack([problem.row.positions, np.zeros(len(problem.row.positions))], axis=1)
     position = problem.position if problem.free is None else problem.position + problem.free
     return np.asarray(position - (actuator + centre)[problem.actuator_of])
 
 
+def given_as(problem: ContactProblem, state: ContactState) -> ContactProblem:
+    """The problem with its nodes given to the actuators that they have in a state."""
+    return problem if problem.given is state.given else replace(problem, given=state.given)
+
+
 def given_anew(problem: ContactProblem, state: ContactState) -> tuple[ContactProblem, ContactState]:
-    """The problem and its pre-indented state with open nodes given to the actuator that they are nearest to now, as
-    skin that is pressed goes sideways. Nodes beside contact stay, as hats there reach to them.
+    """Problem and state with open nodes given to the actuator that they are nearest to now, as skin goes sideways.
+    Nodes beside contact stay, as hats there reach to them, and so does the order of actuators along the skin.
     """
-    row, own, height = problem.row, problem.actuator_of, state.gap - profile(problem.row, state.place)[0]
-    centre = np.asarray(row.positions)
-    x = state.place + centre[own]
+    own, nearest = state.given, nearest_now(problem, state)
     touching = state.status != OPEN
     kept = touching.copy()
     kept[1:] |= touching[:-1]
     kept[:-1] |= touching[1:]
-    given = np.where(kept, own, row.nearest(x))
-    place = x - centre[given]
-    return replace(problem, given=given), replace(state, place=place, gap=height + profile(row, place)[0])
+    if (kept | (nearest == own)).all():
+        return given_as(problem, state), state
+    wanted = np.where(kept, own, nearest)
+    least = np.maximum.accumulate(np.where(touching, own, 0))
+    most = np.minimum.accumulate(np.where(touching, own, own[-1])[::-1])[::-1]
+    return given_to(problem, state, np.maximum.accumulate(np.clip(wanted, least, most)))
+
+
+def given_to(problem: ContactProblem, state: ContactState, given: np.ndarray) -> tuple[ContactProblem, ContactState]:
+    """Problem and state with nodes given to other actuators (n,), which they do not touch yet."""
+    own, moved = state.given, state.given != given
+    aside, above = (_centres(problem, state)[own] - _centres(problem, state)[given]).T
+    place = state.place + aside
+    height = state.gap - profile(problem.row, state.place)[0] + above
+    anew = replace(
+        state,
+        given=given,
+        status=np.where(moved, OPEN, state.status),
+        place=place,
+        gap=height + profile(problem.row, place)[0],
+        drift=np.where(moved[:, None], 0.0, state.drift),  # over another actuator it promises nothing
+        trend=np.where(moved[:, None], 0.0, state.trend),
+    )
+    return given_as(problem, anew), anew
+
+
+def nearest_now(problem: ContactProblem, state: ContactState) -> np.ndarray:
+    """Index (n,) of the actuator whose centre is nearest along x to where each node is now."""
+    centre = _centres(problem, state)[:, 0]
+    between = (centre[1:] + centre[:-1]) / 2.0
+    return np.asarray(np.searchsorted(between, state.place + centre[state.given]))
+
+
+def overlapped(problem: ContactProblem, state: ContactState, allowed: float) -> np.ndarray:
+    """Nodes (n,) that overlap, by more than is allowed [mm], the actuator that they are nearest to but not given to."""
+    nearest = nearest_now(problem, state)
+    astray = np.asarray(nearest != state.given)
+    if astray.any():
+        astray &= given_to(problem, state, nearest)[1].gap < -allowed
+    return astray
+
+
+def _centres(problem: ContactProblem, state: ContactState) -> FloatArray:
+    """Where the middles of the faces are (n_actuators, 2) [mm]."""
+    resting = np.stack([problem.row.positions, np.zeros(len(problem.row.positions))], axis=1)
+    return np.asarray(state.actuator + resting)
 
 
 def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -266,6 +316,7 @@ def face_compliance(problem: ContactProblem, there: FloatArray, nodes: np.ndarra
 
 def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
     """Gaps (n,) [mm] computed again from a state's forces, with the actuators' compliance where the skin now is."""
+    problem = given_as(problem, state)
     there = touch(problem, state.place)
     x, y = (unloaded(problem, state.actuator) + displacement(problem, state.force, there)).T
     return np.asarray(y + profile(problem.row, x)[0])

@@ -33,7 +33,11 @@ from .formulation import (
     ContactProblem,
     ContactState,
     displacement,
+    given_anew,
+    given_to,
     given_way,
+    nearest_now,
+    overlapped,
     resolved,
     touch,
     unloaded,
@@ -46,6 +50,9 @@ AMISS = 1e-5  # of the actuators' displacement [1] by which deformable faces may
 FORESIGHT = 1.5  # increments [1] for which a patch looks ahead; source: fewest seconds of 1, 1.5, 2, 3, 5 (measured)
 TURNING = 0.5  # of the way [1] by which gaps may close where a path turns, as skin beside a face moves with it; source:
 # fewest seconds of 0.25, 0.5, 1, 1.5 (measured)
+# Times [1] that an increment is solved again until skin is the right actuator's; source: once suffices where pins abut
+# (measured)
+HANDED_OVER = 4
 STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; source: rounding
 
 
@@ -69,8 +76,24 @@ def solve_increment(
 ) -> tuple[ContactState, Patch]:
     """The state with the actuators at `actuator` (n_actuators, 2) [mm], and the patch it was found with.
 
-    patch: one from earlier on this path, which serves if contact can still lie within it. Raises NotConvergedError.
+    patch: one from earlier on this path, which serves if contact can still lie within it. Where skin slides from one
+    actuator to the next, the increment is solved again with skin that the next one has. Raises NotConvergedError.
     """
+    problem, start = given_anew(problem, start)
+    reached, used = _solved_as_given(problem, start, actuator, patch)
+    for _ in range(HANDED_OVER):
+        astray = overlapped(problem, reached, problem.tolerance * largest_of(actuator))
+        if not astray.any():
+            break
+        problem, start = given_to(problem, start, np.where(astray, nearest_now(problem, reached), start.given))
+        reached, used = _solved_as_given(problem, start, actuator, used)
+    return reached, used
+
+
+def _solved_as_given(
+    problem: ContactProblem, start: ContactState, actuator: FloatArray, patch: Patch | None
+) -> tuple[ContactState, Patch]:
+    """The same with every node given to the actuator that it has. Raises NotConvergedError."""
     length = float(np.abs(actuator - start.actuator).max())
     straight = bool(np.abs(_over(actuator - start.actuator, length) - start.heading).max() < STRAIGHT)
     status, ahead = _foreseen(problem, start, length, straight)

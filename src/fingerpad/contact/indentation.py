@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import CriterionError
 from ..scene.contact_law import ContactLaw, Criterion
-from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, rest, touching_height
+from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, given_as, rest, touching_height
 from .increment import solve_increment
 from .path import Carried, SolveIncrement, advance
 from .profile import profile
@@ -95,7 +95,7 @@ def _missing(problem: ContactProblem, state: ContactState, law: ContactLaw, touc
     """What the criterion still waits for: face that is not covered, gap that is not closed, way [mm] that is to go from
     a height of first touch [mm], or the share of the force that is not borne [1]; < 0 beyond.
     """
-    touching = state.status != OPEN
+    problem, touching = given_as(problem, state), state.status != OPEN
     if law.criterion is Criterion.DEPTH:
         return touch + law.depth - float(state.actuator[0, 1])
     if law.criterion is Criterion.FORCE:
@@ -108,7 +108,7 @@ def _missing(problem: ContactProblem, state: ContactState, law: ContactLaw, touc
 
 def _covered(problem: ContactProblem, state: ContactState) -> float:
     """How far [mm] from their centres skin covers the faces at least, on either side."""
-    centres, own = np.asarray(problem.row.positions), problem.actuator_of
+    centres, own = np.asarray(problem.row.positions), state.given
     x, closed = state.place + centres[own], state.status != OPEN
     height = state.gap - profile(problem.row, state.place)[0]
     if problem.images > 1:  # beyond the mid-line lies the mirror image

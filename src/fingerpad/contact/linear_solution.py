@@ -14,7 +14,7 @@ from ..scene.scene import Scene
 from ..tissue.compliance import CondensedBody, CondensedSection
 from .certificate import Certificate, certify, require_within_reach, worst
 from .depth import require_tissue
-from .formulation import ContactProblem, ContactState, given_anew
+from .formulation import ContactProblem, ContactState
 from .increment import solve_increment
 from .indentation import indent
 from .patch import Patch
@@ -69,7 +69,7 @@ def indent_device(
     with named_pressing(scene, interface):
         state = indented_state(scene, problem)
         certificate = certify(problem, section, state)
-        return Indented(interface, *given_anew(problem, state), certificate)
+        return Indented(interface, problem, state, certificate)
 
 
 def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:

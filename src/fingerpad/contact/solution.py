@@ -23,9 +23,10 @@ class Solution:
     actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
     the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
-    `forces` but where the normal turns. arc: (m,) receptors [mm]. reading: what they say [1], and when. At that time:
-    pressure, shear: (n,) [MPa]; actuator: (n,) index of the one that a skin node may touch; place: (n,) x of the skin
-    nodes from that actuator's centre [mm]; status: (n,). iterations, cuts, searches: of the whole path. certificate.
+    `forces` but where the normal turns. pressing: (1 + n_times, n_actuators) forces f_y of actuators [N/mm]. arc: (m,)
+    receptors [mm]. reading: what they say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,)
+    index of the one that a skin node may touch; place: (n,) x of the skin nodes from that actuator's centre [mm];
+    status: (n,). iterations, cuts, searches: of the whole path. certificate.
     """
 
     indentation: float
@@ -34,6 +35,7 @@ class Solution:
     indented_force: FloatArray
     force: FloatArray
     contact: FloatArray
+    pressing: FloatArray
     arc: FloatArray
     reading: Reading
     pressure: FloatArray
@@ -77,7 +79,8 @@ def solution(
         reading=reading,
         pressure=contact[1 + reading.time, :, 1] / section.weight,
         shear=contact[1 + reading.time, :, 0] / section.weight,
-        actuator=problem.actuator_of,
+        pressing=np.array([_pressing(problem, state) for state in states]),
+        actuator=shown.given,
         place=shown.place,
         status=shown.status,
         iterations=last.iterations,
@@ -85,3 +88,8 @@ def solution(
         searches=last.searches,
         certificate=certificate,
     )
+
+
+def _pressing(problem: ContactProblem, state: ContactState) -> FloatArray:
+    """Pressing forces (n_actuators,) [N/mm] in a state."""
+    return np.asarray(np.bincount(state.given, state.force[:, 1], minlength=len(problem.row.positions)), dtype=float)

@@ -75,12 +75,15 @@ def unfolded(state: ContactState, problem: ContactProblem) -> ContactState:
     force, trend = state.force.copy(), state.trend.copy()
     node = int(problem.position[0, 0] == 0.0)  # how many there are in the middle, which both halves share
     actuator = int(problem.row.positions[0] == 0.0)
+    right = state.given + len(problem.row.positions) - actuator
+    last = 2 * len(problem.row.positions) - actuator - 1
     for halved in (force, trend):
         halved[:node] *= 2.0
     return replace(
         state,
         actuator=np.concatenate([state.actuator[::-1] * MIRROR, state.actuator[actuator:]]),
         force=np.concatenate([force[::-1] * MIRROR, force[node:]]),
+        given=np.concatenate([(last - right)[::-1], right[node:]]),
         status=np.concatenate([MIRRORED_STATUS[state.status[::-1]], state.status[node:]]),
         place=np.concatenate([-state.place[::-1], state.place[node:]]),
         gap=np.concatenate([state.gap[::-1], state.gap[node:]]),

@@ -198,7 +198,7 @@ def is_far(moved: float, length: float, load: float) -> bool:
 
 def _is_unstable(problem: ContactProblem, state: ContactState, tangent: Tangent) -> bool:
     """Whether tissue with that tangent is unstable while contact holds it as in that state."""
-    condensed = replace(problem, compliance=tangent.compliance)
+    condensed = replace(problem, compliance=tangent.compliance, given=state.given)
     return unstable_directions(condensed, state.status, state.place, tangent.factors) > 0
 
 

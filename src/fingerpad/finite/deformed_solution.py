@@ -14,7 +14,7 @@ from scipy.sparse import csr_matrix
 from ..arrays import FloatArray
 from ..contact.certificate import Certificate, certify, worst
 from ..contact.depth import require_tissue
-from ..contact.formulation import ContactProblem, given_anew
+from ..contact.formulation import ContactProblem
 from ..contact.problem import contact_problem, increments, named_pressing, named_stimulus
 from ..contact.solution import Solution, solution
 from ..scene.contact_law import Interface
@@ -58,8 +58,7 @@ def pressed_finger(
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement
     skin = skin_of(section, dofs, halved=False)
-    problem, state = given_anew(contact_problem(scene, pressed.section, body, interface), pressed.state)
-    free = pressed.free
+    problem, state, free = contact_problem(scene, pressed.section, body, interface), pressed.state, pressed.free
     sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
     condensing = partial(whole_part, scene, section, True)
     tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, sprung)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..readouts.comparison import Relation, Score, relation
 from ..readouts.roughness import KEY
@@ -52,7 +51,7 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
             "round actuators have no flat face to cover: pre-indentation ends where all touch;"
             " contact.criterion: depth or force presses them"
         )
-    pressing = _pressing(scene, solution)
+    pressing = solution.pressing
     if idle := _numbers(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
@@ -80,12 +79,6 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     }
     found += [f"certificate: {name} is {share:.0%} of its limit" for name, share in shares.items() if share > NEAR]
     return found
-
-
-def _pressing(scene: Scene, solution: Solution) -> FloatArray:
-    """Pressing forces (1 + n_times, n_actuators) [N/mm] of actuators after pre-indentation and along the stimulus."""
-    count = len(scene.device.actuators.positions)
-    return np.array([np.bincount(solution.actuator, each[:, 1], minlength=count) for each in solution.forces])
 
 
 def _numbers(which: np.ndarray) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact.formulation import ContactProblem, ContactState, given_anew
+from ..contact.formulation import ContactProblem, ContactState
 from ..contact.linear_solution import follow_condition, indented_state
 from ..contact.problem import contact_problem
 from ..errors import CondensationError, ContactError, CriterionError, MeshError
@@ -110,10 +110,10 @@ def _pressed_state(
     """
     if condensed is not None:
         problem = contact_problem(scene, condensed, body, interface)
-        return given_anew(problem, indented_state(scene, problem))
+        return problem, indented_state(scene, problem)
     pressed = press(scene, section, body, interface)
     problem = contact_problem(scene, pressed.section, body, interface)
-    return given_anew(replace(problem, free=pressed.free), pressed.state)
+    return replace(problem, free=pressed.free), pressed.state
 
 
 def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
@@ -121,7 +121,7 @@ def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
     row, x = problem.row, problem.position[:, 0]
     found = []
     for number in range(len(row.positions)):
-        nodes = problem.actuator_of == number
+        nodes = state.given == number
         for edge in ((-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)):
             found.append(np.interp(edge, state.place[nodes], x[nodes]))
     return np.array(found)

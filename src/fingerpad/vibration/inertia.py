@@ -57,7 +57,7 @@ class Driven:
 
 def stuck(indented: Indented, cycle: Cycle) -> Driven:
     """Skin that sticks to the actuators which it touches, and moves with them."""
-    amplitude = np.stack([cycle.tangential, cycle.normal], axis=1)[indented.problem.actuator_of]
+    amplitude = np.stack([cycle.tangential, cycle.normal], axis=1)[indented.state.given]
     amplitude[indented.state.status == Status.OPEN] = np.nan
     return Driven(amplitude.ravel(), np.zeros(amplitude.size, dtype=np.complex128))
 
