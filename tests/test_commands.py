@@ -287,7 +287,8 @@ def test_a_scene_without_a_mesh_leaves_the_others(
     said = capsys.readouterr().out
     every = ", ".join(f"all conditions ({each}, strain and change_of_strain)" for each in ("shear", "frictionless"))
     assert f"caveat: {every.replace('), ', '); ')}: no prediction: too many elements\n" in said
-    assert "change_of_strain, in 1 of 2: alternate_000 < alternate_090" in said
+    assert "change_of_strain, in 1 of 1: alternate_000 < alternate_090" in said
+    assert "change_of_strain, no prediction (contact.friction 0.9)" in said
 
 
 def test_a_coarser_mesh_without_a_node_for_an_actuator_leaves_errors_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -362,6 +363,8 @@ ROW = {
     "readout": "strain",
     "unit": "mm2",
     "note": "",
+    "indentation_mm": None,
+    "force_N_per_mm": None,
     "dispersion": "a",
 }
 
@@ -423,13 +426,13 @@ def test_a_face_of_few_elements_is_doubted() -> None:
     assert solution_caveats(narrow, solution) == ["actuators are 2.0 elements wide: try a smaller numerics.edge_size"]
 
 
-def test_round_actuators_say_that_they_only_touch() -> None:
+def test_round_actuators_say_where_they_end() -> None:
     """`full` asks for flat faces to be covered; a depth or a force is what it says, whatever the faces."""
     given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
     row = replace(given.device.actuators, edge_radius=given.device.actuators.width / 2.0)
     domes = replace(given, device=replace(given.device, actuators=row))
     (caveat,) = solution_caveats(domes, solution)
-    assert caveat.startswith("round actuators have no flat face to cover")
+    assert caveat.startswith("round actuators have no flat face to cover: pre-indentation ends where contact reaches")
     law = replace(domes.model.contact, criterion=Criterion.FORCE)
     assert solution_caveats(replace(domes, model=replace(domes.model, contact=law)), solution) == []
 
@@ -536,7 +539,8 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
 def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
     normal = np.array([[0.0, -3.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]])
     back = Condition("back", "test", 0.0, np.array([1.0, 2.0]), normal, np.zeros_like(normal))
-    (caveat,) = solution_caveats(scene("device2"), solve("device2", back, Interface.FRICTIONLESS))
+    strained, caveat = solution_caveats(scene("device2"), solve("device2", back, Interface.FRICTIONLESS))
+    assert strained.endswith("too much for small strain: compare --kinematics finite")
     assert caveat.startswith("actuators that leave the skin, counted from the left: 2;")
 
 
@@ -550,8 +554,8 @@ def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
     assert solution_caveats(scene("device2"), solve("device2", there, Interface.FRICTIONLESS)) == []
 
 
-def test_a_single_pin_that_touches_alone_presses_on_nothing() -> None:
-    """Where it first touches it carries nothing: a stroke sideways changes nothing, and scores are zero."""
+def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
+    """It goes no deeper than its first node needs, and what it drags along is as small."""
     base = scene("device2")
     still = np.zeros((1, 1))
     beside = Condition("beside", "test", 0.0, np.array([1.0]), still, still + 0.02)
@@ -559,9 +563,9 @@ def test_a_single_pin_that_touches_alone_presses_on_nothing() -> None:
     model = replace(base.model, contact=replace(base.model.contact, criterion=Criterion.TOUCH))
     given = Scene(model, replace(base.device, actuators=row, conditions=(beside,), cycles=())).coarsened(4.0)
     rows = forecast(given, error=False)
-    assert [row["score"] for row in rows] == [0.0] * 4
-    idle = "actuators without force after pre-indentation, counted from the left: 1"
-    assert [row["caveats"] for row in rows] == [[idle]] * 4
+    assert all(0.0 < row["force_N_per_mm"] < 2e-4 and row["indentation_mm"] < 3e-3 for row in rows)
+    assert all(0.0 <= row["score"] < 1e-3 for row in rows)
+    assert [row["caveats"] for row in rows] == [[]] * 4
 
 
 @pytest.fixture
@@ -749,19 +753,28 @@ def test_orders_count_scores_that_differ_by_more_than_their_errors() -> None:
     near = table((1.0, 0.1), (1.15, 0.1), (1.3, 0.1))
     far = table((1.0, 0.1), (2.0, 0.1), (3.0, 0.1))
     unknown = table((1.0, None), (2.0, 0.1), (None, None))
-    assert list(orders([near, far, far])) == [
+    assert list(orders({"1": near, "2": far, "3": far})) == [
         "shear, strain, in 3 of 3: a < c",
-        "shear, strain, in 2 of 3: a < b, b < c",
+        "shear, strain, in 2 of 3 (2; 3): a < b, b < c",
     ]
-    assert list(orders([far, far, far])) == [
+    assert list(orders({"1": far, "2": far, "3": far})) == [
         "these values change no score",
         "shear, strain, in 3 of 3: a < b, b < c",
     ]
-    assert list(orders([far, far[::-1], table((3.0, 0.1), (2.0, 0.1), (1.0, 0.1))])) == [
-        "shear, strain, in 2 of 3: a < b, a < c, b < c",
-        "shear, strain, in 1 of 3: b < a, c < a, c < b",
+    falling = table((3.0, 0.1), (2.0, 0.1), (1.0, 0.1))
+    assert list(orders({"1": far, "2": far[::-1], "3": falling})) == [
+        "shear, strain, in 2 of 3 (1; 2): a < b, a < c, b < c",
+        "shear, strain, in 1 of 3 (3): b < a, c < a, c < b",
     ]
-    assert list(orders([unknown, near[:2]])) == ["shear, strain: no two scores differ by more than their errors"]
+    assert list(orders({"1": unknown, "2": near[:2]})) == [
+        "shear, strain: no two scores differ by more than their errors"
+    ]
+    lost = table((None, None), (None, None), (None, None))
+    assert list(orders({"1": far, "2": lost, "3": near})) == [
+        "shear, strain, in 2 of 2: a < c",
+        "shear, strain, in 1 of 2 (1): a < b, b < c",
+        "shear, strain, no prediction (2)",
+    ]
 
 
 def test_values_of_numpy_are_those_of_files_and_no_list_is_refused() -> None:

@@ -13,10 +13,11 @@ PART = ".part"  # ends the name of a file that is being written
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A path to write to, which becomes `path` when the block ends without an error; otherwise nothing is left of it,
-    and what was at `path` before stays. Raises an OSError, as `require_folder`.
+    """A path to write to, which becomes `path`, or what that is a link to, when the block ends without an error;
+    otherwise nothing is left of it, and what was at `path` before stays. Raises an OSError, as `require_folder`.
     """
     require_folder(path)
+    path = path.resolve()
     part = path.with_name(path.name + PART)
     try:
         yield part
@@ -27,12 +28,14 @@ def replacing(path: Path) -> Iterator[Path]:
 
 def require_folder(path: Path) -> None:
     """Raise an OSError that names the folder of a file to be written if there is none, or nothing may be written there,
-    and the file if a folder has its name.
+    and the file if a folder has its name, or anything else that is no file.
     """
     if not path.parent.is_dir():
         raise FileNotFoundError(errno.ENOENT, "is no folder, so nothing can be written there", str(path.parent))
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, "is a folder, so no file can be written there", str(path))
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "is no regular file, so it cannot be replaced by one", str(path))
     if not os.access(path.parent, os.W_OK | os.X_OK):
         raise PermissionError(errno.EACCES, "is a folder in which you may not write", str(path.parent))
 

@@ -26,7 +26,7 @@ def main(
     """Read the scene, its edges and what was read in all cases, solve them coarsely, write errors."""
     scene = load_scene(config, device, Kinematics(kinematics))
     read = {
-        (condition, Interface(interface)): ReadOut(load(solved, Solution).reading.time, load(path, FilteredReadouts))
+        (condition, Interface(interface)): ReadOut(load(solved, Solution), load(path, FilteredReadouts))
         for (condition, interface), solved, path in zip(cases, solutions, filtered, strict=True)
     }
     write_rows(errors, error_rows(scene, load_edges(edges), read))

@@ -9,12 +9,14 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from ..calculix.deck import DeckSettings, input_deck
+from ..errors import UsageError
 from ..files import require_folder, write_text
 from ..finite.pressing import indented_height
 from ..prediction.edges import mesh_device
 from ..scene.contact_law import Interface
 from .options import add_case_options, add_scene_options, checked_case
 
+DECK = ".inp"
 STEPS = 2  # of the progress: mesh, pre-indentation
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
@@ -55,7 +57,11 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Mesh the scene, find how deep it is indented, and write the deck."""
+    """Mesh the scene, find how deep it is indented, and write the deck. Raises UsageError for a deck of another ending
+    than DECK.
+    """
+    if options.output.suffix != DECK:
+        raise UsageError(f"{options.output}: found the ending '{options.output.suffix}'; allowed: {DECK}")
     require_folder(options.output)
     scene, condition, touching = checked_case(options)
     acting = scene.model.contact.coefficient(touching)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from difflib import get_close_matches
 from pathlib import Path
@@ -13,7 +13,7 @@ from typing import Any
 from ..checkout import find_checkout
 from ..csvrows import listed
 from ..errors import UsageError
-from ..scene.contact_law import Interface
+from ..scene.contact_law import Criterion, Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..scene.scenefile import read_values
@@ -95,6 +95,18 @@ def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
             raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")
         vary.setdefault(key.strip(), []).extend(values)
     return variants(vary)
+
+
+def require_effect(varied: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> None:
+    """Raise UsageError if a depth or a force is varied where pre-indentation ends at neither."""
+    criteria = {scene.model.contact.criterion for scene in scenes}
+    for criterion in (Criterion.DEPTH, Criterion.FORCE):
+        key = f"contact.{criterion}"
+        if criterion not in criteria and any(key in values for values in varied):
+            raise UsageError(
+                f"--vary: found {key}, which has no effect where contact.criterion is {listed(sorted(criteria))};"
+                f" add --vary contact.criterion={criterion}"
+            )
 
 
 def existing_file(device: Path) -> Path:

@@ -19,7 +19,7 @@ from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
-from .options import add_scene_options, add_variation, checked_scene, variations
+from .options import add_scene_options, add_variation, checked_scene, require_effect, variations
 from .printing import aligned, as_csv, titled
 
 DESCRIPTION = """\
@@ -69,26 +69,28 @@ def run(options: argparse.Namespace) -> None:
         [checked_scene(device, options, values).with_kinematics(kinematics) for values in varied]
         for device in options.devices
     ]
+    require_effect(varied, [scene for own in devices for scene in own])
     rows: list[dict[str, Any]] = []
     total = sum(steps(scene, error) for own in devices for scene in own)
     try:
         with tqdm(total=total, leave=False, disable=None) as bar:
             for own in devices:
-                tables = []
+                tables: dict[str, list[dict[str, Any]]] = {}
                 for scene, values in zip(own, varied, strict=True):
                     bar.set_description(scene.device.name)
-                    tables.append(forecast(scene, error, bar.update))
-                    found = [values | row for row in tables[-1]]
+                    predicted = tables[_named(values)] = forecast(scene, error, bar.update)
+                    found = [values | row for row in predicted]
                     if options.csv:
                         told = [{**row, "caveats": "; ".join(row["caveats"])} for row in found]
                         bar.write(as_csv(told, header=not rows), end="")
                     elif is_text:
-                        bar.write(("\n" if rows else "") + as_table(scene, tables[-1], values))
+                        bar.write(("\n" if rows else "") + as_table(scene, predicted, values))
                     sys.stdout.flush()
                     rows += found
-                if is_text and error and len(varied) > 1:
+                if is_text and len(varied) > 1:
                     title = f"{own[0].device.name}, {kinematics} strain: {len(varied)} variants"
-                    bar.write("\n".join(["", title, *orders(tables)]))
+                    said = orders(tables) if error else ["their orders are told with errors alone, not with --no-error"]
+                    bar.write("\n".join(["", title, *said]))
     finally:
         if options.json:
             print(json.dumps(rows, indent=2))
@@ -98,7 +100,7 @@ def run(options: argparse.Namespace) -> None:
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
     """Title, aligned table and caveats of one device, with these values in place of those in its files."""
-    title = ", ".join([titled(scene), *(f"{key} {shown(value)}" for key, value in values.items())])
+    title = ", ".join([titled(scene), *([_named(values)] if values else [])])
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
@@ -108,7 +110,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     ]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
-    lines = [title, *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
+    lines = [title, *_pressed(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
     told: dict[str, list[Mapping[str, Any]]] = {}
     for row in ordered:
         for caveat in row["caveats"]:
@@ -116,6 +118,21 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     every = [condition.name for condition in scene.device.conditions]
     lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in told.items()]
     return "\n".join(lines)
+
+
+def _pressed(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """How high above the pad's lowest point, and how hard, the device was pressed at each interface, if it was."""
+    preloads = dict.fromkeys(
+        f"{row['indentation_mm']:.3g} mm and {row['force_N_per_mm']:.3g} N/mm ({row['interface']})"
+        for row in rows
+        if row["indentation_mm"] is not None
+    )
+    return [f"pre-indentation: {', '.join(preloads)}"] if preloads else []
+
+
+def _named(values: Mapping[str, Any]) -> str:
+    """What a variant differs in, in words."""
+    return ", ".join(f"{key} {shown(value)}" for key, value in values.items())
 
 
 def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:

@@ -26,6 +26,8 @@ RIVAL = 0.98
 # Depth of an actuator over the pad's thickness [1]; source: mean strain is then 0.5, the logarithmic one 0.69: small
 # strain is off by over a quarter. Shipped devices have up to 0.36
 DEEP = 0.5
+# Principal strain at receptors [1]; source: ln(1 + e) is then a tenth less than e. Shipped devices have up to 0.13
+STRAINED = 0.22
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
@@ -48,8 +50,13 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     found = depth_caveats(scene, solution.depth)
     if scene.model.contact.criterion is Criterion.FULL and scene.device.actuators.half_face <= 0.0:
         found.append(
-            "round actuators have no flat face to cover: pre-indentation ends where all touch;"
-            " contact.criterion: depth or force presses them"
+            "round actuators have no flat face to cover: pre-indentation ends where contact reaches the middle of each;"
+            " --vary contact.criterion=depth or force, or either in config/config.yaml, presses them as asked"
+        )
+    strained = float(solution.reading.strain.max())
+    if scene.kinematics is Kinematics.SMALL and strained > STRAINED:
+        found.append(
+            f"receptors are strained by up to {strained:.0%}, too much for small strain: compare --kinematics finite"
         )
     pressing = solution.pressing
     if idle := _numbers(pressing[0] <= 0.0):

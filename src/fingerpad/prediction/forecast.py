@@ -15,14 +15,15 @@ from ..scene.device import Control
 from ..scene.scene import Scene
 from .caveats import score_caveats
 from .edges import edge_intervals
-from .scoring import error_rows, solved_rows
+from .scoring import ReadOut, error_rows, solved_rows
 
 SILENT = "the device controls forces: its displacements without friction are unknown"
 LEFT_OUT = "skipped by `interfaces` in the device file"
 
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
-    """Rows of the score table, as the workflow's, with `rank` and `caveats` (a list of sentences) behind.
+    """Rows of the score table, as the workflow's, with `rank`, `indentation_mm` and `force_N_per_mm` of
+    pre-indentation, and `caveats` (a list of sentences) behind.
 
     What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
     coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
@@ -38,9 +39,17 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
     caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
-        row | {"rank": rank, "caveats": own + close}
+        row | {"rank": rank} | _preload(read.get((row["condition"], row["interface"]))) | {"caveats": own + close}
         for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)
     ]
+
+
+def _preload(read: ReadOut | None) -> dict[str, float | None]:
+    """Columns that say how a device was pressed, if it was."""
+    return {
+        "indentation_mm": None if read is None else read.solution.indentation,
+        "force_N_per_mm": None if read is None else float(read.solution.pressing[0].sum()),
+    }
 
 
 def steps(scene: Scene, error: bool = True) -> int:

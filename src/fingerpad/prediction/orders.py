@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import permutations
 from typing import Any
@@ -30,29 +29,38 @@ def resolved_pairs(rows: Sequence[Row]) -> list[Pair]:
     ]
 
 
-def orders(tables: Sequence[Sequence[Row]]) -> Iterator[str]:
-    """In how many variants which scores are larger, a line for each interface, read-out and number of variants.
+def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+    """In which variants which scores are larger, a line for each interface, read-out and set of variants.
 
-    tables: rows of the score table of each variant. What others imply is left out where it holds in all.
+    tables: rows of the score table of each variant, by its name. What others imply is left out where it holds in all.
     """
-    scores = {tuple(row["score"] for row in rows) for rows in tables}
+    scores = {tuple(row["score"] for row in rows) for rows in tables.values()}
     if len(scores) == 1 and any(score is not None for score in scores.pop()):
         yield "these values change no score"
     for interface in Interface:
         for readout in Readout:
-            own = [
-                [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)] for rows in tables
-            ]
-            if not any(row["score"] is not None for rows in own for row in rows):
+            own = {
+                name: [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)]
+                for name, rows in tables.items()
+            }
+            scored = [name for name, rows in own.items() if any(row["score"] is not None for row in rows)]
+            if not scored:
                 continue
-            counts = Counter(pair for rows in own for pair in resolved_pairs(rows))
-            if not counts:
+            holding: dict[Pair, list[str]] = {}
+            for name, rows in own.items():
+                for pair in resolved_pairs(rows):
+                    holding.setdefault(pair, []).append(name)
+            if not holding:
                 yield f"{interface}, {readout}: no two scores differ by more than their errors"
-            for count in sorted(set(counts.values()), reverse=True):
-                pairs = [pair for pair in counts if counts[pair] == count]
-                pairs = without_implied(pairs) if count == len(tables) else pairs
+            sets = sorted({tuple(names) for names in holding.values()}, key=lambda names: -len(names))
+            for names in sets:
+                pairs = [pair for pair, held in holding.items() if tuple(held) == names]
+                pairs = without_implied(pairs) if len(names) == len(tables) else pairs
+                where = "" if len(names) == len(scored) else f" ({'; '.join(names)})"
                 said = ", ".join(f"{low} < {high}" for low, high in pairs)
-                yield f"{interface}, {readout}, in {count} of {len(tables)}: {said}"
+                yield f"{interface}, {readout}, in {len(names)} of {len(scored)}{where}: {said}"
+            if lost := [name for name in tables if name not in scored]:
+                yield f"{interface}, {readout}, no prediction ({'; '.join(lost)})"
 
 
 def without_implied(pairs: Sequence[Pair]) -> list[Pair]:

@@ -56,9 +56,9 @@ class Meshed:
 
 @dataclass(frozen=True)
 class ReadOut:
-    """What was read of a solution: the index of the time, and filtered read-outs."""
+    """A solution and what was read of it."""
 
-    time: int
+    solution: Solution
     filtered: FilteredReadouts
 
 
@@ -128,7 +128,7 @@ def error_rows(
     step()
     for interface in scene.device.interfaces():
         asked = tuple(
-            each.until(read[each.name, interface].time)
+            each.until(read[each.name, interface].solution.reading.time)
             for each in other.device.conditions
             if (each.name, interface) in read
         )
@@ -196,7 +196,7 @@ def solved_rows(
             rows += unscored_rows(scene, solved.condition, solved.interface, note)
         else:
             filtered = read_out(scene, condensed, solved.solution)
-            read[solved.case] = ReadOut(solved.solution.reading.time, filtered)
+            read[solved.case] = ReadOut(solved.solution, filtered)
             rows += rows_of(scene, solved, solved.solution, filtered)
         step()
     return rows, read

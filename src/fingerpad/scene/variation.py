@@ -6,7 +6,7 @@ A key is spoken of as messages do: `actuators.pitch`, `finger.pad[2].modulus`.
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import product
 from pathlib import Path
@@ -80,12 +80,35 @@ def shared_out(values: Mapping[str, Any], documents: Mapping[Path, Document]) ->
     """
     known = {path: dict(quantities_of(document)) for path, document in documents.items()}
     found: dict[Path, dict[str, Any]] = {path: {} for path in documents}
-    for key, value in values.items():
+    for asked, value in values.items():
+        key = _by_number(asked, documents.values())
         owner = next((path for path in known if key in known[path]), None)
         if owner is None:
             raise no_such_value(key, " and ".join(map(str, known)), [each for keys in known.values() for each in keys])
         found[owner][key] = value
     return found
+
+
+def _by_number(key: str, documents: Iterable[Document]) -> str:
+    """A key in which a list's entry that is called by its name, as a layer may be, is called by its number.
+
+    >>> _by_number("finger.pad.dermis.modulus", [{"finger": {"pad": [{"name": "epidermis"}, {"name": "dermis"}]}}])
+    'finger.pad[1].modulus'
+    """
+    for document in documents:
+        node: Any = document
+        taken: list[str] = []
+        for part in key.split("."):
+            names = [each.get("name") for each in node if isinstance(each, dict)] if isinstance(node, list) else []
+            if part in names:
+                taken[-1] += f"[{names.index(part)}]"
+                node = node[names.index(part)]
+            else:
+                taken.append(part)
+                node = node.get(part) if isinstance(node, dict) else None
+        if node is not None:
+            return ".".join(taken)
+    return key
 
 
 def no_such_value(key: str, where: str, known: Sequence[str]) -> SceneError:
