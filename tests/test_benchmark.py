@@ -151,11 +151,11 @@ def test_finite_kinematics_are_in_ladder_and_ledger(pair: Scene) -> None:
 
 def test_skips_move_no_score_beyond_its_error(switches: list[dict[str, Any]]) -> None:
     """Each switch is turned off once. What is exact moves scores by rounding and the solver's tolerance alone: 1e-9 in
-    forces, which a change of strain multiplies by some hundred; increments leave less than the stated error."""
+    forces and strain, which at 0° is 650 times its change; increments leave less than the stated error."""
     found = {row["skip"]: row for row in switches}
     assert set(found) == {field.name for field in fields(Skips)}
     for name, row in found.items():
-        limit = float(row["smallest_stated_error"]) if name == "frictionless_path" else 1e-7
+        limit = float(row["smallest_stated_error"]) if name == "frictionless_path" else 6.5e-7
         assert float(row["largest_difference"]) <= limit, name
     for name in ("equal_stimuli", "shared_indentation"):
         assert float(found[name]["largest_difference"]) == 0.0

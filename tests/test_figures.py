@@ -598,6 +598,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         indented_force=force,
         force=none,
         contact=none,
+        pressing=none,
         arc=none,
         reading=Reading(time=0, strain=none, change_of_strain=none, rival_peak=0.0),
         pressure=traction,

@@ -79,9 +79,12 @@ def test_fields_and_maps_of_finite_kinematics(finite_run: Project, project: Proj
 
 @pytest.mark.workflow
 def test_scores_are_those_recorded(finished: Project) -> None:
-    """Every score within TOLERANCE; if a change is meant, copy results/scores.csv over the recorded one."""
+    """Every score within TOLERANCE; if a change is meant, copy results/scores.csv over the recorded one. Those with
+    finite strain are computed by `make reproduce`, and compared after it (.ci/recorded).
+    """
     found = pd.read_csv(finished.folder / "results" / "scores.csv").set_index(KEY).sort_index()
-    expected = pd.read_csv(EXPECTED).set_index(KEY).sort_index()
+    recorded = pd.read_csv(EXPECTED)
+    expected = recorded[recorded["kinematics"] == "small"].set_index(KEY).sort_index()
     assert list(found.index) == list(expected.index)
     both = pd.DataFrame({"found": found["score"], "expected": expected["score"]})
     off = ~np.isclose(both["found"], both["expected"], rtol=TOLERANCE, atol=0.0, equal_nan=True)

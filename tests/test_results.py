@@ -41,7 +41,7 @@ def test_result_that_is_there_is_found(tmp_path: Path) -> None:
 def test_scenes_are_those_that_were_computed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The shipped ones, or those of the folder that a rule names."""
     monkeypatch.delenv("SCENES", raising=False)
-    assert list(scenes()) == ["device1", "device2", "device3"]
+    assert {"device1", "device2", "device3"} <= set(scenes())
     (tmp_path / "devices").mkdir()
     shutil.copy(CONFIG / "config.yaml", tmp_path)
     shutil.copy(CONFIG / "devices" / "device3.yaml", tmp_path / "devices" / "own.yaml")

@@ -129,10 +129,10 @@ def stands(begin: FloatArray, target: FloatArray) -> bool:
 
 def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     """Class and advice of the error that ends a path."""
+    if failure.snaps:  # which overshoots, and may turn tissue inside out
+        return SnapError, "the tissue has no stable state nearby and would snap; try less indentation, less movement"
     if failure.inverted:
         return InvertedError, f"{failure.inverted}; try less indentation, less movement"
-    if failure.snaps:
-        return SnapError, "the tissue has no stable state nearby and would snap; try less indentation, less movement"
     if failure.turned:
         return UniquenessError, "the states of contact have no unique solution there; try less friction, less movement"
     return ConvergenceError, "try larger numerics.indentation_increments and numerics.stimulus_increments"

@@ -108,7 +108,7 @@ def correlation_panel(
     factor = SCORE_SCALE[readout][0]
     x = factor * points["score"].to_numpy()
     y = 1.0 + classes(x) if rated.empty else points["rating"].to_numpy()
-    if pd.notna(row["r2"]):
+    if pd.notna(row["r2"]) and not is_open(row):  # a line would say what the errors leave open
         slope, intercept = np.polyfit(x, y, 1)
         ends = np.array([x.min(), x.max()])
         axes.plot(ends, intercept + slope * ends, color=GREY, zorder=1)

@@ -173,7 +173,7 @@ def solve_deformed_increment(
             ends.append(displacement[free])
             displacement[free] = accelerated(steps, ends)
     except InvertedError as error:
-        raise NotConvergedError(float("inf"), inverted=str(error)) from error
+        raise NotConvergedError(float("inf"), inverted=str(error), snaps=unstable) from error
     except CondensationError as error:
         raise NotConvergedError(float("inf"), snaps=unstable) from error
     except NotConvergedError as failure:

@@ -118,13 +118,10 @@ def _pressed_state(
 
 def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
     """Intervals (2 n_actuators, 2) of undeformed x [mm] of the skin that lies over the rounded edges."""
-    row, x = problem.row, problem.position[:, 0]
-    found = []
-    for number in range(len(row.positions)):
-        nodes = state.given == number
-        for edge in ((-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)):
-            found.append(np.interp(edge, state.place[nodes], x[nodes]))
-    return np.array(found)
+    row, centre = problem.row, problem.row.positions + state.actuator[:, 0]
+    now, before = state.place + centre[state.given], problem.position[:, 0]
+    edges = [(-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)]
+    return np.array([np.interp(each + np.array(edge), now, before) for each in centre for edge in edges])
 
 
 def _joined(intervals: FloatArray) -> FloatArray:
