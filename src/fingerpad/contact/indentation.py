@@ -102,7 +102,8 @@ def _missing(problem: ContactProblem, state: ContactState, law: ContactLaw, touc
         return 1.0 - problem.images * float(state.force[:, 1].sum()) / law.force
     if law.criterion is Criterion.TOUCH:
         # more than the gap, so that it does not end just before contact
-        return max(0.0 if touching[own].any() else float(state.gap[own].min()) + NEARLY for own in problem.spans)
+        gaps = [float(state.gap[own].min(initial=np.inf)) + NEARLY for own in problem.spans if not touching[own].any()]
+        return max(gaps, default=0.0)
     return problem.row.half_face - _covered(problem, state)
 
 
