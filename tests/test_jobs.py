@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 from pathlib import Path
 from typing import NoReturn
@@ -11,7 +12,7 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from fingerpad.errors import CriterionError, SceneError
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
 SOLVING = ("closed_forms", "ensemble_member", "fields", "increments", "readouts", "reference")
@@ -19,13 +20,23 @@ ALONE = ("benchmark_growth", "benchmark_ladder", "benchmark_steps", "calculix", 
 
 
 def test_an_expected_error_is_its_message_alone(tmp_path: Path) -> None:
-    """In the log and as what Python prints at its end, with status 1; nothing else is held back."""
+    """In the log and as what Python prints at its end, with status 1; of any other the log has the traceback."""
     log = tmp_path / "solve.log"
-    with pytest.raises(SystemExit, match=r"^fingerpad: too wide$"), plain_errors([str(log)]):
+    with pytest.raises(SystemExit, match=r"^fingerpad: too wide$"), logged([str(log)]):
         raise CriterionError("too wide")
     assert log.read_text(encoding="utf-8") == "too wide\n"
-    with pytest.raises(ZeroDivisionError), plain_errors([str(log)]):
-        raise ZeroDivisionError
+    with pytest.raises(ZeroDivisionError), logged([str(log)]):
+        raise ZeroDivisionError("by nothing")
+    said = log.read_text(encoding="utf-8")
+    assert said.startswith("too wide\nTraceback ")
+    assert said.endswith("ZeroDivisionError: by nothing\n")
+
+
+def test_every_script_says_in_its_log_why_it_failed() -> None:
+    for script in SCRIPTS.glob("*.py"):
+        job = script.read_text(encoding="utf-8").partition('if __name__ == "__main__":')[2]
+        assert re.search(r"with .*logged\(job\.log\).*:\n {8}", job), script.name
+        assert not re.search(r"^ {4}main\(", job, re.MULTILINE), script.name
 
 
 def said(script: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> str:

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.sources import page
 
@@ -18,8 +19,9 @@ def main(files: list[Path], package: Path, listed: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        [Path(path) for path in job.input.files],
-        Path(job.input.package[0]).parent,
-        Path(job.output.listed),
-    )
+    with logged(job.log):
+        main(
+            [Path(path) for path in job.input.files],
+            Path(job.input.package[0]).parent,
+            Path(job.output.listed),
+        )

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 
+from fingerpad.jobs import logged
 from fingerpad.store import write_rows
 
 EMPTY_SCRIPT = '''"""An empty job: it makes its outputs and does nothing."""
@@ -72,11 +73,12 @@ def main(base: Path, files: Sequence[Path], cores: int, kinematics: list[str], r
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.snakefile).parent,
-        [Path(path) for path in job.input.files],
-        job.threads,
-        job.params.kinematics,
-        job.params.repeats,
-        Path(job.output.graph),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.snakefile).parent,
+            [Path(path) for path in job.input.files],
+            job.threads,
+            job.params.kinematics,
+            job.params.repeats,
+            Path(job.output.graph),
+        )

@@ -5,7 +5,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.steps import step_rows
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
@@ -21,7 +21,7 @@ def main(config: Path, devices: list[Path], finite: list[Path], repeats: dict[st
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with plain_errors(job.log), threadpool_limits(1):
+    with logged(job.log), threadpool_limits(1):
         main(
             Path(job.input.config),
             [Path(path) for path in job.input.devices],

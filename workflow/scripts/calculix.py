@@ -7,7 +7,7 @@ from threadpoolctl import threadpool_limits
 
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
 from fingerpad.calculix.run import installed
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
@@ -33,7 +33,7 @@ def main(
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with plain_errors(job.log), threadpool_limits(1):
+    with logged(job.log), threadpool_limits(1):
         main(
             Path(job.input.config),
             Path(job.input.device),

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.prediction.edges import load_edges
 from fingerpad.prediction.scoring import ReadOut, error_rows
 from fingerpad.readouts.strain import FilteredReadouts
@@ -34,7 +34,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             Path(job.input.device),

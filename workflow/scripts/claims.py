@@ -5,6 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.perception.claims import claims_table
 
 
@@ -16,4 +17,5 @@ def main(scores: Path, correlations: Path, claims: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.scores), Path(job.input.correlations), Path(job.output.claims))
+    with logged(job.log):
+        main(Path(job.input.scores), Path(job.input.correlations), Path(job.output.claims))

@@ -4,7 +4,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from fingerpad.closedforms.table import CASES
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
@@ -17,5 +17,5 @@ def main(config: Path, device: Path, table: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(Path(job.input.config), Path(job.input.device), Path(job.output.table))

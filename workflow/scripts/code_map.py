@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.pages.codemap import page
 
 
@@ -15,9 +16,10 @@ def main(package: Path, rules: list[Path], scripts: list[Path], written: Path) -
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.package[0]).parent,
-        [Path(path) for path in job.input.rules],
-        [Path(path) for path in job.input.scripts],
-        Path(job.output.page),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.package[0]).parent,
+            [Path(path) for path in job.input.rules],
+            [Path(path) for path in job.input.scripts],
+            Path(job.output.page),
+        )

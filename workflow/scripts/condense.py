@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import save
 from fingerpad.tissue.condensation import condense_section
@@ -16,5 +16,5 @@ def main(config: Path, device: Path, mesh: Path, condensed: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(Path(job.input.config), Path(job.input.device), Path(job.input.mesh), Path(job.output.condensed))

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import save
 from fingerpad.tissue.actuator_body import condense_body
@@ -15,5 +15,5 @@ def main(config: Path, device: Path, body: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(Path(job.input.config), Path(job.input.device), Path(job.output.body))

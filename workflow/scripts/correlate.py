@@ -6,6 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
@@ -25,11 +26,12 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.scores),
-        Path(job.input.ratings),
-        Path(job.input.order),
-        Path(job.input.published),
-        json.loads(job.params.conditions)[0],
-        Path(job.output.correlations),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.scores),
+            Path(job.input.ratings),
+            Path(job.input.order),
+            Path(job.input.published),
+            json.loads(job.params.conditions)[0],
+            Path(job.output.correlations),
+        )

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.ensemble.alternatives import named_alternative, read_ensemble, write_scenes
 from fingerpad.ensemble.members import member_scores
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
@@ -32,7 +32,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             [Path(path) for path in job.input.devices],

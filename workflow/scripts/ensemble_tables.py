@@ -7,6 +7,7 @@ import pandas as pd
 
 from fingerpad.ensemble.members import ensemble_tables
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
 
@@ -36,13 +37,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        [Path(path) for path in job.input.members],
-        Path(job.input.scores),
-        Path(job.input.ratings),
-        Path(job.input.order),
-        Path(job.input.published),
-        json.loads(job.params.conditions)[0],
-        Path(job.output.claims),
-        Path(job.output.correlations),
-    )
+    with logged(job.log):
+        main(
+            [Path(path) for path in job.input.members],
+            Path(job.input.scores),
+            Path(job.input.ratings),
+            Path(job.input.order),
+            Path(job.input.published),
+            json.loads(job.params.conditions)[0],
+            Path(job.output.claims),
+            Path(job.output.correlations),
+        )

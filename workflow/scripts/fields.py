@@ -9,7 +9,7 @@ from fingerpad.fields.recovery import recover_displacement
 from fingerpad.fields.states import deformed_states, states_fields
 from fingerpad.finite.deformed_solution import pressed_finger
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -48,7 +48,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             job.wildcards.kinematics,
             Path(job.input.config),

@@ -6,6 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.style import device_titles, rows_with, save
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 
@@ -19,11 +20,12 @@ def main(config: Path, devices: list[Path], scores: Path, correlations: Path, ki
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        Path(job.input.scores),
-        Path(job.input.correlations),
-        job.params.kinematics,
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            Path(job.input.scores),
+            Path(job.input.correlations),
+            job.params.kinematics,
+            Path(job.output.png).with_suffix(""),
+        )

@@ -6,6 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.scene.tissue_law import Kinematics
 
 
@@ -16,4 +17,5 @@ def main(table: Path, kinematics: Kinematics, stem: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.table), Kinematics(job.params.kinematics), Path(job.output.png).with_suffix(""))
+    with logged(job.log):
+        main(Path(job.input.table), Kinematics(job.params.kinematics), Path(job.output.png).with_suffix(""))

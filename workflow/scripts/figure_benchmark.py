@@ -6,6 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.benchmark import benchmark_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 
 
 def main(ladder: Path, sizes: Path, fits: Path, stem: Path) -> None:
@@ -15,4 +16,5 @@ def main(ladder: Path, sizes: Path, fits: Path, stem: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.ladder), Path(job.input.sizes), Path(job.input.fits), Path(job.output.png).with_suffix(""))
+    with logged(job.log):
+        main(Path(job.input.ladder), Path(job.input.sizes), Path(job.input.fits), Path(job.output.png).with_suffix(""))

@@ -6,6 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.frequency import frequency_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 
 
@@ -17,9 +18,10 @@ def main(config: Path, devices: list[Path], table: Path, stem: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        Path(job.input.table),
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            Path(job.input.table),
+            Path(job.output.png).with_suffix(""),
+        )

@@ -6,6 +6,7 @@ import pandas as pd
 
 from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.style import device_titles, save
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 
 
@@ -17,10 +18,11 @@ def main(config: Path, devices: list[Path], scores: Path, curves: Path, stem: Pa
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        Path(job.input.scores),
-        Path(job.input.curves),
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            Path(job.input.scores),
+            Path(job.input.curves),
+            Path(job.output.png).with_suffix(""),
+        )

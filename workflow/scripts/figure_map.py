@@ -6,6 +6,7 @@ from fingerpad.contact.solution import Solution
 from fingerpad.fields.section_fields import Fields
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
@@ -36,12 +37,13 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        job.params.kinematics,
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.fields),
-        [Path(path) for path in job.input.solutions],
-        job.wildcards.dispersion,
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            job.params.kinematics,
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.fields),
+            [Path(path) for path in job.input.solutions],
+            job.wildcards.dispersion,
+            Path(job.output.png).with_suffix(""),
+        )

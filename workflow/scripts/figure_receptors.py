@@ -5,6 +5,7 @@ from pathlib import Path
 from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -34,12 +35,13 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        [Path(path) for path in job.input.condensed],
-        [Path(path) for path in job.input.solutions],
-        [Path(path) for path in job.input.filtered],
-        job.params.kinematics,
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            [Path(path) for path in job.input.condensed],
+            [Path(path) for path in job.input.solutions],
+            [Path(path) for path in job.input.filtered],
+            job.params.kinematics,
+            Path(job.output.png).with_suffix(""),
+        )

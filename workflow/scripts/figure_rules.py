@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.figures.rules import rules_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.store import read_rows
 
 
@@ -14,4 +15,5 @@ def main(graph: Path, stem: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.graph), Path(job.output.png).with_suffix(""))
+    with logged(job.log):
+        main(Path(job.input.graph), Path(job.output.png).with_suffix(""))

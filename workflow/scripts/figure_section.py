@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.figures.section import section_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.tissue.mesh import load_section
 
@@ -16,9 +17,10 @@ def main(config: Path, devices: list[Path], mesh: Path, stem: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        Path(job.input.mesh),
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            Path(job.input.mesh),
+            Path(job.output.png).with_suffix(""),
+        )

@@ -7,6 +7,7 @@ import pandas as pd
 
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.style import rows_with, save
+from fingerpad.jobs import logged
 from fingerpad.perception.ratings import read_ratings
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -31,13 +32,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.scores),
-        Path(job.input.ratings),
-        Path(job.input.correlations),
-        json.loads(job.params.conditions)[0],
-        job.params.kinematics,
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.scores),
+            Path(job.input.ratings),
+            Path(job.input.correlations),
+            json.loads(job.params.conditions)[0],
+            job.params.kinematics,
+            Path(job.output.png).with_suffix(""),
+        )

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fingerpad.figures.stimuli import stimuli_figure
 from fingerpad.figures.style import save
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 
 
@@ -14,4 +15,5 @@ def main(config: Path, devices: list[Path], stem: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.config), [Path(path) for path in job.input.devices], Path(job.output.png).with_suffix(""))
+    with logged(job.log):
+        main(Path(job.input.config), [Path(path) for path in job.input.devices], Path(job.output.png).with_suffix(""))

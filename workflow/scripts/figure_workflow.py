@@ -8,6 +8,7 @@ from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
+from fingerpad.jobs import logged
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -32,12 +33,13 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.condensed),
-        Path(job.input.solution),
-        [Path(path) for path in job.input.filtered],
-        Path(job.input.scores),
-        Path(job.output.png).with_suffix(""),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.condensed),
+            Path(job.input.solution),
+            [Path(path) for path in job.input.filtered],
+            Path(job.input.scores),
+            Path(job.output.png).with_suffix(""),
+        )

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.errors import SceneError
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.store import read_rows, write_rows
 
 
@@ -18,7 +18,7 @@ def main(tables: dict[Path, list[Path]]) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             {
                 Path(job.output.table): [Path(path) for path in job.input.scores],

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.benchmark.increments import increment_rows
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
 
@@ -18,7 +18,7 @@ def main(config: Path, devices: list[Path], scores: Path, multiples: list[int], 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             [Path(path) for path in job.input.devices],

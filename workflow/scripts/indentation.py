@@ -5,7 +5,7 @@ from pathlib import Path
 from fingerpad.contact.force_curve import curve_rows, small_strain_curve
 from fingerpad.contact.problem import contact_problem
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
@@ -33,7 +33,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             [Path(path) for path in job.input.devices],

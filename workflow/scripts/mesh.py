@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.prediction.edges import edge_intervals, save_edges
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.scenefile import load_scene
@@ -25,7 +25,7 @@ def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, r
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             Path(job.input.device),

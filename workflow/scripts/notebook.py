@@ -6,6 +6,7 @@ from pathlib import Path
 
 from fingerpad.files import write_text
 from fingerpad.imports import without
+from fingerpad.jobs import logged
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which notebooks here have none of; it takes seconds
     import nbformat
@@ -37,6 +38,7 @@ def main(notebook: Path, scenes: Path, page: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with tempfile.TemporaryDirectory() as folder:  # jobs run beside each other, and IPython keeps a database there
+    # jobs run beside each other, and IPython keeps a database there
+    with tempfile.TemporaryDirectory() as folder, logged(job.log):
         os.environ["IPYTHONDIR"] = folder
         main(Path(job.input.notebook), Path(job.input.config).parent, Path(job.output.page))

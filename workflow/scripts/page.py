@@ -5,6 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.pages.accuracy import accuracy_values
 from fingerpad.pages.claims import claims_values
 from fingerpad.pages.filling import filled
@@ -29,9 +30,10 @@ def main(name: str, template: Path, tables: dict[str, Path], page: Path) -> None
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        job.wildcards.page,
-        Path(job.input.template),
-        dict(zip(job.params.names, map(Path, job.input.tables), strict=True)),
-        Path(job.output.page),
-    )
+    with logged(job.log):
+        main(
+            job.wildcards.page,
+            Path(job.input.template),
+            dict(zip(job.params.names, map(Path, job.input.tables), strict=True)),
+            Path(job.output.page),
+        )

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.finite.pressing import press
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -21,7 +21,7 @@ def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: s
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             Path(job.input.device),

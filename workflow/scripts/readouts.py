@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.prediction.variants import agreement, on_both_sides, variant_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -44,7 +44,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             [Path(path) for path in job.input.devices],

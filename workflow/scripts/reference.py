@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.scoring import rows_at
 from fingerpad.readouts.accuracy import REFINEMENT
@@ -24,7 +24,7 @@ def main(config: Path, device: Path, kinematics: Kinematics, interfaces: list[In
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             Path(job.input.device),

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.files import write_text
+from fingerpad.jobs import logged
 from fingerpad.report.captions import Results, rules_words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -46,19 +47,20 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        [Path(path) for path in job.input.devices],
-        Path(job.input.scores),
-        Path(job.input.correlations),
-        Path(job.input.claims),
-        [Path(path) for path in (*job.input.recordings, *job.input.data)],
-        [Path(path) for path in job.input.figures],
-        Path(job.input.graph),
-        Path(job.input.rules),
-        Path(job.input.template),
-        Path(job.input.pyproject),
-        job.params.commit,
-        job.params.example,
-        Path(job.output.page),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            [Path(path) for path in job.input.devices],
+            Path(job.input.scores),
+            Path(job.input.correlations),
+            Path(job.input.claims),
+            [Path(path) for path in (*job.input.recordings, *job.input.data)],
+            [Path(path) for path in job.input.figures],
+            Path(job.input.graph),
+            Path(job.input.rules),
+            Path(job.input.template),
+            Path(job.input.pyproject),
+            job.params.commit,
+            job.params.example,
+            Path(job.output.page),
+        )

@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 from fingerpad.digraph import read_dot
+from fingerpad.jobs import logged
 from fingerpad.store import write_rows
 
 
@@ -20,4 +21,5 @@ def main(snakefile: Path, scenes: Path, table: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(Path(job.input.snakefile), Path(job.input.config).parent, Path(job.output.graph))
+    with logged(job.log):
+        main(Path(job.input.snakefile), Path(job.input.config).parent, Path(job.output.graph))

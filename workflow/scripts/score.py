@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
+from fingerpad.jobs import logged
 from fingerpad.prediction.caveats import solution_caveats, stimulus_caveats
 from fingerpad.readouts.roughness import score_rows
 from fingerpad.readouts.strain import FilteredReadouts
@@ -32,13 +33,14 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(
-        Path(job.input.config),
-        Path(job.input.device),
-        Path(job.input.solution),
-        Path(job.input.filtered),
-        job.wildcards.kinematics,
-        job.wildcards.condition,
-        job.wildcards.interface,
-        Path(job.output.score),
-    )
+    with logged(job.log):
+        main(
+            Path(job.input.config),
+            Path(job.input.device),
+            Path(job.input.solution),
+            Path(job.input.filtered),
+            job.wildcards.kinematics,
+            job.wildcards.condition,
+            job.wildcards.interface,
+            Path(job.output.score),
+        )

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.finite.deformed_solution import pressed_finger, stimulate_deformed
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -32,7 +32,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             Path(job.input.device),

@@ -3,6 +3,7 @@
 from dataclasses import asdict
 from pathlib import Path
 
+from fingerpad.jobs import logged
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
 from fingerpad.stress.outcomes import deformed_outcomes, outcomes
@@ -17,4 +18,5 @@ def main(kinematics: str, first: int, stop: int, scenes: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main(job.wildcards.kinematics, job.params.first, job.params.stop, Path(job.output.scenes))
+    with logged(job.log):
+        main(job.wildcards.kinematics, job.params.first, job.params.stop, Path(job.output.scenes))

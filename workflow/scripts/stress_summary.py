@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fingerpad.jobs import logged
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
 from fingerpad.stress.outcomes import summary
@@ -18,4 +19,5 @@ def main(scenes: dict[str, list[Path]], table: Path) -> None:
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    main({each: [Path(path) for path in job.input[each]] for each in Kinematics}, Path(job.output.summary))
+    with logged(job.log):
+        main({each: [Path(path) for path in job.input[each]] for each in Kinematics}, Path(job.output.summary))

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import plain_errors
+from fingerpad.jobs import logged
 from fingerpad.prediction.scoring import Condensed
 from fingerpad.readouts.strain import Resampling
 from fingerpad.scene.scenefile import load_scene
@@ -35,7 +35,7 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with plain_errors(job.log):
+    with logged(job.log):
         main(
             Path(job.input.config),
             Path(job.input.device),
