@@ -54,3 +54,23 @@ def test_a_folder_in_which_nobody_may_write_is_named(tmp_path: Path, monkeypatch
     with pytest.raises(PermissionError, match="in which you may not write") as found:
         require_folder(tmp_path / "table.csv")
     assert found.value.filename == str(tmp_path)
+
+
+def test_what_is_no_file_is_not_replaced_by_one(tmp_path: Path) -> None:
+    """A pipe, or a device of the machine."""
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    with pytest.raises(OSError, match="is no regular file"):
+        write_text(path, "text")
+    assert path.is_fifo()
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_a_link_leads_to_is_written_and_the_link_stays(tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir()
+    link, target = tmp_path / "table.csv", tmp_path / "there" / "table.csv"
+    link.symlink_to(target)
+    for text in ("one", "two"):
+        write_text(link, text)
+        assert link.is_symlink()
+        assert target.read_text() == text
