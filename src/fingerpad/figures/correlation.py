@@ -51,7 +51,7 @@ CAPTION = (
     " spread: range of scores over their mean. Bars: estimated discretisation error of a score; where none is seen it"
     " is smaller than the mark."
 )
-RATED = " Line: least squares.{ratings} τ: Kendall's.{p}"
+RATED = " Line: least squares, where the slope is not open.{ratings} τ: Kendall's.{p}"
 RANGE = " range: of R², over all ratings with the stated order."
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."
