@@ -33,11 +33,14 @@ class Quantity:
     source: str
 
 
+NUMERICAL = "numerical, "  # begins the source of an assumption that concerns the computation, not what is computed
+NUMERICAL_CHOICES = "Numerical choices"
 HEADINGS = {
     Origin.ASSUMPTION: ("Assumptions", "why"),
     Origin.PAPER: ("From the paper", "where"),
     Origin.REFERENCE: ("From other references", "reference"),
 }
+SECTIONS = {**dict(HEADINGS.values()), NUMERICAL_CHOICES: "why"}  # of the page, and what its last column is
 INTRODUCTION = """\
 # Assumptions, and where every other value comes from
 
@@ -69,20 +72,27 @@ def assumed(code: str) -> list[str]:
 
 
 def page(documents: Mapping[str, Mapping[str, Any]], modules: Mapping[str, str]) -> str:
-    """Markdown page of all quantities of scene files by name: assumptions first, then the paper's, then references';
-    and of what modules, by path in the package, assume in code.
+    """Markdown page of all quantities of scene files by name: assumptions first, then the paper's, then references',
+    then numerical choices; and of what modules, by path in the package, assume in code.
     """
     found = {name: quantities(document) for name, document in documents.items()}
     parts = [INTRODUCTION]
-    for origin, (heading, reason) in HEADINGS.items():
+    for heading, reason in SECTIONS.items():
         parts.append(f"## {heading}\n")
         for name, listed in found.items():
-            if chosen := [each for each in listed if each.origin is origin]:
+            if chosen := [each for each in listed if _section(each) == heading]:
                 cells = ((f"`{q.key}`", q.value, "" if q.unit == "1" else q.unit, q.source) for q in chosen)
                 parts.append(f"### `{name}`\n\n{table(('key', 'value', 'unit', reason), cells)}\n")
     told = ((f"`{name}`", each) for name, code in modules.items() for each in assumed(code))
     parts.append(f"## In code\n\n{table(('module', 'what is assumed of which key'), told)}\n")
     return "\n".join(parts)
+
+
+def _section(quantity: Quantity) -> str:
+    """Where a quantity stands on the page."""
+    if quantity.origin is Origin.ASSUMPTION and quantity.source.startswith(NUMERICAL):
+        return NUMERICAL_CHOICES
+    return HEADINGS[quantity.origin][0]
 
 
 def _walked(key: str, node: Any) -> Iterator[Quantity]:
