@@ -17,6 +17,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.tissue.actuator_body import body_of
 from fingerpad.tissue.compliance import MIRROR
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
@@ -31,13 +32,13 @@ def without_halves(base: Scene) -> Scene:
     return replace(base, model=replace(base.model, skips=replace(base.model.skips, mirrored_half=False)))
 
 
-def with_row(row: ActuatorRow) -> Scene:
-    """Device 2 with another row at rest, on a mesh of twice the sizes."""
-    base = scene("device2")
+def with_row(row: ActuatorRow, device: str = "device2") -> Scene:
+    """A device with another row at rest, on a mesh of twice the sizes."""
+    base = scene(device)
     still = np.zeros((1, len(row.positions)))
     condition = replace(base.device.conditions[0], time=np.array([1.0]), normal=still, tangential=still)
-    device = replace(base.device, actuators=row, conditions=(condition,), cycles=(), frequencies=())
-    return replace(base, device=device).coarsened(2.0)
+    found = replace(base.device, actuators=row, conditions=(condition,), cycles=(), frequencies=())
+    return replace(base, device=found).coarsened(2.0)
 
 
 @pytest.mark.parametrize(
@@ -101,6 +102,17 @@ def test_deformed_tissue_is_pressed_by_halves_with_a_pin_in_the_middle(interface
     assert np.abs(halves.section.compliance - whole.section.compliance).max() < SHARE * scale
     assert np.abs(halves.free - whole.free).max() < LENGTH
     assert halves.curve[-1] == pytest.approx(whole.curve[-1], rel=SHARE)
+
+
+def test_soft_pucks_with_a_node_between_them_are_pressed_whole() -> None:
+    """Its hat is that of one of them, whose face feels it: no half knows of it."""
+    row = replace(scene("device3").device.actuators, positions=(-1.8, -0.6, 0.6, 1.8), width=1.19)
+    base = with_row(row, "device3")
+    section = condense_section(mesh_section(base, nominal_edges(row)), base)
+    problem = contact_problem(base, section, body_of(base), Interface.SHEAR)
+    assert 0.0 in problem.position[:, 0]
+    assert not mirrors(problem)
+    certify(problem, section, indented_state(base, problem))
 
 
 @pytest.mark.parametrize("edge_radius", [0.0, 0.05])

@@ -31,12 +31,14 @@ def indent_by_halves(problem: ContactProblem, law: ContactLaw, increments: int, 
 
 
 def mirrors(problem: ContactProblem) -> bool:
-    """Whether nodes and actuators mirror about x = 0, and bodies each in itself, none of them on it."""
-    positions = np.asarray(problem.row.positions)
+    """Whether nodes and actuators mirror about x = 0, and bodies each in itself. Bodies need halves without a node in
+    the middle, as hats there are one actuator's.
+    """
+    x, positions = problem.position[:, 0], np.asarray(problem.row.positions)
     return bool(
         np.array_equal(problem.position[::-1] * MIRROR, problem.position)
         and np.array_equal(-positions[::-1], positions)
-        and (problem.body is None or (_body_mirrors(problem.body) and np.all(positions != 0.0)))
+        and (problem.body is None or (_body_mirrors(problem.body) and np.all(positions != 0.0) and np.all(x != 0.0)))
     )
 
 
