@@ -94,7 +94,7 @@ def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene]
             refused[name] = str(error)
         else:
             found[name] = _only(other.with_kinematics(scene.kinematics), scene)
-    for kinematics in scene.computed:
+    for kinematics in scene.device.kinematics:
         if kinematics is not scene.kinematics:
             found[f"kinematics {kinematics}"] = scene.with_kinematics(kinematics)
     return found, refused

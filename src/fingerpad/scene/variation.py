@@ -92,8 +92,8 @@ def shared_out(values: Mapping[str, Any], documents: Mapping[Path, Document]) ->
 def _by_number(key: str, documents: Iterable[Document]) -> str:
     """A key in which a list's entry that is called by its name, as a layer may be, is called by its number.
 
-    >>> _by_number("finger.pad.dermis.modulus", [{"finger": {"pad": [{"name": "epidermis"}, {"name": "dermis"}]}}])
-    'finger.pad[1].modulus'
+    >>> _by_number("pad.dermis.modulus", [{"pad": [{"name": "epidermis"}, {"name": "dermis", "modulus": 1.0}]}])
+    'pad[1].modulus'
     """
     for document in documents:
         node: Any = document
