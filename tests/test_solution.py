@@ -22,6 +22,7 @@ from fingerpad.contact.formulation import (
     ContactProblem,
     ContactState,
     face_shape,
+    handed_over,
     reevaluated_gap,
     rest,
     touch,
@@ -406,6 +407,34 @@ def test_touch_ends_where_the_last_pin_bears_something(count: int, interface: In
         less = ending(base, Criterion.DEPTH, depth=solution.depth - 0.01)
         borne = solve_condition(less, found, None, still, interface).pressing[0]
         assert borne[[0, -1]] == pytest.approx(0.0, abs=1e-15)
+
+
+def test_round_pins_are_pressed_until_contact_reaches_the_middle_of_each() -> None:
+    """They have no flat face to cover: outer ones touch first with their inner flanks, and then go deeper."""
+    base, still = row_of(4, 2.5, 1.0, [0.0] * 4, edge_radius=0.5)
+    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    covered, touching = (
+        solve_condition(ending(base, each), found, None, still, Interface.SHEAR)
+        for each in (Criterion.FULL, Criterion.TOUCH)
+    )
+    assert covered.depth > 1.2 * touching.depth
+    outermost = [each.place[(each.actuator == 3) & (each.status != 0)].max() for each in (covered, touching)]
+    assert outermost[0] == pytest.approx(0.0, abs=0.05)  # to an element
+    assert outermost[1] < -0.05
+
+
+def test_skin_that_is_handed_over_keeps_actuators_in_order() -> None:
+    """One node of the left pin has come to lie over the right one, and the next to its right has not: both go."""
+    base, _ = row_of(2, 1.0, 0.9, [0.0, 0.0])
+    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    problem = contact_problem(base, found, None, Interface.SHEAR)
+    state = rest(problem, 2.0)
+    last = int(np.flatnonzero(state.given == 0)[-1])
+    place = state.place.copy()
+    place[last - 1] = 0.9  # 0.1 mm to the left of the right pin's middle, and so over its face
+    given = handed_over(problem, replace(state, place=place, gap=np.full_like(place, -0.1)), 0.01)
+    assert given[last - 1] == given[last] == 1
+    assert np.all(np.diff(given) >= 0)
 
 
 @pytest.mark.parametrize("interface", Interface)

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from fingerpad.contact.certificate import certify
+from fingerpad.contact.force_curve import small_strain_curve
+from fingerpad.contact.formulation import touching_height
 from fingerpad.contact.linear_solution import indented_state
 from fingerpad.contact.problem import contact_problem
 from fingerpad.contact.symmetry import mirrors
@@ -127,6 +129,9 @@ def test_close_pins_are_pressed_though_a_row_that_sways_might_go_elsewhere(edge_
     state = indented_state(base, problem)
     assert state.force[:, 1] == pytest.approx(state.force[::-1, 1], abs=SHARE * state.force.max())
     certify(problem, section, state)
+    height, force = small_strain_curve(base, problem)[-1]
+    assert height == pytest.approx(state.actuator[0, 1] - touching_height(problem), abs=LENGTH)
+    assert force == pytest.approx(state.force[:, 1].sum(), rel=SHARE)
     with pytest.raises(UniquenessError):
         indented_state(without_halves(base), problem)
 

@@ -44,11 +44,16 @@ def add_case_options(parser: argparse.ArgumentParser, kinematics: str) -> None:
     parser.add_argument(
         "--interface", required=True, choices=[each.value for each in Interface], help="friction or none"
     )
+    add_kinematics(parser, kinematics)
+
+
+def add_kinematics(parser: argparse.ArgumentParser, what: str) -> None:
+    """The kinematics of the tissue; `what` says what there is to choose between."""
     parser.add_argument(
         "--kinematics",
         choices=[each.value for each in Kinematics],
         default=Kinematics.SMALL.value,
-        help=f"{kinematics} (default: %(default)s)",
+        help=f"{what} (default: %(default)s)",
     )
 
 
@@ -68,9 +73,14 @@ def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str
 
     Raises SceneError, and UsageError outside a checkout.
     """
-    config = options.config or find_checkout(Path.cwd()).config
+    config = config_of(options)
     schemas = options.schemas or find_checkout(Path.cwd()).schemas
     return check_device(existing_file(device), schemas, config, values)
+
+
+def config_of(options: argparse.Namespace) -> Path:
+    """The model's file. Raises UsageError outside a checkout."""
+    return Path(options.config or find_checkout(Path.cwd()).config)
 
 
 def add_variation(parser: argparse.ArgumentParser) -> None:

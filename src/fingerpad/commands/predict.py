@@ -19,7 +19,7 @@ from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
-from .options import add_scene_options, add_variation, checked_scene, require_effect, variations
+from .options import add_kinematics, add_scene_options, add_variation, checked_scene, require_effect, variations
 from .printing import aligned, as_csv, titled
 
 DESCRIPTION = """\
@@ -47,12 +47,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
     how.add_argument("--csv", action="store_true", help="print the columns of results/scores.csv, rank and caveats")
     parser.add_argument("--no-error", action="store_true", help="skip the coarser solution and the errors")
-    parser.add_argument(
-        "--kinematics",
-        choices=[str(each) for each in Kinematics],
-        default=str(Kinematics.SMALL),
-        help="of the tissue: small displacements and strains (default), or finite ones, which take longer",
-    )
+    add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
     add_variation(parser)
     add_scene_options(parser)
 

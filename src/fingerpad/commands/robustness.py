@@ -19,7 +19,7 @@ from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
-from .options import add_scene_options, checked_scene
+from .options import add_kinematics, add_scene_options, checked_scene, config_of
 from .printing import as_csv, titled
 
 DESCRIPTION = """\
@@ -42,12 +42,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.description = DESCRIPTION
     parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
     parser.add_argument("--csv", action="store_true", help="print all scores, with what is varied in the first column")
-    parser.add_argument(
-        "--kinematics",
-        choices=[str(each) for each in Kinematics],
-        default=str(Kinematics.SMALL),
-        help="of the tissue, as configured (default: %(default)s); the other is one of the assumptions",
-    )
+    add_kinematics(parser, "of the tissue, as configured; the other is one of the assumptions")
     parser.add_argument(
         "--assumptions",
         type=Path,
@@ -83,11 +78,10 @@ def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene]
 
     Raises SceneError, and UsageError outside a checkout.
     """
-    config = options.config or find_checkout(Path.cwd()).config
     alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
     found: dict[str, Scene] = {}
     refused: dict[str, str] = {}
-    for name, values in varied_values(read_yaml(config), read_yaml(options.device), alternatives).items():
+    for name, values in varied_values(read_yaml(config_of(options)), read_yaml(options.device), alternatives).items():
         try:
             other = checked_scene(options.device, options, values)
         except SceneError as error:  # as a pattern of four actuators is no alternative for three

@@ -18,6 +18,7 @@ from .indentation import raise_until
 from .patch import Patch
 from .path import Carried, SolveIncrement, State
 from .problem import increments
+from .symmetry import part_of
 
 RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction
 
@@ -74,8 +75,9 @@ def curve_rows(device: str, interface: Interface, kinematics: Kinematics, curve:
 def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:
     """The curve (k, 2) of a scene with small kinematics. Raises as `raise_until`."""
     states: list[ContactState] = []
-    touch = touching_height(problem)
+    part = part_of(problem) if scene.model.skips.mirrored_half else problem
+    touch = touching_height(part)
     solve: SolveIncrement[ContactState, Patch | None] = recording(solve_increment, states.append)
-    limit, (count, _) = scene.model.finger.pad_thickness, increments(scene, problem)
-    end = raise_until(problem, scene.model.contact, count, limit, rest(problem, touch), solve)
-    return curve_of(states, touch, end)
+    limit, (count, _) = scene.model.finger.pad_thickness, increments(scene, part)
+    end = raise_until(part, scene.model.contact, count, limit, rest(part, touch), solve)
+    return curve_of(states, touch, end) * [1.0, part.images]

@@ -240,6 +240,18 @@ def overlapped(problem: ContactProblem, state: ContactState, allowed: float) -> 
     return astray
 
 
+def handed_over(problem: ContactProblem, state: ContactState, allowed: float) -> np.ndarray:
+    """Index (n,) of the actuators that nodes are to be given to where some have come over another one than their own:
+    as in the state, but for these. Actuators stay in order along the skin.
+    """
+    own, astray = state.given, overlapped(problem, state, allowed)
+    if not astray.any():
+        return own
+    wanted = np.where(astray, nearest_now(problem, state), own)
+    rightwards = np.maximum.accumulate(np.maximum(wanted, own))
+    return np.asarray(np.minimum.accumulate(np.where(wanted < own, wanted, rightwards)[::-1])[::-1])
+
+
 def _centres(problem: ContactProblem, state: ContactState) -> FloatArray:
     """Where the middles of the faces are (n_actuators, 2) [mm]."""
     resting = np.stack([problem.row.positions, np.zeros(len(problem.row.positions))], axis=1)

@@ -36,8 +36,7 @@ from .formulation import (
     given_anew,
     given_to,
     given_way,
-    nearest_now,
-    overlapped,
+    handed_over,
     resolved,
     touch,
     unloaded,
@@ -82,10 +81,10 @@ def solve_increment(
     problem, start = given_anew(problem, start)
     reached, used = _solved_as_given(problem, start, actuator, patch)
     for _ in range(HANDED_OVER):
-        astray = overlapped(problem, reached, problem.tolerance * largest_of(actuator))
-        if not astray.any():
+        given = handed_over(problem, reached, problem.tolerance * largest_of(actuator))
+        if given is reached.given:
             break
-        problem, start = given_to(problem, start, np.where(astray, nearest_now(problem, reached), start.given))
+        problem, start = given_to(problem, start, given)
         reached, used = _solved_as_given(problem, start, actuator, used)
     return reached, used
 

@@ -23,7 +23,7 @@ END_STEP = 1e-4  # mm of height below which an increment is not taken back, but 
 # Of the limit [1], the least way in whose increments a force is sought; source: a third of the devices' way
 SHALLOW = 0.1
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
-NEARLY = 2.0 * END_TOLERANCE  # mm
+NEARLY = 2.0 * END_TOLERANCE  # mm on top of a gap that must close; source: more than what an end may miss
 NOBODY = -1  # in place of an actuator's index: beyond the mid-line of a half
 
 

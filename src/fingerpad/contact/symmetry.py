@@ -24,10 +24,14 @@ MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Sta
 
 def indent_by_halves(problem: ContactProblem, law: ContactLaw, increments: int, limit: float) -> ContactState:
     """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
-    if not mirrors(problem):
-        return indent(problem, law, increments, limit)
-    half = fold(problem)
-    return unfolded(indent(half, law, increments, limit), half)
+    part = part_of(problem)
+    state = indent(part, law, increments, limit)
+    return state if part is problem else unfolded(state, part)
+
+
+def part_of(problem: ContactProblem) -> ContactProblem:
+    """What of a row is pressed: the right half where the problem mirrors, else all of it."""
+    return fold(problem) if mirrors(problem) else problem
 
 
 def mirrors(problem: ContactProblem) -> bool:

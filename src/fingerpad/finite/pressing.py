@@ -171,11 +171,8 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
     displacement, state = reached.displacement[start.parts.dofs], contact_state(reached)
     curve, compliance = curve_of(states, float(start.state.actuator[0, 1]), reached), tangents[0].compliance
     if start.mirrored:
-        displacement, state, curve = (
-            _mirrored(section, displacement),
-            unfolded(state, start.problem),
-            curve * [1.0, 2.0],
-        )
+        displacement, state = _mirrored(section, displacement), unfolded(state, start.problem)
+        curve = curve * [1.0, start.problem.images]
         columns = unfolding(start.tractions.position.shape[0], MIRROR)
         compliance = unfold(compliance, tangents[1].compliance, columns, columns)
     moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
