@@ -128,21 +128,6 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
     return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=unknown)
 
 
-def without_middle(section: CondensedSection) -> CondensedSection:
-    """The section without a contact node on the mid-line, where rows of an even number have no pin: rows that mirror
-    are then pressed by halves.
-    """
-    kept = np.flatnonzero(section.position[:, 0] != 0.0)
-    unknowns = (2 * kept[:, None] + np.arange(2)).ravel()
-    return replace(
-        section,
-        position=section.position[kept],
-        weight=section.weight[kept],
-        compliance=section.compliance[np.ix_(unknowns, unknowns)],
-        strain=np.ascontiguousarray(section.strain[:, unknowns]),
-    )
-
-
 def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) -> Condition:
     """The state at the first pin's peak."""
     path = np.where(np.arange(count) % 2 == 0, amplitude, amplitude * np.cos(np.deg2rad(phase_deg)))[None, :]
@@ -171,8 +156,6 @@ def _condensed(scene: Scene, reach: float) -> Condensed:
     """All skin within reach [mm], as if it lay under one wide pin."""
     covered = pins_at_rest(scene.model, 1, 0.0, 2.0 * reach, 0.0)
     section = condense_section(mesh_section(covered, np.array([[0.0, reach]])), covered)
-    if len(scene.device.actuators.positions) % 2 == 0:
-        section = without_middle(section)
     return Condensed(section, None, resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 

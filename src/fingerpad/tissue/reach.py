@@ -14,8 +14,8 @@ MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their c
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one, as skin
-    that is pressed farther goes farther sideways too; and on its mirror image. Without skin on the mid-line both halves
-    are alike, and one is enough: it is left out where no face gets near.
+    that is pressed farther goes farther sideways too; and on its mirror image. Where no face gets near the mid-line its
+    node is left out: hats beside it are then one half's alone, and soft actuators are pressed by halves as well.
 
     Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
     """
