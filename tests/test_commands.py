@@ -17,22 +17,30 @@ import meshio
 import numpy as np
 import pytest
 import yaml
+from matplotlib.figure import Figure
 
 import fingerpad.commands.predict as predicting
 import fingerpad.commands.robustness as varying
 from conftest import Project, coarsened
 from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
-from fingerpad.checkout import find_checkout
+from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, MeshError, UsageError
 from fingerpad.prediction import scoring
-from fingerpad.prediction.caveats import MANY_CUTS, MANY_SEARCHES, score_caveats, solution_caveats, stimulus_caveats
+from fingerpad.prediction.caveats import (
+    MANY_CUTS,
+    MANY_SEARCHES,
+    noted_rows,
+    score_caveats,
+    solution_caveats,
+    stimulus_caveats,
+)
 from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
 from fingerpad.prediction.orders import orders
-from fingerpad.prediction.scoring import Condensed, Meshed, Solved, read_out, rows_of
+from fingerpad.prediction.scoring import Condensed, Meshed, read_out
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import Condition
@@ -200,6 +208,7 @@ def test_check_says_what_there_is_and_draws(checkout: Path, capsys: pytest.Captu
         "alternate_090",
         "third.png",
         "0.228 mm lateral",
+        "friction 0.6; pressed until skin covers all faces",
     ):
         assert part in said
     assert (checkout / "third.png").read_bytes().startswith(b"\x89PNG")
@@ -456,7 +465,7 @@ def test_caveats_are_notes_of_scores() -> None:
     reading = Condensed(section, body, resampling_to_grid(section.arc, given.model.gabor.spacing))
     condition = given.device.condition("alternate_090")
     read = read_out(given, reading, solution)
-    strain, change = rows_of(given, Solved(condition, Interface.SHEAR, solution), solution, read)
+    strain, change = noted_rows(given, condition, Interface.SHEAR, solution, read)
     assert strain["note"] == change["note"]
     assert strain["note"] == "increments were halved 3 times; 11 increments did not settle at once"
 
@@ -500,7 +509,7 @@ def test_check_says_what_will_hardly_go_well(
     assert key in text
     path.write_text(text.replace(key, changed), encoding="utf-8")
     assert main(["check", str(path)]) == 0
-    warned = capsys.readouterr().out.splitlines()[6:]
+    warned = capsys.readouterr().out.splitlines()[7:]
     assert said in warned[0] if said else not warned
 
 
@@ -696,6 +705,35 @@ def test_predict_takes_values_in_turn(
     )
 
 
+def test_predict_draws_scores_against_what_is_varied(
+    checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drawn: list[Any] = []
+    monkeypatch.setattr(predicting, "variation_figure", lambda *given: drawn.append(given) or Figure())
+    vary = ["--vary", "actuators.pitch=2.0,2.5", "--vary", "contact.friction=0.3", "-o", "pitch.png"]
+    assert main(["predict", *vary, "config/devices/device2.yaml"]) == 0
+    ((key, unit, values, scenes, tables),) = drawn
+    assert (key, unit, values, len(tables)) == ("actuators.pitch", "mm", [2.0, 2.5], 2)
+    assert [each.device.actuators.positions[-1] for each in scenes] == [3.0, 3.75]
+    assert capsys.readouterr().out.endswith("\ndrawn: pitch.png\n")
+    assert (checkout / "pitch.png").read_bytes().startswith(b"\x89PNG")
+
+    for wrong, found in {
+        ("-o", "pitch.png", "config/devices/device2.yaml"): "no key with several values",
+        (*vary, "config/devices/device2.yaml", "config/devices/device1.yaml"): "2 devices",
+        (
+            *vary,
+            "--vary",
+            "actuators.width=1.0,1.2",
+            "config/devices/device2.yaml",
+        ): "'actuators.pitch', 'actuators.width'",
+    }.items():
+        assert main(["predict", *wrong]) == FAILED
+        assert f"-o: found {found}; allowed: one device, and one key with several" in capsys.readouterr().err
+    assert main(["predict", "-o", "pitch.doc", "config/devices/device2.yaml"]) == FAILED
+    assert "allowed: .png, .pdf, .svg" in capsys.readouterr().err
+
+
 def test_robustness_says_which_assumptions_orders_hang_on(
     checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -828,21 +866,41 @@ def test_a_device_with_shear_alone_says_why_the_rest_is_left_out() -> None:
 # Where things are, what is loaded, and exit codes
 
 
-def test_commands_work_from_any_folder_of_the_checkout(
+def test_commands_work_from_any_folder(
     checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Of the checkout; elsewhere with the one that the package is used from, or, without any, with the options."""
+    device = str(checkout / "config/devices/device1.yaml")
     monkeypatch.chdir(checkout / "config" / "devices")
     assert find_checkout(Path.cwd()).root == checkout
     assert main(["check", "device1.yaml"]) == 0
     assert main(["new", "mine", "--from", "device1"]) == 0
     assert "fingerpad check mine.yaml" in capsys.readouterr().out
     monkeypatch.chdir("/")
-    assert main(["check", str(checkout / "config/devices/device1.yaml")]) == FAILED
+    assert main(["check", device]) == 0
+    assert find_checkout(Path("/")).root == ROOT
+    monkeypatch.setattr("fingerpad.checkout.OWN", Path("/"))
+    assert main(["check", device]) == FAILED
     assert "schemas/; go there, or give --config and --schemas" in capsys.readouterr().err
     given = ["--config", str(CONFIG), "--schemas", str(SCHEMAS)]
-    assert main(["check", str(checkout / "config/devices/device1.yaml"), *given]) == 0
+    assert main(["check", device, *given]) == 0
     with pytest.raises(UsageError):
         find_checkout(Path("/"))
+
+
+def test_a_device_goes_with_the_model_beside_its_folder(
+    checkout: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in a folder of scenes; a file anywhere else goes with the model of the checkout."""
+    theirs, anywhere = tmp_path_factory.mktemp("theirs"), tmp_path_factory.mktemp("anywhere")
+    (theirs / "devices").mkdir()
+    for folder in (theirs / "devices", anywhere):
+        shutil.copy(DEVICES / "device2.yaml", folder)
+    shutil.copy(CONFIG, theirs)
+    assert model_for(theirs / "devices" / "device2.yaml") == theirs / "config.yaml"
+    assert model_for(anywhere / "device2.yaml") == checkout / "config" / "config.yaml"
+    monkeypatch.chdir(theirs / "devices")
+    assert model_for(Path("device2.yaml")) == theirs / "config.yaml"
 
 
 @pytest.mark.parametrize("module", ["fingerpad", "fingerpad.cli"])

@@ -218,6 +218,11 @@ def test_a_device_varies_in_what_it_assumes_and_in_what_its_model_may_be() -> No
     assert "actuators.pitch times 0.8" not in varied_values(CONFIG, known, read_ensemble(SHIPPED))
     already = with_value(CONFIG, "contact.friction", 0.38, "measured")
     assert "contact.friction 0.38" not in varied_values(already, known, read_ensemble(SHIPPED))
+    for source, varies in {"assumption: as steel": True, "our data sheet": False}.items():
+        own = {**known, "contact": {"friction": {"value": 0.3, "unit": "1", "source": source}}}
+        assert ("contact.friction 0.38" in varied_values(CONFIG, own, read_ensemble(SHIPPED))) is varies
+        member = member_scenes(CONFIG, {"device2": own}, FRICTION, FIRST).devices["device2"]
+        assert member["contact"]["friction"]["value"] == (0.38 if varies else 0.3)
     with pytest.raises(SceneError, match=r"contact\.fricton: found no such value"):
         varied_values(CONFIG, known, [Alternative("model", "contact.fricton", 0.1, None, "s")])
 

@@ -44,6 +44,7 @@ from fingerpad.figures.style import (
     save,
     save_as,
 )
+from fingerpad.figures.variation import variation_figure
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.readouts.strain import FilteredReadouts, Reading
@@ -327,6 +328,38 @@ def test_kinematics_shows_what_there_is_and_says_what_was_left_out() -> None:
     assert drawn[4:] == [len(UNRATED.conditions)] * 2
 
 
+def variation_tables(device: Device, missing: int) -> list[list[dict[str, object]]]:
+    """Three tables of scores of a device; of one the first condition has none."""
+    own = SCORES[SCORES["device"] == device.name].astype(object)
+    tables = [own.where(own.notna(), None).to_dict("records") for _ in range(3)]
+    tables[missing] = [row | ({"score": None} if row["condition"] == device.conditions[0].name else {})
+                       for row in tables[missing]]  # fmt: skip
+    return tables
+
+
+@pytest.mark.parametrize("device", [PHASED, FORCED, UNRATED])
+def test_variation_has_a_curve_a_condition_and_gaps_where_there_is_no_score(device: Device) -> None:
+    values = [1.0, 1.5, 3.0]
+    tables = variation_tables(device, 1)
+    figure = variation_figure("actuators.edge_radius", "mm", values, [Scene(MODEL, device)] * 3, tables)
+    require_legible(figure)
+    assert "Small strain" in words(figure) or "small strain" in words(figure)
+    assert len(figure.axes) == len(Readout) * len(device.interfaces())
+    for axes in figure.axes:
+        curves = [line for line in axes.lines if len(line.get_xdata()) == len(values)]
+        assert len(curves) == len(device.conditions)
+        assert [list(line.get_xdata()) for line in curves] == [values] * len(curves)
+        assert [int(np.isnan(line.get_ydata()).sum()) for line in curves] == [1, *[0] * (len(curves) - 1)]
+    assert axis_labels(figure)[-1][0] == "actuators.edge radius (mm)"
+
+
+def test_variation_sets_what_is_no_number_side_by_side() -> None:
+    values = ["full", "touch", [0, 1, 1, 0]]
+    figure = variation_figure("contact.criterion", "1", values, [Scene(MODEL, PHASED)] * 3, variation_tables(PHASED, 0))
+    require_legible(figure)
+    assert [label.get_text() for label in figure.axes[-1].get_xticklabels()] == ["full", "touch", "[0, 1, 1, 0]"]
+
+
 def test_accuracy_has_a_panel_a_case_and_shows_what_is_held_to_a_tolerance() -> None:
     rows = [
         (f"Case {case}, nu = 0.3", quantity, h, 100, 1.0, 1.0, h**2, 0.005 if h == 0.1 else math.nan)
@@ -596,6 +629,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         depth=1.5,
         position=contact.position,
         indented_force=force,
+        indented_actuator=row.nearest(contact.position[:, 0]),
         force=none,
         contact=none,
         pressing=none,

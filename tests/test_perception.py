@@ -398,6 +398,18 @@ def test_errors_that_leave_the_sign_may_still_raise_r_by_more_than_itself() -> N
     assert found.max() - r > error_in_r(score, rating, error) > r
 
 
+def test_where_ratings_in_the_order_disagree_on_the_slope_it_is_open() -> None:
+    """With ratings 0, 0, 1 it falls and with 0, 1, 1 it rises, both beyond the errors; with 0, 1, 5 it is level."""
+    score, error = np.array([0.0, 3.0, 1.0]), np.full(3, 0.01)
+    over = rating_range(score, CHAIN)
+    assert not any(is_turned(score, rating, error) for rating in over.generators)
+    assert is_turned(score, np.array([0.0, 1.0, 5.0]), error)
+    for errors, is_open in ((error, 1), (0.0 * error, 0)):
+        row = make_table(make_scores("device2", list(score)).assign(score_error=errors)).iloc[0]
+        assert row["r_lowest"] < 0.0 < row["r_highest"]
+        assert row["range_open"] == is_open
+
+
 def test_scores_that_only_rounding_tells_apart_are_constant() -> None:
     row = make_table(make_scores("device2", [1.0, 1.0 + 2e-8, 1.0 + 3e-8])).iloc[0]
     assert row["note"] == "constant score"

@@ -232,4 +232,3 @@ def test_summary_counts_what_is_there() -> None:
     counts = {row["what"]: int(row["scenes"]) for row in summary(rows)}
     assert counts["all"] == len(SCENES)
     assert counts[SOLVED] + sum(counts.get(name, 0) for name in NAMES) == len(SCENES)
-    assert counts["solved at once"] <= counts[SOLVED]

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import copy
+import functools
+import operator
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +16,8 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from fingerpad.errors import SceneError
-from fingerpad.scene.scenefile import read_values
+from fingerpad.scene.contact_law import Criterion
+from fingerpad.scene.scenefile import load_scene, read_values
 from fingerpad.scene.validation import MOST_REPORTED, check_config, check_device, known_devices, require_device
 
 ROOT = Path(__file__).parents[1]
@@ -227,7 +231,11 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "misspelled section": (
         {"stimulus": DELETED, "stimuli": {}},
         "stimuli",
-        ["an unknown key", "title, control, interfaces, kinematics, actuators, stimulus", "did you mean stimulus?"],
+        [
+            "an unknown key",
+            "title, control, interfaces, kinematics, actuators, contact, stimulus",
+            "did you mean stimulus?",
+        ],
     ),
     "empty title": ({"title.value": ""}, "title.value", ["found ''", "a line of 1 to 60 characters", "(what figures"]),
     "title of two lines": ({"title.value": "a\nb"}, "title.value", ["a line of 1 to 60 characters"]),
@@ -404,6 +412,33 @@ def test_shipped_devices_pass(name: str) -> None:
     assert scene.model == check_config(CONFIG, SCHEMAS)
 
 
+def test_a_device_has_friction_and_preload_of_its_own(tmp_path: Path) -> None:
+    """What its file leaves out is the model's; what is varied is the device's own where it has one."""
+    shared = check_config(CONFIG, SCHEMAS).contact
+    document = yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8"))
+    own = {"friction": quantity(0.3, "1"), "criterion": quantity("force", "1"), "force": quantity(0.05, "N/mm")}
+    path = write(tmp_path, "mine.yaml", edited(document, {"contact": own}))
+    scene = check_device(path, SCHEMAS, CONFIG)
+    assert scene.model.contact == replace(shared, friction=0.3, criterion=Criterion.FORCE, force=0.05)
+    assert load_scene(CONFIG, path).model == scene.model
+    varied = check_device(path, SCHEMAS, CONFIG, {"contact.friction": 0.9, "contact.depth": 0.7})
+    assert varied.model.contact == replace(scene.model.contact, friction=0.9, depth=0.7)
+
+    for key, change, said in (
+        ("contact.frcition", {"contact": {"frcition": quantity(0.3, "1")}}, "did you mean friction?"),
+        (
+            "contact.turning_normal",
+            {"contact.turning_normal": quantity("never", "1")},
+            "friction, criterion, depth, force",
+        ),
+        ("contact.force.unit", {"contact.force": quantity(0.1, "N")}, "allowed: N/mm"),
+        ("contact.friction.value", {"contact.friction": quantity(-0.3, "1")}, "0, or a finite number"),
+    ):
+        message = message_of(write(tmp_path, "mine.yaml", edited(document, {"contact": own} | change)))
+        assert message.startswith(f"{path}: {key}: found ")
+        assert said in message
+
+
 def test_history_passes(tmp_path: Path) -> None:
     document = yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8"))
     scene = check_device(write(tmp_path, "tapper.yaml", edited(document, {"stimulus": HISTORY})), SCHEMAS, CONFIG)
@@ -566,7 +601,8 @@ def subschemas(node: Any) -> Iterator[dict[str, Any]]:
 
 @pytest.mark.parametrize("name", ["config", "device"])
 def test_schemas_are_closed_and_described(name: str) -> None:
-    schema = yaml.safe_load((SCHEMAS / f"{name}.schema.yaml").read_text(encoding="utf-8"))
+    files = {path.name: yaml.safe_load(path.read_text(encoding="utf-8")) for path in SCHEMAS.glob("*.schema.yaml")}
+    schema = files[f"{name}.schema.yaml"]
     Draft202012Validator.check_schema(schema)
     nodes = list(subschemas(schema))
     described, units = 0, 0
@@ -579,7 +615,9 @@ def test_schemas_are_closed_and_described(name: str) -> None:
             units += 1
         for key, child in node.get("properties", {}).items() if isinstance(node.get("properties"), dict) else ():
             if isinstance(child, dict) and key not in ("value", "unit", "source") and "const" not in child:
-                target = schema["$defs"].get(str(child.get("$ref")).removeprefix("#/$defs/"), {})
+                file, _, way = child.get("$ref", "").partition("#/")
+                parts = way.split("/") if way else []
+                target = functools.reduce(operator.getitem, parts, files[file] if file else schema)
                 assert "description" in child or "description" in target, key
                 described += 1
     assert units > 10

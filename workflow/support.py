@@ -1,4 +1,4 @@
-"""What the Snakefile needs to know about scenes and code: pure functions, no rules."""
+"""What the Snakefile needs to know about scenes, code and the commit: functions, no rules."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def fingerprint(*parts: Any) -> str:
     return json.dumps([_plain(part) for part in parts], sort_keys=True)
 
 
-def path_of(condition: Condition) -> tuple[Any, ...]:
+def prescribed(condition: Condition) -> tuple[Any, ...]:
     """What a condition prescribes, without its names."""
     return condition.time, condition.normal, condition.tangential, condition.settling
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from .checkout import find_checkout
+from .checkout import find_checkout, model_for
 from .csvrows import listed
 from .errors import UsageError
 from .prediction.forecast import forecast
@@ -31,15 +31,16 @@ def predict(
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
-    "finite". config, schemas: those of the checkout around the working folder if not given. Raises SceneError, and
-    UsageError if there is no such checkout or there are no such kinematics.
+    "finite". config: the config.yaml beside the device file's folder if not given, or else that of the checkout around
+    the working folder, as are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no
+    such kinematics.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
     if kinematics not in list(Kinematics):
         raise UsageError(f"kinematics: found {kinematics!r}; allowed: {listed(Kinematics)}")
-    model = Path(config) if config else find_checkout(Path.cwd()).config
+    model = Path(config) if config else model_for(Path(device))
     folder = Path(schemas) if schemas else find_checkout(Path.cwd()).schemas
     cases = [(values, check_device(Path(device), folder, model, values)) for values in variants(vary)]
     rows = [

@@ -7,6 +7,9 @@ from pathlib import Path
 
 from .errors import UsageError
 
+# Where the package lies in a checkout, if it was installed from one in place (pip's -e)
+OWN = Path(__file__).resolve().parents[2]
+
 
 @dataclass(frozen=True)
 class Checkout:
@@ -36,13 +39,13 @@ class Checkout:
 
 
 def find_checkout(start: Path) -> Checkout:
-    """The checkout that holds a folder. Raises UsageError if none does.
+    """The checkout that holds a folder, or else the one that the package is used from. Raises UsageError without any.
 
     >>> find_checkout(Path.cwd() / "src").root == Path.cwd()
     True
     """
     folder = start.resolve()
-    for root in (folder, *folder.parents):
+    for root in (folder, *folder.parents, OWN):
         found = Checkout(root)
         if (found.schemas / "device.schema.yaml").is_file():
             return found
@@ -50,3 +53,14 @@ def find_checkout(start: Path) -> Checkout:
         f"{folder}: is not in a checkout of fingerpad, which holds config/ and workflow/schemas/; go there, or give"
         " --config and --schemas to a command that has them"
     )
+
+
+def model_for(device: Path) -> Path:
+    """The config.yaml that a device file goes with: beside the folder that it lies in, as in a folder of scenes, or
+    else that of the checkout. Raises UsageError if there is neither.
+
+    >>> model_for(Path("config/devices/device2.yaml")) == Path("config/config.yaml").resolve()
+    True
+    """
+    beside = device.parent.resolve().parent / "config.yaml"
+    return beside if beside.is_file() else find_checkout(Path.cwd()).config

@@ -8,12 +8,11 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 
-from .errors import CondensationError, ContactError, FingerpadError, MeshError
+from .errors import FingerpadError, UnsolvedError
 
 FAILED = 2  # exit code [1] of anything that a user can mend; argparse has the same
 INTERRUPTED = 130  # exit code [1] after Ctrl-C, as shells have it
 UNSOLVED = 3  # exit code [1] where a valid scene has no certified solution
-REFUSALS = (MeshError, CondensationError, ContactError)
 
 COMMANDS: Mapping[str, str] = {  # each a module in `commands`, which is loaded if it is the one that is asked for
     "new": "begin a device file of your own",
@@ -46,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except FingerpadError as error:
         print(f"fingerpad: {error}", file=sys.stderr)
-        return UNSOLVED if isinstance(error, REFUSALS) else FAILED
+        return UNSOLVED if isinstance(error, UnsolvedError) else FAILED
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         print(f"fingerpad: {where}{error.strerror or error}", file=sys.stderr)

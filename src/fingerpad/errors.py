@@ -17,16 +17,20 @@ class RatingError(FingerpadError):
     """A table of ratings does not fit the devices it rates."""
 
 
-class MeshError(FingerpadError):
+class UnsolvedError(FingerpadError):
+    """A scene is valid, but has no solution that can be vouched for."""
+
+
+class MeshError(UnsolvedError):
     """The section cannot be meshed, or a mesh came out inverted."""
 
 
-class CondensationError(FingerpadError):
-    """The factorised stiffness failed its own residual check."""
+class CondensationError(UnsolvedError):
+    """A stiffness is singular, or a condensed map misses the accuracy that it must have."""
 
 
-class ContactError(FingerpadError):
-    """A frictional contact path did not converge, or a solution failed its certificate."""
+class ContactError(UnsolvedError):
+    """A pressed finger cannot be followed: contact, tissue or vibration has no solution that can be vouched for."""
 
 
 class CalculixError(FingerpadError):

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from .checkout import OWN, Checkout
 from .errors import MissingResultError
 from .scene.scene import Scene
 from .scene.scenefile import load_scene
 from .scene.validation import known_devices
 
 FOLDER = "results"
-PROJECT = Path(__file__).parents[2]
 
 
 def results_root(start: Path) -> Path:
@@ -37,6 +37,6 @@ def scenes() -> dict[str, Scene]:
     """Scenes of small kinematics by device: of the folder that SCENES in the environment names, where a rule runs a
     notebook, or else of config/. Raises SceneError if one of them is not valid.
     """
-    folder = Path(os.environ.get("SCENES", PROJECT / "config"))
+    folder = Path(os.environ.get("SCENES", Checkout(OWN).config.parent))
     devices = folder / "devices"
     return {name: load_scene(folder / "config.yaml", devices / f"{name}.yaml") for name in known_devices(devices)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import io
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 
 from .arrays import FloatArray
 from .errors import ResultError
-from .files import replacing
+from .files import replacing, write_text
 
 Record = TypeVar("Record")
 SEPARATOR = "/"  # between the name of a nested dataclass and its field
@@ -56,13 +57,24 @@ def _foreign(path: Path, error: Exception) -> ResultError:
     return ResultError(f"{path}: is not what fingerpad writes there ({error}); remove it, and run again")
 
 
+def csv_text(rows: Sequence[Mapping[str, Any]], header: bool = True) -> str:
+    """Rows that share their keys, as lines of CSV, the first with their names if asked for; nothing of no rows.
+
+    >>> csv_text([{"a": 1, "b": "x"}, {"a": None, "b": "y, z"}])
+    'a,b\\n1,x\\n,"y, z"\\n'
+    """
+    text = io.StringIO()
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        if header:
+            writer.writeheader()
+        writer.writerows(rows)
+    return text.getvalue()
+
+
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     """Write rows that share their keys as a CSV table; no rows as an empty file."""
-    with replacing(path) as part, part.open("w", newline="", encoding="utf-8") as file:
-        if rows:
-            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+    write_text(path, csv_text(rows))
 
 
 def alike(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:

@@ -8,7 +8,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assuming, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
-from fingerpad.scene.example import ALTERNATE, compares_interfaces, example_condition, example_device
+from fingerpad.scene.example import COMPARED, compares_interfaces, example_condition, example_device
 from fingerpad.scene.scenefile import build_model, read_yaml, recordings
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_config, check_device, known_devices
@@ -25,7 +25,7 @@ SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
 
-COMPARED_DEVICE, COMPARED_CONDITION = ALTERNATE  # what comparisons with CalculiX and of run times are about
+COMPARED_DEVICE, COMPARED_CONDITION = COMPARED  # what comparisons with CalculiX and of run times are about
 
 
 def file_of(name):
@@ -91,7 +91,7 @@ def device_file(wildcards):
 
 def compared_file(wildcards):
     """The scene file of the device that CalculiX and run times are about; without its condition that is an error."""
-    if ALTERNATE not in {(each, own.name) for each in DEVICES for own in SCENE[each].device.conditions}:
+    if COMPARED not in {(each, own.name) for each in DEVICES for own in SCENE[each].device.conditions}:
         raise WorkflowError(
             f"CalculiX and run times are compared on {COMPARED_DEVICE}'s {COMPARED_CONDITION}: {SCENES / 'devices'} has no such"
             " condition"

@@ -17,6 +17,6 @@ rule correlate:
         ENVIRONMENT
     params:
         code=code("correlate.py"),
-        conditions=support.fingerprint(KNOWN),
+        conditions=KNOWN,
     script:
         "../scripts/correlate.py"

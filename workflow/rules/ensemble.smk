@@ -72,7 +72,7 @@ rule ensemble_tables:
         ENVIRONMENT
     params:
         code=code("ensemble_tables.py"),
-        conditions=support.fingerprint(KNOWN),
+        conditions=KNOWN,
     script:
         "../scripts/ensemble_tables.py"
 

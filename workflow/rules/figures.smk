@@ -118,7 +118,7 @@ rule figure_correlation:
         code=code("figure_correlation.py"),
         kinematics=mode_of,
         titles=lambda w: [SCENE[name].device.title for name in DEVICES_WITH[mode_of(w)]],
-        conditions=support.fingerprint(KNOWN),
+        conditions=KNOWN,
     script:
         "../scripts/figure_correlation.py"
 
@@ -281,6 +281,6 @@ if SLIDING:
             code=code("figure_shear.py"),
             kinematics=mode_of,
             title=SCENE[EXAMPLE].device.title,
-            conditions=support.fingerprint(KNOWN),
+            conditions=KNOWN,
         script:
             "../scripts/figure_shear.py"

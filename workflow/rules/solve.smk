@@ -26,7 +26,7 @@ rule solve:
             scene_of(w).model.contact,
             scene_of(w).model.numerics,
             scene_of(w).model.skips,
-            support.path_of(condition_of(w)),
+            support.prescribed(condition_of(w)),
         ),
     script:
         "../scripts/solve.py"

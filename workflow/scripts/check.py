@@ -5,7 +5,7 @@ from pathlib import Path
 from fingerpad.contact.solution import Solution
 from fingerpad.jobs import logged
 from fingerpad.prediction.edges import load_edges
-from fingerpad.prediction.scoring import ReadOut, error_rows
+from fingerpad.prediction.scoring import ReadSolution, error_rows
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -26,7 +26,7 @@ def main(
     """Read the scene, its edges and what was read in all cases, solve them coarsely, write errors."""
     scene = load_scene(config, device, Kinematics(kinematics))
     read = {
-        (condition, Interface(interface)): ReadOut(load(solved, Solution), load(path, FilteredReadouts))
+        (condition, Interface(interface)): ReadSolution(load(solved, Solution), load(path, FilteredReadouts))
         for (condition, interface), solved, path in zip(cases, solutions, filtered, strict=True)
     }
     write_rows(errors, error_rows(scene, load_edges(edges), read))

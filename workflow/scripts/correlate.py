@@ -1,6 +1,5 @@
 """Correlate scores with perceived roughness."""
 
-import json
 from pathlib import Path
 
 import pandas as pd
@@ -32,6 +31,6 @@ if __name__ == "__main__":
             Path(job.input.ratings),
             Path(job.input.order),
             Path(job.input.published),
-            json.loads(job.params.conditions)[0],
+            job.params.conditions,
             Path(job.output.correlations),
         )

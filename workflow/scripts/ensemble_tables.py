@@ -1,6 +1,5 @@
 """Which statements hold in every member of the ensemble over assumptions."""
 
-import json
 from pathlib import Path
 
 import pandas as pd
@@ -44,7 +43,7 @@ if __name__ == "__main__":
             Path(job.input.ratings),
             Path(job.input.order),
             Path(job.input.published),
-            json.loads(job.params.conditions)[0],
+            job.params.conditions,
             Path(job.output.claims),
             Path(job.output.correlations),
         )

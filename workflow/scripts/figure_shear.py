@@ -1,6 +1,5 @@
 """Draw one device's scores against perceived roughness, without and with shear."""
 
-import json
 from pathlib import Path
 
 import pandas as pd
@@ -39,7 +38,7 @@ if __name__ == "__main__":
             Path(job.input.scores),
             Path(job.input.ratings),
             Path(job.input.correlations),
-            json.loads(job.params.conditions)[0],
+            job.params.conditions,
             job.params.kinematics,
             Path(job.output.png).with_suffix(""),
         )

@@ -4,8 +4,7 @@ from pathlib import Path
 
 from fingerpad.contact.solution import Solution
 from fingerpad.jobs import logged
-from fingerpad.prediction.caveats import solution_caveats, stimulus_caveats
-from fingerpad.readouts.roughness import score_rows
+from fingerpad.prediction.caveats import noted_rows
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -25,10 +24,8 @@ def main(
 ) -> None:
     """Read solution and filtered read-outs, integrate these, write one row a read-out."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    tried = scene.device.condition(condition)
-    caveats = stimulus_caveats(tried) + solution_caveats(scene, load(solution, Solution))
-    read = load(filtered, FilteredReadouts)
-    write_rows(score, score_rows(scene, tried, Interface(interface), read, "; ".join(caveats)))
+    tried, solved, read = scene.device.condition(condition), load(solution, Solution), load(filtered, FilteredReadouts)
+    write_rows(score, noted_rows(scene, tried, Interface(interface), solved, read))
 
 
 if __name__ == "__main__":

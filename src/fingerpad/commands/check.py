@@ -8,15 +8,13 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from ..errors import UsageError
 from ..figures.section import section_figure
 from ..figures.style import save_as, several
-from ..files import require_folder
 from ..prediction.caveats import stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
-from .options import add_scene_options, checked_scene
+from .options import add_picture, add_scene_options, checked_scene, picture_of
 
 DESCRIPTION = """\
 Check a device file: keys, units, ranges, and whether the device fits the finger. Errors name the file, the key, the
@@ -37,8 +35,13 @@ TOO_WIDE = (
 WIDE = 0.3
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
+PRESSED = {
+    Criterion.FULL: "until skin covers all faces",
+    Criterion.TOUCH: "until all actuators carry some skin",
+    Criterion.DEPTH: "{depth:g} mm deep from first touch",
+    Criterion.FORCE: "with {force:g} N per mm of finger",
+}
 STEPS = 3  # of the progress: mesh, figure, picture
-PICTURES = (".png", ".pdf", ".svg")
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -46,21 +49,18 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=run)
     parser.description = DESCRIPTION
     parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
-    parser.add_argument("-o", "--output", type=Path, metavar="PICTURE", help=f"picture to draw ({', '.join(PICTURES)})")
+    add_picture(parser, "draw the section with the actuators under it")
     add_scene_options(parser)
 
 
 def run(options: argparse.Namespace) -> None:
-    """Validate, say what there is, and draw. Raises UsageError for a picture of another kind than PICTURES, SceneError,
+    """Validate, say what there is, and draw. Raises UsageError for a picture that cannot be drawn, SceneError,
     MeshError.
     """
-    picture = options.output
-    if picture is not None and picture.suffix not in PICTURES:
-        raise UsageError(f"{picture}: found the ending '{picture.suffix}'; allowed: {', '.join(PICTURES)}")
+    picture = picture_of(options)
     scene = checked_scene(options.device, options)
     print(f"{options.device}: valid\n{described(scene)}")
     if picture is not None:
-        require_folder(picture)
         with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
             section = mesh_section(scene, nominal_edges(scene.device.actuators))
             bar.update()
@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> None:
 
 
 def described(scene: Scene) -> str:
-    """Title, actuators and conditions in words."""
+    """Title, actuators, conditions and contact in words."""
     device, row = scene.device, scene.device.actuators
     actuators = several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
@@ -96,6 +96,7 @@ def described(scene: Scene) -> str:
         f" at x = {places} mm\n"
         f"{several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
         f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
+        f"friction {law.friction:g}; pressed {PRESSED[law.criterion].format(depth=law.depth, force=law.force)}\n"
         f"skin over the outermost faces is {rise:.2g} mm above first contact; pad thickness {pad:g} mm"
         + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
     )

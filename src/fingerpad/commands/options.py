@@ -10,9 +10,10 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from ..checkout import find_checkout
+from ..checkout import find_checkout, model_for
 from ..csvrows import listed
 from ..errors import UsageError
+from ..files import require_folder
 from ..scene.contact_law import Criterion, Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
@@ -21,13 +22,17 @@ from ..scene.tissue_law import Kinematics
 from ..scene.validation import check_device
 from ..scene.variation import NO_VALUES, variants
 
+PICTURES = (".png", ".pdf", ".svg")
 VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6, with a list in brackets"
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
-    """Options for the model and the schemas; both are found from any folder of a checkout."""
+    """Options for the model and the schemas; both are found without."""
     parser.add_argument(
-        "--config", type=Path, metavar="FILE", help="model (default: config/config.yaml of the checkout)"
+        "--config",
+        type=Path,
+        metavar="FILE",
+        help="model (default: config.yaml beside the device file's folder, else that of the checkout)",
     )
     parser.add_argument(
         "--schemas",
@@ -73,14 +78,31 @@ def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str
 
     Raises SceneError, and UsageError outside a checkout.
     """
-    config = config_of(options)
+    config = config_of(device, options)
     schemas = options.schemas or find_checkout(Path.cwd()).schemas
     return check_device(existing_file(device), schemas, config, values)
 
 
-def config_of(options: argparse.Namespace) -> Path:
-    """The model's file. Raises UsageError outside a checkout."""
-    return Path(options.config or find_checkout(Path.cwd()).config)
+def config_of(device: Path, options: argparse.Namespace) -> Path:
+    """The model's file for a device file. Raises UsageError if there is none."""
+    return Path(options.config or model_for(device))
+
+
+def add_picture(parser: argparse.ArgumentParser, what: str) -> None:
+    """The option for a picture; `what` says what it shows."""
+    parser.add_argument("-o", "--output", type=Path, metavar="PICTURE", help=f"{what} ({', '.join(PICTURES)})")
+
+
+def picture_of(options: argparse.Namespace) -> Path | None:
+    """The picture that the options ask for. Raises UsageError for a kind that cannot be drawn, and an OSError as
+    `require_folder`.
+    """
+    picture: Path | None = options.output
+    if picture is not None and picture.suffix not in PICTURES:
+        raise UsageError(f"{picture}: found the ending '{picture.suffix}'; allowed: {', '.join(PICTURES)}")
+    if picture is not None:
+        require_folder(picture)
+    return picture
 
 
 def add_variation(parser: argparse.ArgumentParser) -> None:

@@ -11,16 +11,31 @@ from typing import Any
 
 from tqdm import tqdm
 
-from ..errors import ContactError
+from ..csvrows import listed
+from ..errors import ContactError, UsageError
+from ..figures.style import save_as
+from ..figures.variation import variation_figure
 from ..prediction.forecast import forecast, steps
 from ..prediction.orders import orders
 from ..readouts.roughness import KEY
 from ..scene.scene import Scene
+from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import shown
-from ..scene.variation import NO_VALUES
-from .options import add_kinematics, add_scene_options, add_variation, checked_scene, require_effect, variations
-from .printing import aligned, as_csv, titled
+from ..scene.variation import NO_VALUES, unit_of
+from ..store import csv_text
+from .options import (
+    add_kinematics,
+    add_picture,
+    add_scene_options,
+    add_variation,
+    checked_scene,
+    config_of,
+    picture_of,
+    require_effect,
+    variations,
+)
+from .printing import aligned, titled
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
@@ -33,6 +48,7 @@ examples:
   fingerpad predict --kinematics finite config/devices/device2.yaml
   fingerpad predict --json config/devices/device2.yaml > device2.json
   fingerpad predict --vary contact.friction=0.3,0.6,1.0 config/devices/device2.yaml
+  fingerpad predict --vary actuators.pitch=1.5,2,2.5,3 -o pitch.png config/devices/device2.yaml
 """
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
 RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
@@ -49,6 +65,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-error", action="store_true", help="skip the coarser solution and the errors")
     add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
     add_variation(parser)
+    add_picture(parser, "draw the scores against the values of the key that --vary gives several")
     add_scene_options(parser)
 
 
@@ -56,9 +73,11 @@ def run(options: argparse.Namespace) -> None:
     """Solve every variant of every device; print each table once it is there, as text or CSV, or all scores as JSON,
     which are those that are there if it is interrupted.
 
-    Raises ContactError if there is none.
+    Raises ContactError if there is none, UsageError for a picture that cannot be drawn.
     """
     kinematics, varied, error = Kinematics(options.kinematics), variations(options), not options.no_error
+    picture = picture_of(options)
+    key = _drawn_key(options.devices, varied) if picture else ""
     is_text = not (options.json or options.csv)
     devices = [
         [checked_scene(device, options, values).with_kinematics(kinematics) for values in varied]
@@ -66,6 +85,7 @@ def run(options: argparse.Namespace) -> None:
     ]
     require_effect(varied, [scene for own in devices for scene in own])
     rows: list[dict[str, Any]] = []
+    predictions: list[list[dict[str, Any]]] = []
     total = sum(steps(scene, error) for own in devices for scene in own)
     try:
         with tqdm(total=total, leave=False, disable=None) as bar:
@@ -74,10 +94,11 @@ def run(options: argparse.Namespace) -> None:
                 for scene, values in zip(own, varied, strict=True):
                     bar.set_description(scene.device.name)
                     predicted = tables[_named(values)] = forecast(scene, error, bar.update)
+                    predictions.append(predicted)
                     found = [values | row for row in predicted]
                     if options.csv:
                         told = [{**row, "caveats": "; ".join(row["caveats"])} for row in found]
-                        bar.write(as_csv(told, header=not rows), end="")
+                        bar.write(csv_text(told, header=not rows), end="")
                     elif is_text:
                         bar.write(("\n" if rows else "") + as_table(scene, predicted, values))
                     sys.stdout.flush()
@@ -91,6 +112,21 @@ def run(options: argparse.Namespace) -> None:
             print(json.dumps(rows, indent=2))
     if all(row["score"] is None for row in rows):
         raise ContactError(f"nothing could be scored: {rows[0]['note']}")
+    if picture:
+        files = options.devices[0], config_of(options.devices[0], options)
+        unit, drawn = unit_of(key, {file: read_yaml(file) for file in files}), [values[key] for values in varied]
+        save_as(variation_figure(key, unit, drawn, devices[0], predictions), picture)
+        if is_text:
+            print(f"drawn: {picture}")
+
+
+def _drawn_key(devices: Sequence[Path], varied: Sequence[Mapping[str, Any]]) -> str:
+    """The key of the values against which scores are drawn. Raises UsageError unless there is one, and one device."""
+    several = [key for key in varied[0] if any(values[key] != varied[0][key] for values in varied)]
+    if len(devices) != 1 or len(several) != 1:
+        found = f"{len(devices)} devices" if len(devices) != 1 else listed(several) or "no key with several values"
+        raise UsageError(f"-o: found {found}; allowed: one device, and one key with several values in --vary")
+    return several[0]
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:

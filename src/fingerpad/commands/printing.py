@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from ..scene.scene import Scene
 
@@ -31,17 +28,3 @@ def aligned(lines: Sequence[Sequence[str]], right: Sequence[bool]) -> list[str]:
         ).rstrip()
         for line in lines
     ]
-
-
-def as_csv(rows: Sequence[Mapping[str, Any]], header: bool = True) -> str:
-    """Rows that share their keys, as lines of CSV, the first with their names if asked for.
-
-    >>> as_csv([{"a": 1, "b": "x"}, {"a": None, "b": "y, z"}])
-    'a,b\\n1,x\\n,"y, z"\\n'
-    """
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    if header:
-        writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()

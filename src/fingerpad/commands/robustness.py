@@ -19,8 +19,9 @@ from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
+from ..store import csv_text
 from .options import add_kinematics, add_scene_options, checked_scene, config_of
-from .printing import as_csv, titled
+from .printing import titled
 
 DESCRIPTION = """\
 Tell which assumptions the orders of a device's scores hang on. What config/ensemble.yaml lists is varied, one at a
@@ -68,7 +69,7 @@ def run(options: argparse.Namespace) -> None:
     if options.csv:
         named = {AS_CONFIGURED: configured, **tables}
         rows = [{"varied": name} | row for name, own in named.items() for row in own]
-        print(as_csv([{**row, "caveats": "; ".join(row["caveats"])} for row in rows]), end="")
+        print(csv_text([{**row, "caveats": "; ".join(row["caveats"])} for row in rows]), end="")
     else:
         print("\n".join(_told(scene, configured, tables, refused)))
 
@@ -81,7 +82,9 @@ def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene]
     alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
     found: dict[str, Scene] = {}
     refused: dict[str, str] = {}
-    for name, values in varied_values(read_yaml(config_of(options)), read_yaml(options.device), alternatives).items():
+    for name, values in varied_values(
+        read_yaml(config_of(options.device, options)), read_yaml(options.device), alternatives
+    ).items():
         try:
             other = checked_scene(options.device, options, values)
         except SceneError as error:  # as a pattern of four actuators is no alternative for three

@@ -17,10 +17,11 @@ from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
+from ..store import csv_text
 from ..vibration.creep import condense_creep
 from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_rows
 from .options import add_scene_options, checked_scene
-from .printing import aligned, as_csv, titled
+from .printing import aligned, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 3  # of the progress before any score: mesh, compliance, creep
@@ -86,7 +87,7 @@ def run(options: argparse.Namespace) -> None:
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
-        print(as_csv(rows), end="")
+        print(csv_text(rows), end="")
     else:
         print(as_table(scene, rows))
 

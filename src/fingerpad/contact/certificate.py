@@ -7,17 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..errors import CertificateError, ReachError
 from ..tissue.compliance import CondensedSection
-from .formulation import (
-    ContactProblem,
-    ContactState,
-    Status,
-    nearest_now,
-    overlapped,
-    reevaluated_gap,
-    shearing_and_pressing,
-)
+from .faces import displacement, touch
+from .formulation import ContactProblem, ContactState, Status, shearing_and_pressing, unloaded
+from .ownership import given_as, nearest_now, overlapped
+from .profile import profile
 
 # distance of two nodes over the skin that belongs to them [1]; source: of equal elements 1/2 if they share one, 2/3 at
 # the end of a face, at least 1 if there is another between
@@ -145,3 +141,11 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
             reaches = f"at the actuator at x = {neighbour:g} mm reaches skin that only its neighbour's may touch"
             advice = less
         raise ReachError(f"certificate: contact {reaches}; skin there has moved {aside:.2g} mm sideways{advice}")
+
+
+def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
+    """Gaps (n,) [mm] computed again from a state's forces, with the actuators' compliance where the skin now is."""
+    problem = given_as(problem, state)
+    there = touch(problem, state.place)
+    x, y = (unloaded(problem, state.actuator) + displacement(problem, state.force, there)).T
+    return np.asarray(y + profile(problem.row, x)[0])

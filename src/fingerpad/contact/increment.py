@@ -27,20 +27,9 @@ from .active_set import (
     touched_on_the_way,
     touched_status,
 )
-from .formulation import (
-    FRONT_POWER,
-    OPEN,
-    ContactProblem,
-    ContactState,
-    displacement,
-    given_anew,
-    given_to,
-    given_way,
-    handed_over,
-    resolved,
-    touch,
-    unloaded,
-)
+from .faces import displacement, face_displacement, touch
+from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, resolved, unloaded
+from .ownership import given_anew, given_to, handed_over
 from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
 
@@ -168,7 +157,9 @@ def _amiss(problem: ContactProblem, found: _Everywhere, there: FloatArray | None
     """
     if there is None:
         return 0.0
-    astray = given_way(problem, found.force, touch(problem, found.place)) - given_way(problem, found.force, there)
+    astray = face_displacement(problem, found.force, touch(problem, found.place)) - face_displacement(
+        problem, found.force, there
+    )
     place = found.place + astray[:, 0]
     height = found.gap - profile(problem.row, found.place)[0] + astray[:, 1]
     gap = height + profile(problem.row, place)[0]

@@ -9,8 +9,9 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import CriterionError
 from ..scene.contact_law import ContactLaw, Criterion
-from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, given_as, rest, touching_height
+from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
+from .ownership import given_as
 from .path import Carried, SolveIncrement, advance
 from .profile import profile
 

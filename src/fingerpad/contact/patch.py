@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from .formulation import ContactProblem, face_compliance
+from .faces import face_compliance
+from .formulation import ContactProblem
 
 LOST = 1e-4  # of unit displacements [1] that a stiffness may miss; source: what two refinements take to rounding
 ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; source: fewest seconds of 16 to 50 (measured)

@@ -21,18 +21,20 @@ class Solution:
 
     indentation: height of the faces above the lowest point of the undeformed pad [mm]. depth: largest height of an
     actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
-    nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation. force: (n_times, n, 2) [N/mm] at
-    the stimulus's times. contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are
-    `forces` but where the normal turns. pressing: (1 + n_times, n_actuators) forces f_y of actuators [N/mm]. arc: (m,)
-    receptors [mm]. reading: what they say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,)
-    index of the one that a skin node may touch; place: (n,) x of the skin nodes from that actuator's centre [mm];
-    status: (n,). iterations, cuts, searches: of the whole path. certificate.
+    nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation; indented_actuator: (n,) index of
+    the actuator that each may touch there. force: (n_times, n, 2) [N/mm] at the stimulus's times. contact: (1 +
+    n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are `forces` but where the normal turns.
+    pressing: (1 + n_times, n_actuators) forces f_y of actuators [N/mm]. arc: (m,) receptors [mm]. reading: what they
+    say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,) index of the one that a skin node may
+    touch; place: (n,) x of the skin nodes from that actuator's centre [mm]; status: (n,). iterations, cuts, searches:
+    of the whole path. certificate.
     """
 
     indentation: float
     depth: float
     position: FloatArray
     indented_force: FloatArray
+    indented_actuator: np.ndarray
     force: FloatArray
     contact: FloatArray
     pressing: FloatArray
@@ -73,6 +75,7 @@ def solution(
         depth=depth(problem, np.array([state.actuator for state in states])),
         position=section.position,
         indented_force=before.force,
+        indented_actuator=before.given,
         force=np.array([state.force for state in states[1:]]),
         contact=contact,
         arc=section.arc,
@@ -91,5 +94,5 @@ def solution(
 
 
 def _pressing(problem: ContactProblem, state: ContactState) -> FloatArray:
-    """Pressing forces (n_actuators,) [N/mm] in a state."""
+    """Forces f_y (n_actuators,) of the actuators [N/mm] in a state."""
     return np.asarray(np.bincount(state.given, state.force[:, 1], minlength=len(problem.row.positions)), dtype=float)

@@ -15,7 +15,8 @@ import numpy as np
 from scipy.sparse.linalg import SuperLU
 
 from ..arrays import FloatArray
-from .formulation import ContactProblem, Status, face_compliance, touch
+from .faces import face_compliance, touch
+from .formulation import ContactProblem, Status
 
 
 def unstable_directions(problem: ContactProblem, status: np.ndarray, place: FloatArray, factors: SuperLU) -> int:

@@ -103,8 +103,9 @@ def member_scenes(
 ) -> Scenes:
     """Scene files of a member. Without an alternative all devices that have half-cycles, as they are.
 
-    An alternative of the model concerns all of them, one of devices those that assume the value. Raises SceneError if
-    it is a key that none has, or a number's factor on what is none, and if no device has half-cycles.
+    An alternative of the model concerns all of them but those whose files have a value of their own that is no
+    assumption; one of devices those that assume the value. Raises SceneError if it is a key that none has, or a factor
+    on what is no number, and if no device has half-cycles.
     """
     cycled = {
         name: with_value(document, HALF_CYCLE, half_cycle, "varied: half-cycle")
@@ -115,9 +116,9 @@ def member_scenes(
         raise SceneError(f"ensemble: no device has a value {HALF_CYCLE}")
     if alternative is None:
         return Scenes(config, cycled)
-    if alternative.part == "model":
-        return Scenes(_varied(config, alternative), cycled)
     assumed = {name: _varied(cycled[name], alternative) for name in assuming(cycled, alternative.key)}
+    if alternative.part == "model":
+        return Scenes(_varied(config, alternative), cycled | assumed)
     if not assumed:
         raise SceneError(f"ensemble: no device assumes a value {alternative.key}")
     return Scenes(config, assumed)

@@ -46,14 +46,14 @@ def varied_values(config: Document, device: Document, alternatives: Sequence[Alt
 
     Raises SceneError if the model has no such value, or a number's factor is to multiply what is none.
     """
-    documents = {"model": dict(quantities_of(config)), "devices": dict(quantities_of(device))}
+    of_model, own = dict(quantities_of(config)), dict(quantities_of(device))
     halves = [Alternative("devices", HALF_CYCLE, each, None, OTHER_HALF) for each in HALF_CYCLES]
     found = {}
     for each in (*alternatives, *halves):
-        quantity = documents[each.part].get(each.key)
-        if quantity is None and each.part == "model":
-            raise no_such_value(each.key, "config.yaml", list(documents["model"]))
-        if quantity is None or (each.part == "devices" and not is_assumed(quantity)):
+        if each.part == "model" and each.key not in of_model:
+            raise no_such_value(each.key, "config.yaml", list(of_model))
+        quantity = (own if each.part == "devices" else of_model | own).get(each.key)
+        if quantity is None or (each.key in own and not is_assumed(quantity)):
             continue
         value = each.instead_of(quantity["value"])
         if value != quantity["value"]:

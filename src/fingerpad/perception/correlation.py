@@ -81,10 +81,13 @@ def _range_errors(score: FloatArray, over: RatingRange, error: FloatArray) -> tu
     """What errors (n,) of scores (n,) can add up to in the ends of the range of r, and with generators that they turn;
     and whether they turn any rating's slope.
 
-    No rating's slope turns if that of no generator does: sum |y_i| d_i <= |<S, y>| then holds for their sums, too.
+    No rating's slope turns if those of all generators have one sign and none of them turns: sum |y_i| d_i <= |<S, y>|
+    then holds for their sums, too. With both signs some rating's slope is zero (r2 then reaches down to it), and any
+    error turns that.
     """
     turned = [rating for rating in over.generators if is_turned(score, rating, error)]
-    return max(error_in_r(score, rating, error) for rating in (*over.ratings, *turned)), bool(turned)
+    level = over.r[0] < 0.0 < over.r[1] and over.r2[0] == 0.0 and bool((error > 0.0).any())
+    return max(error_in_r(score, rating, error) for rating in (*over.ratings, *turned)), bool(turned) or level
 
 
 def correlation_table(

@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..readouts.comparison import Relation, Score, relation
-from ..readouts.roughness import KEY
-from ..scene.contact_law import Criterion
+from ..readouts.roughness import KEY, score_rows
+from ..readouts.strain import FilteredReadouts
+from ..scene.contact_law import Criterion, Interface
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -41,24 +43,43 @@ def stimulus_caveats(condition: Condition) -> list[str]:
     return [f"moves actuators by {stroke:.2g} mm at most: are displacements in mm?"] if tiny else []
 
 
-def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
-    """Actuators too deep for small strain, too narrow for the mesh, without a face to cover, without force where
-    pre-indentation ends or off the skin, a filter too fine for the mesh, a peak that another time comes near to, many
-    increments that were cut or did not settle at once, and figures of the certificate near their limits.
-    """
-    certificate = solution.certificate
-    found = depth_caveats(scene, solution.depth)
+def scene_caveats(scene: Scene) -> list[str]:
+    """Actuators without a face to cover or too narrow for the mesh, and a filter too fine for it."""
+    found = []
     if scene.model.contact.criterion is Criterion.FULL and scene.device.actuators.half_face <= 0.0:
         found.append(
             "round actuators have no flat face to cover: pre-indentation ends where contact reaches the middle of each;"
-            " --vary contact.criterion=depth or force, or either in config/config.yaml, presses them as asked"
+            " --vary contact.criterion=depth or force, or either in the device file, presses them as asked"
         )
-    strained = float(solution.reading.strain.max())
+    elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
+    if elements < FEW:
+        found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
+    waves = min(scene.model.gabor.wavelength(each) for each in Readout) / scene.model.numerics.receptor_size
+    if waves < COARSE:
+        found.append(f"the filter's wavelength is {waves:.1f} receptor elements: try a smaller numerics.receptor_size")
+    return found
+
+
+def state_caveats(scene: Scene, depth: float, strain: FloatArray) -> list[str]:
+    """Actuators too deep [mm], and receptors with principal strains (m,) [1] too large, for small strain."""
+    found = []
+    share, strained = depth / scene.model.finger.pad_thickness, float(strain.max())
+    if scene.kinematics is Kinematics.SMALL and share > DEEP:
+        found.append(f"actuators indent {share:.0%} of the pad: small strain is invalid")
     if scene.kinematics is Kinematics.SMALL and strained > STRAINED:
         found.append(
             f"receptors are strained by up to {strained:.0%}, too much for small strain: compare --kinematics finite"
         )
-    pressing = solution.pressing
+    return found
+
+
+def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
+    """Those of the scene and of the state that is read; actuators without force where pre-indentation ends or off the
+    skin, a peak that another time comes near to, many increments that were cut or did not settle at once, and figures
+    of the certificate near their limits.
+    """
+    certificate, pressing = solution.certificate, solution.pressing
+    found = state_caveats(scene, solution.depth, solution.reading.strain) + scene_caveats(scene)
     if idle := _numbers(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
@@ -68,12 +89,6 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
             f"at another time strain changes by {solution.reading.rival_peak:.1%} as much, in a different pattern:"
             " the mesh may decide which is read, and the error does not cover that"
         )
-    elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
-    if elements < FEW:
-        found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
-    waves = min(scene.model.gabor.wavelength(each) for each in Readout) / scene.model.numerics.receptor_size
-    if waves < COARSE:
-        found.append(f"the filter's wavelength is {waves:.1f} receptor elements: try a smaller numerics.receptor_size")
     if solution.cuts > MANY_CUTS:
         found.append(f"increments were halved {solution.cuts} times")
     if solution.searches > MANY_SEARCHES:
@@ -88,16 +103,17 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     return found
 
 
+def noted_rows(
+    scene: Scene, condition: Condition, interface: Interface, solution: Solution, read: FilteredReadouts
+) -> list[dict[str, Any]]:
+    """Rows of the score table for a solution and its filtered read-outs, with caveats as their note."""
+    caveats = stimulus_caveats(condition) + solution_caveats(scene, solution)
+    return score_rows(scene, condition, interface, read, "; ".join(caveats))
+
+
 def _numbers(which: np.ndarray) -> str:
     """Numbers, from 1, of the actuators that are marked (n_actuators,)."""
     return ", ".join(str(number + 1) for number in np.flatnonzero(which))
-
-
-def depth_caveats(scene: Scene, depth: float) -> list[str]:
-    """Whether actuators go too deep [mm] for small strain."""
-    share = depth / scene.model.finger.pad_thickness
-    deep = scene.kinematics is Kinematics.SMALL and share > DEEP
-    return [f"actuators indent {share:.0%} of the pad: small strain is invalid"] if deep else []
 
 
 def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:

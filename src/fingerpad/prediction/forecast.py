@@ -15,7 +15,7 @@ from ..scene.device import Control
 from ..scene.scene import Scene
 from .caveats import score_caveats
 from .edges import edge_intervals
-from .scoring import ReadOut, error_rows, solved_rows
+from .scoring import ReadSolution, error_rows, solved_rows
 
 SILENT = "the device controls forces: its displacements without friction are unknown"
 LEFT_OUT = "skipped by `interfaces` in the device file"
@@ -44,7 +44,7 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     ]
 
 
-def _preload(read: ReadOut | None) -> dict[str, float | None]:
+def _preload(read: ReadSolution | None) -> dict[str, float | None]:
     """Columns that say how a device was pressed, if it was."""
     return {
         "indentation_mm": None if read is None else read.solution.indentation,

@@ -10,13 +10,13 @@ from typing import Any, TypeVar
 from ..arrays import FloatArray
 from ..contact.linear_solution import indent_device, stimulate
 from ..contact.solution import Solution
-from ..errors import CondensationError, ContactError, MeshError
+from ..errors import UnsolvedError
 from ..finite.deformed_solution import pressed_finger, stimulate_deformed
 from ..finite.pressing import press
 from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, score_rows, unscored_rows, unsolved_rows
+from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, unscored_rows, unsolved_rows
 from ..readouts.strain import FilteredReadouts, Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -28,10 +28,9 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import SectionMesh, mesh_section
 from ..tissue.receptors import arc_length, receptor_strain
-from .caveats import solution_caveats, stimulus_caveats
+from .caveats import noted_rows
 
 Result = TypeVar("Result")
-Unsolved = ContactError | CondensationError | MeshError  # why there is no solution, though there is a mesh
 Case = tuple[str, Interface]  # condition, interface
 UNKNOWN = f"{ERROR_UNKNOWN}: on a mesh of {COARSENING:g} times the sizes, "  # and the reason
 
@@ -55,7 +54,7 @@ class Meshed:
 
 
 @dataclass(frozen=True)
-class ReadOut:
+class ReadSolution:
     """A solution and what was read of it."""
 
     solution: Solution
@@ -68,7 +67,7 @@ class Solved:
 
     condition: Condition
     interface: Interface
-    solution: Solution | Unsolved
+    solution: Solution | UnsolvedError
 
     @property
     def case(self) -> Case:
@@ -113,7 +112,7 @@ def rows_at(
 
 
 def error_rows(
-    scene: Scene, edges: FloatArray, read: Mapping[Case, ReadOut], step: Callable[[], object] = lambda: None
+    scene: Scene, edges: FloatArray, read: Mapping[Case, ReadSolution], step: Callable[[], object] = lambda: None
 ) -> list[dict[str, Any]]:
     """Rows with the `score_error` of every score, from a solution with sizes and increments COARSENING times as large
     and edges (k, 2) [mm], which is read at the same time; None where that cannot be had, and a `note` that says why.
@@ -123,7 +122,7 @@ def error_rows(
     other, rows = scene.coarsened(COARSENING), list[dict[str, Any]]()
     try:
         condensed = prepared(other, edges)
-    except (MeshError, CondensationError) as error:
+    except UnsolvedError as error:
         return [row for case in read for row in _errors_of(scene, case, f"{UNKNOWN}{error}")]
     step()
     for interface in scene.device.interfaces():
@@ -136,7 +135,7 @@ def error_rows(
             continue
         shown = replace(other, device=replace(other.device, conditions=asked))
         for solved in solve_scene(shown, condensed, [interface]):
-            if isinstance(solved.solution, Unsolved):
+            if isinstance(solved.solution, UnsolvedError):
                 rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")
             else:
                 coarser = read_out(other, condensed, solved.solution)
@@ -165,19 +164,20 @@ def predicted_rows(
 ) -> list[dict[str, Any]]:
     """Rows of the score table for all conditions at some interfaces, or all.
 
-    Raises MeshError, CondensationError, ContactError.
+    Raises UnsolvedError.
     """
     rows: list[dict[str, Any]] = []
     for solved in solve_scene(scene, condensed, interfaces):
-        if isinstance(solved.solution, Unsolved):
+        if isinstance(solved.solution, UnsolvedError):
             raise solved.solution
-        rows += rows_of(scene, solved, solved.solution, read_out(scene, condensed, solved.solution))
+        read = read_out(scene, condensed, solved.solution)
+        rows += noted_rows(scene, solved.condition, solved.interface, solved.solution, read)
     return rows
 
 
 def solved_rows(
     scene: Scene, edges: FloatArray, step: Callable[[], object] = lambda: None
-) -> tuple[list[dict[str, Any]], dict[Case, ReadOut]]:
+) -> tuple[list[dict[str, Any]], dict[Case, ReadSolution]]:
     """Rows of the score table of what the device moves, on a mesh with edges (k, 2) [mm], and what was read in the
     cases that have scores. What cannot be meshed or solved has no score, and a note that says why.
 
@@ -185,19 +185,19 @@ def solved_rows(
     """
     try:
         condensed = prepared(scene, edges)
-    except (MeshError, CondensationError) as refusal:
+    except UnsolvedError as refusal:
         return unsolved_rows(scene, f"{NO_PREDICTION}: {refusal}"), {}
     step()
     rows: list[dict[str, Any]] = []
-    read: dict[Case, ReadOut] = {}
+    read: dict[Case, ReadSolution] = {}
     for solved in solve_scene(scene, condensed):
-        if isinstance(solved.solution, Unsolved):
+        if isinstance(solved.solution, UnsolvedError):
             note = f"{NO_PREDICTION}: {solved.solution}"
             rows += unscored_rows(scene, solved.condition, solved.interface, note)
         else:
             filtered = read_out(scene, condensed, solved.solution)
-            read[solved.case] = ReadOut(solved.solution, filtered)
-            rows += rows_of(scene, solved, solved.solution, filtered)
+            read[solved.case] = ReadSolution(solved.solution, filtered)
+            rows += noted_rows(scene, solved.condition, solved.interface, solved.solution, filtered)
         step()
     return rows, read
 
@@ -205,22 +205,22 @@ def solved_rows(
 def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
     """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
     for interface in interfaces or scene.device.interfaces():
-        found: dict[str, Solution | Unsolved] = {}
-        pressed: Callable[[Condition], Solution] | Unsolved | None = None
+        found: dict[str, Solution | UnsolvedError] = {}
+        pressed: Callable[[Condition], Solution] | UnsolvedError | None = None
         for condition in scene.device.conditions:
             solved_as = scene.solved_as(condition.name).name
             if solved_as not in found:
                 if pressed is None or not scene.model.skips.shared_indentation:
                     pressed = _attempt(pressed_device, scene, condensed, interface)
-                found[solved_as] = pressed if isinstance(pressed, Unsolved) else _attempt(pressed, condition)
+                found[solved_as] = pressed if isinstance(pressed, UnsolvedError) else _attempt(pressed, condition)
             yield Solved(condition, interface, found[solved_as])
 
 
-def _attempt(solve: Callable[..., Result], *given: object) -> Result | Unsolved:
+def _attempt(solve: Callable[..., Result], *given: object) -> Result | UnsolvedError:
     """What is found, or why it cannot be."""
     try:
         return solve(*given)
-    except (ContactError, CondensationError, MeshError) as error:
+    except UnsolvedError as error:
         return error
 
 
@@ -237,12 +237,6 @@ def pressed_device(
     return partial(
         stimulate, scene, condensed.section, indent_device(scene, condensed.section, condensed.body, interface)
     )
-
-
-def rows_of(scene: Scene, solved: Solved, solution: Solution, read: FilteredReadouts) -> list[dict[str, Any]]:
-    """Rows of the score table for what was solved, its solution and filtered read-outs, with caveats as their note."""
-    caveats = stimulus_caveats(solved.condition) + solution_caveats(scene, solution)
-    return score_rows(scene, solved.condition, solved.interface, read, "; ".join(caveats))
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterator
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -160,9 +161,9 @@ def load_scene(config: Path, device: Path, kinematics: Kinematics = Kinematics.S
     >>> [condition.name for condition in scene.device.conditions]
     ['alternate_000', 'alternate_090', 'alternate_180']
     """
-    model = build_model(read_yaml(config))
+    model, document = build_model(read_yaml(config)), read_yaml(device)
     try:
-        return Scene(model, build_device(device, read_yaml(device))).with_kinematics(kinematics)
+        return Scene(with_contact(model, document), build_device(device, document)).with_kinematics(kinematics)
     except SceneError as error:
         raise SceneError(f"{device}: {error}") from error
 
@@ -187,13 +188,7 @@ def build_model(config: dict[str, Any]) -> Model:
             law=Law(tissue["law"]),
             ogden_exponent=tissue["ogden_exponent"],
         ),
-        contact=ContactLaw(
-            friction=contact["friction"],
-            turning_normal=TurningNormal(contact["turning_normal"]),
-            criterion=Criterion(contact["criterion"]),
-            depth=contact["depth"],
-            force=contact["force"],
-        ),
+        contact=_contact_law(contact),
         gabor=GaborFilter(**_values(config["filter"])),
         readout=ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
         vibration=VibrationRule(
@@ -205,6 +200,12 @@ def build_model(config: dict[str, Any]) -> Model:
         numerics=Numerics(**_values(config["numerics"])),
         skips=Skips(**_values(config["skips"])),
     )
+
+
+def with_contact(model: Model, device: dict[str, Any]) -> Model:
+    """The model with what a device's validated mapping says of contact in place of its own. Raises SceneError."""
+    own = _values(device.get("contact", {}))
+    return replace(model, contact=_contact_law(asdict(model.contact) | own))
 
 
 def build_device(path: Path, document: dict[str, Any]) -> Device:
@@ -257,6 +258,17 @@ def _values(node: Any) -> Any:
     if isinstance(node, list):
         return [_values(child) for child in node]
     return node
+
+
+def _contact_law(given: dict[str, Any]) -> ContactLaw:
+    """The law of the plain values under `contact`. Raises SceneError."""
+    return ContactLaw(
+        friction=given["friction"],
+        turning_normal=TurningNormal(given["turning_normal"]),
+        criterion=Criterion(given["criterion"]),
+        depth=given["depth"],
+        force=given["force"],
+    )
 
 
 def _body(given: dict[str, Any]) -> Body | None:

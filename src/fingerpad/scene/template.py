@@ -23,6 +23,8 @@ HEADER = """\
 #   kinematics: {{value: small, unit: "1", source: "assumption: finite strain cannot follow these strokes"}}
 # Where nothing holds the row without friction, this line predicts it with friction alone:
 #   interfaces: {{value: shear, unit: "1", source: "assumption: without friction this row cannot be held"}}
+# Friction and preload of your experiment, in place of those in config.yaml (criterion, depth and force, too):
+#   contact: {{friction: {{value: 0.4, unit: "1", source: "measured by whom, on what"}}}}
 """
 DRIVES = """\
 # How to change the drive:

@@ -23,7 +23,7 @@ import yaml
 from ..errors import SceneError
 from ..imports import without
 from .scene import Model, Scene
-from .scenefile import build_device, build_model, read_yaml
+from .scenefile import build_device, build_model, read_yaml, with_contact
 from .variation import NO_VALUES, shared_out, with_value
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
@@ -79,10 +79,10 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     >>> check_device(Path("config/devices/device2.yaml"), Path("workflow/schemas"), config).device.name
     'device2'
     """
-    of_model, own = values, values
+    own, of_model = values, values
     if values:
         check_device(path, schema_dir, config_path)  # files are right as they stand before anything in them is varied
-        of_model, own = shared_out(values, {each: read_yaml(each) for each in (config_path, path)}).values()
+        own, of_model = shared_out(values, {each: read_yaml(each) for each in (path, config_path)}).values()
     model = check_config(config_path, schema_dir, of_model)
     require_name(path)
     document, schema = checked_document(path, schema_dir / "device.schema.yaml", own)
@@ -90,7 +90,7 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     with _located(where, schema, "stimulus"):
         device = build_device(path, document)
     with _located(where, schema, "actuators"):
-        return Scene(model, device)
+        return Scene(with_contact(model, document), device)
 
 
 def known_devices(folder: Path) -> list[str]:
@@ -147,10 +147,11 @@ def checked_document(
 
     Raises SceneError as `read_yaml`, and with all that the schema does not allow.
     """
-    document, source = read_yaml(path), read_yaml(schema_path)
+    document = read_yaml(path)
     for key, value in values.items():
         document = with_value(document, key, value, "varied")
-    schema = _plain(source, document, source["$defs"])
+    files = {each.name: read_yaml(each) for each in schema_path.parent.glob("*.schema.yaml")}
+    schema = _plain(read_yaml(schema_path), document, files, schema_path.name)
     checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(
         "integer", lambda _, value: _is_number(value) and isinstance(value, int)
     )
@@ -219,26 +220,38 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
 
-def _plain(schema: Schema, value: Any, defs: Mapping[str, Schema]) -> Schema:
-    """The schema with references replaced and, of its if-then branches, those alone that hold for the value.
+def _referred(reference: str, files: Mapping[str, Schema], own: str) -> tuple[Schema, str]:
+    """The part of a schema that a reference in the file `own` points to, and the file that holds it.
+
+    >>> _referred("#/$defs/name", {"a.yaml": {"$defs": {"name": {"type": "string"}}}}, "a.yaml")
+    ({'type': 'string'}, 'a.yaml')
+    """
+    file, _, place = reference.partition("#/")
+    found: Schema = functools.reduce(operator.getitem, place.split("/"), files[file or own])
+    return found, file or own
+
+
+def _plain(schema: Schema, value: Any, files: Mapping[str, Schema], own: str) -> Schema:
+    """The schema with references replaced and, of its if-then branches, those alone that hold for the value. files: all
+    schemas by name. own: the name of the one that it is a part of.
 
     So every error comes with all that is said about its key, and with nothing about kinds that were not chosen.
     """
-    parts = [defs[schema["$ref"].removeprefix("#/$defs/")]] if "$ref" in schema else []
+    parts = [_referred(schema["$ref"], files, own)] if "$ref" in schema else []
     cases = schema.get("allOf", []) if isinstance(value, dict) else []
-    parts += [case["then"] for case in cases if Draft202012Validator(case["if"]).is_valid(value)]
-    own = {keyword: content for keyword, content in schema.items() if keyword not in ("$ref", "allOf")}
+    parts += [(case["then"], own) for case in cases if Draft202012Validator(case["if"]).is_valid(value)]
+    rest = {keyword: content for keyword, content in schema.items() if keyword not in ("$ref", "allOf")}
     plain: Schema = {"properties": {}, "required": []}
-    for part in (*(_plain(part, value, defs) for part in parts), own):
+    for part in (*(_plain(part, value, files, name) for part, name in parts), rest):
         properties = plain["properties"] | part.get("properties", {})
         required = [*part.get("required", []), *plain["required"]]
         plain = plain | part | {"properties": properties, "required": required}
     inner = value if isinstance(value, dict) else {}
     children = {name: child for name, child in plain["properties"].items() if isinstance(child, dict)}
-    plain["properties"] |= {name: _plain(child, inner.get(name), defs) for name, child in children.items()}
+    plain["properties"] |= {name: _plain(child, inner.get(name), files, own) for name, child in children.items()}
     for keyword in ("items", "additionalProperties", "propertyNames"):
         if isinstance(plain.get(keyword), dict):
-            plain[keyword] = _plain(plain[keyword], None, defs)
+            plain[keyword] = _plain(plain[keyword], None, files, own)
     return plain
 
 

@@ -78,15 +78,31 @@ def shared_out(values: Mapping[str, Any], documents: Mapping[Path, Document]) ->
 
     Raises SceneError, with the key that was probably meant, if none has.
     """
-    known = {path: dict(quantities_of(document)) for path, document in documents.items()}
     found: dict[Path, dict[str, Any]] = {path: {} for path in documents}
     for asked, value in values.items():
-        key = _by_number(asked, documents.values())
-        owner = next((path for path in known if key in known[path]), None)
-        if owner is None:
-            raise no_such_value(key, " and ".join(map(str, known)), [each for keys in known.values() for each in keys])
+        owner, key = _located(asked, documents)
         found[owner][key] = value
     return found
+
+
+def unit_of(key: str, documents: Mapping[Path, Document]) -> str:
+    """The unit of the quantity at a key of the first of the files that has one. Raises SceneError as `shared_out`.
+
+    >>> unit_of("actuators.pitch", {Path("a.yaml"): {"actuators": {"pitch": {"value": 2.0, "unit": "mm"}}}})
+    'mm'
+    """
+    owner, there = _located(key, documents)
+    return str(dict(quantities_of(documents[owner]))[there]["unit"])
+
+
+def _located(asked: str, documents: Mapping[Path, Document]) -> tuple[Path, str]:
+    """The first of the files that has a quantity at a key, and the key by numbers. Raises SceneError if none has."""
+    key = _by_number(asked, documents.values())
+    known = {path: dict(quantities_of(document)) for path, document in documents.items()}
+    for path, quantities in known.items():
+        if key in quantities:
+            return path, key
+    raise no_such_value(key, " and ".join(map(str, known)), [each for keys in known.values() for each in keys])
 
 
 def _by_number(key: str, documents: Iterable[Document]) -> str:

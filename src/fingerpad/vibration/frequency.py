@@ -18,7 +18,7 @@ from ..contact.depth import depth, require_tissue
 from ..contact.linear_solution import Indented, indent_device
 from ..contact.problem import named
 from ..errors import ContactError, InertiaError
-from ..prediction.caveats import depth_caveats
+from ..prediction.caveats import scene_caveats, state_caveats
 from ..prediction.scoring import Condensed
 from ..readouts.gabor import filtered_readouts
 from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
@@ -121,7 +121,8 @@ def _outcome(
         if at and not sticks:
             effect = inertia_effect(scene, slipping(vibration), at.still, at.moving)
             _require_no_inertia(scene, frequency, effect)
-        note = "; ".join(depth_caveats(scene, depth(indented.problem, _highest(indented, cycle))))
+        deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
+        note = "; ".join([*state_caveats(scene, deepest, read), *scene_caveats(scene)])
         return Outcome(vibration_scores(scene, condensed, vibration), effect, note)
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
