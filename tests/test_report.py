@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from fingerpad.digraph import layers, placed, read_dot, reduced
+from fingerpad.perception.wording import p_text
 from fingerpad.report.captions import Results, Words, rules_words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -20,7 +21,6 @@ from fingerpad.report.tables import (
     CORRELATION_COLUMNS,
     accuracy_summary,
     correlation_bodies,
-    p_value,
     score_grid,
     score_with_error,
 )
@@ -321,9 +321,9 @@ def test_score_ends_where_its_error_does(readout: str, score: str, error: str, t
 
 
 def test_small_p_is_a_bound() -> None:
-    assert p_value("0.0005").startswith("<")
-    assert p_value("0.0493") == "0.049"
-    assert p_value("0.2") == "0.20"
+    assert p_text("0.0005").startswith("<")
+    assert p_text("0.0493") == "0.049"
+    assert p_text("0.2") == "0.20"
 
 
 def test_devices_that_come_in_parts_are_one_body(results: Results) -> None:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..perception.wording import slope_name
+from ..perception.wording import range_text, slope_name
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
@@ -141,5 +141,5 @@ def _statistics(correlations: pd.DataFrame, interface: Interface) -> str:
     row = correlations[correlations["interface"] == interface].iloc[0]
     if pd.isna(row["r2"]):
         return f"{INTERFACE_NAME[interface]}: {row['note']}"
-    ends = f", range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}" if pd.notna(row["r2_lowest"]) else ""
+    ends = f", range {range_text(row)}" if range_text(row) else ""
     return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f}, {slope_name(row)}{ends}, n = {row['n']}"

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..perception.ratings import NO_RATINGS
-from ..perception.wording import OPEN_SLOPE, SLOPE_NAME, SMALLEST_P, has_p, is_open, slope_name
+from ..perception.wording import OPEN_SLOPE, SMALLEST_P, has_p, is_open, p_text, published_text, range_text, slope_name
 from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
@@ -146,17 +146,14 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
     lines = [f"n = {score.size}"]
     if pd.notna(row["r2"]):
         lines.append(f"R² = {row['r2']:.3f}, {slope_name(row)}")
-    if pd.notna(row["r2_lowest"]):
-        lines.append(f"range {row['r2_lowest']:.2f} to {row['r2_highest']:.2f}")
+    if spread_of_r2 := range_text(row):
+        lines.append(f"range {spread_of_r2}")
     if pd.notna(row["r2"]):
         lines.append(f"τ = {row['kendall_tau']:.2f}".replace("-", MINUS))
         if has_p(row["p"], row["rating_kind"]):
-            lines[-1] += f", p = {row['p']:#.2g}" if row["p"] >= SMALLEST_P else f", p < {SMALLEST_P:g}"
-    if pd.notna(row["published_r2"]):
-        slope = f", {SLOPE_NAME[int(row['published_slope'])]}" if pd.notna(row["published_slope"]) else ""
-        lines.append(f"published R² {row['published_r2']:g}{slope}")
-    elif isinstance(row["published_words"], str) and row["published_words"]:
-        lines.append(f"published: {row['published_words']}")
+            lines[-1] += f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
+    if published := published_text(row):
+        lines.append(f"published{' R²' if pd.notna(row['published_r2']) else ':'} {published}")
     spread = PERCENT * float(np.ptp(score) / np.abs(score).mean())
     lines.append(f"spread {spread:.{0 if spread >= 10.0 else 1}f} %")
     if isinstance(row["note"], str) and row["note"]:

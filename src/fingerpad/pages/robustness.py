@@ -9,7 +9,7 @@ import pandas as pd
 from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
-from ..perception.wording import SLOPE_NAME, slope_name
+from ..perception.wording import published_text, slope_name
 from ..readouts.roughness import KEY
 from ..scene.contact_law import Interface
 from .filling import table
@@ -75,20 +75,10 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
     for key, own in shear.groupby(KEY, sort=False):
         row = dict(zip(KEY, key, strict=True))
         del row["interface"]
-        first = own.iloc[0]
-        published = (
-            first["published_words"]
-            if pd.isna(first["published_r2"])
-            else _published(first["published_r2"], first["published_slope"])
-        )
+        published = published_text(own.iloc[0])
         usual = own[own["varied"] == AS_CONFIGURED].set_index("half_cycle")
         halves = {each: f"{usual.loc[each, 'r2']:.3g}, {slope_name(usual.loc[each])}" for each in HALF_CYCLES}
         different = pd.concat([_different(own[own["half_cycle"] == each], "r2", "slope_sign") for each in HALF_CYCLES])
         rising = int((different["slope_sign"] > 0).sum())
         rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(different)}"})
     return pd.DataFrame(rows)
-
-
-def _published(r2: float, slope: float) -> str:
-    """R² and which way the slope is, if that is said."""
-    return f"{r2:.3g}" if pd.isna(slope) else f"{r2:.3g}, {SLOPE_NAME[int(slope)]}"

@@ -1,4 +1,4 @@
-"""What is said of a row of the table of correlations: its slope, whether that is open, and whether it has a p."""
+"""What is said of a row of the table of correlations, of pandas or of text: slope, range, p, what is published."""
 
 from __future__ import annotations
 
@@ -16,21 +16,31 @@ OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `sl
 
 def has_p(p: object, kind: object) -> bool:
     """Whether a p is there and tests anything: the steps of ordinal surrogates, a `label`, are no measurement."""
-    return bool(pd.notna(p)) and p != "" and kind != RatingKind.SURROGATE.label
+    return _is_there(p) and kind != RatingKind.SURROGATE.label
+
+
+def p_text(p: object) -> str:
+    r"""A p as it is shown: two digits, or a bound.
+
+    >>> p_text("1.9e-06"), p_text(0.0493), p_text("0.199")
+    ('<\xa00.001', '0.049', '0.20')
+    """
+    value = float(str(p))
+    return f"{value:#.2g}" if value >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
 
 
 def is_open(row: Mapping[str, Any]) -> bool:
-    """Whether errors of scores leave open which way the slope is of a row of the correlation table, also as text."""
+    """Whether errors of scores leave open which way the slope is."""
     return has_error(row) and bool(int(row["slope_open"]))
 
 
 def has_error(row: Mapping[str, Any]) -> bool:
-    """Whether it is known what errors of scores add up to in a row of the correlation table, also as text."""
-    return bool(row["r_error"] != "" and pd.notna(row["r_error"]))
+    """Whether it is known what errors of scores add up to."""
+    return _is_there(row["r_error"])
 
 
 def slope_name(row: Mapping[str, Any]) -> str:
-    """Which way the slope is of a row of the correlation table, also as text, and whether that is open.
+    """Which way the slope is, and whether that is open.
 
     >>> rows = {"slope_sign": "-1", "r_error": "0.6", "slope_open": "1"}, {"slope_sign": 1, "r_error": ""}
     >>> tuple(slope_name(row) for row in rows)
@@ -38,3 +48,30 @@ def slope_name(row: Mapping[str, Any]) -> str:
     """
     doubt = " (open)" if is_open(row) else "" if has_error(row) else " (error unknown)"
     return SLOPE_NAME[int(row["slope_sign"])] + doubt
+
+
+def range_text(row: Mapping[str, Any]) -> str:
+    """Lowest and highest R² over all ratings with the stated order; nothing without an order.
+
+    >>> range_text({"r2_lowest": "0.0", "r2_highest": "0.75"}), range_text({"r2_lowest": ""})
+    ('0.00 to 0.75', '')
+    """
+    return f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}" if _is_there(row["r2_lowest"]) else ""
+
+
+def published_text(row: Mapping[str, Any]) -> str:
+    """The published R² and which way its slope is, if that is said, or what is said in words; nothing if nothing is.
+
+    >>> words = {"published_r2": "", "published_words": "weakly"}
+    >>> published_text(words), published_text(words | {"published_r2": 0.989, "published_slope": 1})
+    ('weakly', '0.989, rising')
+    """
+    if not _is_there(row["published_r2"]):
+        return str(row["published_words"]) if _is_there(row["published_words"]) else ""
+    slope = f", {SLOPE_NAME[int(row['published_slope'])]}" if _is_there(row["published_slope"]) else ""
+    return f"{float(row['published_r2']):g}{slope}"
+
+
+def _is_there(value: object) -> bool:
+    """Whether a cell is not empty."""
+    return bool(pd.notna(value)) and value != ""

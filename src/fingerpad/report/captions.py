@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
-from ..perception.wording import has_p, slope_name
+from ..perception.wording import has_p, p_text, range_text, slope_name
 from ..readouts.roughness import TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import READOUT_NAME, Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from .tables import Row, p_value, score_with_error
+from .tables import Row, score_with_error
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
@@ -97,13 +97,13 @@ def correlation_words(row: Row) -> str:
     if not row["r2"]:
         return f"{row['note']}, n = {row['n']}"
     tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
-    p = f", p {p_value(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
+    p = f", p {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
     return f"R² = {float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
 
 
 def _spread(row: Row) -> str:
     """The range of R² in brackets, if the order of the ratings is stated."""
-    return f" ({float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f})" if row["r2_lowest"] else ""
+    return f" ({range_text(row)})" if range_text(row) else ""
 
 
 def _section(results: Results) -> Words:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
-from ..perception.wording import SLOPE_NAME, SMALLEST_P, has_p, slope_name
+from ..perception.wording import has_p, p_text, published_text, range_text, slope_name
 from ..readouts.accuracy import relative_error
 from ..rounding import rounded
 from ..scene.contact_law import Interface
@@ -18,7 +18,6 @@ from ..scene.tissue_law import Kinematics
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition
 NOTHING = "\N{EN DASH}"
-SLOPES = {str(sign): name for sign, name in SLOPE_NAME.items()}
 
 
 @dataclass(frozen=True)
@@ -81,21 +80,16 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
     """The table of correlations, headed by CORRELATION_COLUMNS. correlations: rows of correlations.csv."""
     found: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
     for row in correlations:
-        spread = f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}" if row["r2_lowest"] else NOTHING
-        published = row["published_words"] or NOTHING
-        if row["published_r2"]:
-            slope = SLOPES.get(row["published_slope"])
-            published = f"{float(row['published_r2']):g}{f', {slope}' if slope else ''}"
         cells = (
             READOUT_NAME[Readout(row["readout"])],
             row["n"],
             f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
-            spread,
+            range_text(row) or NOTHING,
             slope_name(row) if row["r2"] else NOTHING,
             f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
-            p_value(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
+            p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
-            published,
+            published_text(row) or NOTHING,
             row["note"] or NOTHING,
         )
         found.setdefault(_titled(titles, row), []).append((INTERFACE_NAME[Interface(row["interface"])], cells))
@@ -105,16 +99,6 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
 CORRELATION_COLUMNS = (
     "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published R²", "Note",
 )  # fmt: skip
-
-
-def p_value(text: str) -> str:
-    r"""A p as it is shown: two digits, or a bound.
-
-    >>> p_value("1.9e-06"), p_value("0.0493"), p_value("0.199")
-    ('<\xa00.001', '0.049', '0.20')
-    """
-    p = float(text)
-    return f"{p:#.2g}" if p >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
 
 
 def _titled(titles: Mapping[str, str], row: Row) -> str:
