@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -36,7 +35,7 @@ def reference_rows(scene: Scene, condition: Condition, coarsening: float) -> lis
     """Score rows of one condition on sizes and increments `coarsening` times the scene's [1], which errors are measured
     against; the mesh is fine where all conditions put the edges. Raises as `own_ladder`.
     """
-    alone = replace(scene, device=replace(scene.device, conditions=(condition,)))
+    alone = scene.with_conditions([condition])
     return rows_at(alone, coarsening, edge_intervals(scene))
 
 

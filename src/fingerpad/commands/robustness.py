@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -99,14 +98,13 @@ def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene]
 
 def _distinct(scene: Scene) -> Scene:
     """The scene with one condition of each stimulus."""
-    return replace(scene, device=replace(scene.device, conditions=tuple(scene.device.distinct_conditions)))
+    return scene.with_conditions(scene.device.distinct_conditions)
 
 
 def _only(scene: Scene, other: Scene) -> Scene:
     """The scene with the conditions that another one has."""
     known = {each.name for each in other.device.conditions}
-    kept = tuple(each for each in scene.device.conditions if each.name in known)
-    return replace(scene, device=replace(scene.device, conditions=kept))
+    return scene.with_conditions(each for each in scene.device.conditions if each.name in known)
 
 
 def _told(

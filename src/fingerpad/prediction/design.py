@@ -145,7 +145,7 @@ def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) ->
 
 def _moved(row: PressedRow, condition: Condition) -> Answer:
     """The answer on one mesh, its rows without errors. Raises ContactError."""
-    scene = replace(row.scene, device=replace(row.scene.device, conditions=(condition,)))
+    scene = row.scene.with_conditions([condition])
     solution = stimulate(scene, row.skin.section, row.indented, condition)
     readouts = read_out(scene, row.skin, solution)
     rows = score_rows(scene, condition, Interface.SHEAR, readouts)

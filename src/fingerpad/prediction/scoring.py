@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
@@ -133,7 +133,7 @@ def error_rows(
         )
         if not asked:
             continue
-        shown = replace(other, device=replace(other.device, conditions=asked))
+        shown = other.with_conditions(asked)
         for solved in solve_scene(shown, condensed, [interface]):
             if isinstance(solved.solution, UnsolvedError):
                 rows += _errors_of(scene, solved.case, f"{UNKNOWN}{solved.solution}")

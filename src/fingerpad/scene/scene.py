@@ -7,6 +7,7 @@ is +y, into the skin; positive tangential displacement is +x.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from ..requirements import require
@@ -93,6 +94,10 @@ class Scene:
         """The scene with other kinematics."""
         tissue = replace(self.model.tissue, kinematics=kinematics)
         return replace(self, model=replace(self.model, tissue=tissue))
+
+    def with_conditions(self, conditions: Iterable[Condition]) -> Scene:
+        """The scene with other conditions of its device."""
+        return replace(self, device=replace(self.device, conditions=tuple(conditions)))
 
     def with_numerics(self, numerics: Numerics) -> Scene:
         """The scene with other numerics."""
