@@ -34,8 +34,8 @@ def scene_span(scene: Scene) -> tuple[float, float]:
 def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, float]) -> float:
     """Area [mm2] of |g * s| over the span: the trapezoidal integral of |filtered| ds.
 
-    Rectified, as the signed area of the RA-1 filter's output all but vanishes; that of the SA-1 filter's does not (14
-    to 21 % of the rectified with small kinematics). grid: (k,) [mm], filtered: (k,) [mm]. Where the span goes beyond
+    Rectified, as the signed area of the RA-1 filter's output all but vanishes; that of the SA-1 filter's does not
+    (decision 37). grid: (k,) [mm], filtered: (k,) [mm]. Where the span goes beyond
     the grid there are no receptors, and nothing is added.
 
     >>> grid = np.linspace(-2.0, 2.0, 401)
