@@ -1,5 +1,6 @@
-"""Whose skin is whose: every node is given to one actuator, the only one that it can touch, and to another as it goes
-sideways. Actuators stay in order along the skin.
+"""Whose skin is whose: the one actuator that each node can touch.
+
+A node is given to another actuator as it goes sideways. Actuators stay in order along the skin.
 """
 
 from __future__ import annotations
