@@ -19,7 +19,7 @@ from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from ..store import csv_text
 from ..vibration.creep import condense_creep
-from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_rows
+from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_name, frequency_rows
 from .options import add_scene_options, checked_scene
 from .printing import aligned, titled
 
@@ -112,7 +112,7 @@ def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     """A table for each interface and read-out, one line a condition and one column a frequency; then the notes."""
     frequencies = (SLOWLY, *scene.device.frequencies)
-    header = ["condition", *("slow" if each == SLOWLY else f"{each:g} Hz" for each in frequencies)]
+    header = ["condition", *map(frequency_name, frequencies)]
     parts = [titled(scene)]
     for (interface, readout), group in groupby(
         sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain")),

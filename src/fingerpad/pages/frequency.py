@@ -12,6 +12,7 @@ from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from ..vibration.frequency import SLOWLY, frequency_name
 from .filling import PERCENT, percent, table
 
 
@@ -25,14 +26,14 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
     scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)
     scores = scores.reindex(columns=sorted(scores.columns))
     shown = (1e3 * scores).map("{:.3f}".format).replace("nan", "")
-    shown.columns = pd.Index([_frequency(each) for each in shown.columns])
+    shown.columns = pd.Index([frequency_name(each) for each in shown.columns])
     worst = shear.groupby(["device", "frequency_hz"], sort=False)["inertia"].max()
     refused = change[change["score"].isna()].groupby(["device", "frequency_hz"]).size()
     inertia = worst.rename("inertia").to_frame().assign(refused=refused).fillna({"refused": 0}).reset_index()
-    inertia = inertia[inertia["frequency_hz"] > 0.0]
+    inertia = inertia[inertia["frequency_hz"] > SLOWLY]
     return {
         "scores": table(shown.reset_index()),
-        "spread": _spread(scores[scores.columns[scores.columns > 0.0]]),
+        "spread": _spread(scores[scores.columns[scores.columns > SLOWLY]]),
         "spread_with_slow": _spread(scores),
         "orders": table(_orders(scores)),
         "varied_at": f"{variants['frequency_hz'].iloc[0]:g}",
@@ -76,7 +77,7 @@ def _of_rises(change: pd.DataFrame) -> dict[str, object]:
         "what_highest": "the highest that it was asked for" if predicted == asked else "the highest with a prediction",
         "rising": sum(rising),
         "dispersions": len(rising),
-        "falls": _falls(change[change["frequency_hz"] > 0.0]),
+        "falls": _falls(change[change["frequency_hz"] > SLOWLY]),
     }
 
 
@@ -94,10 +95,6 @@ def _falls(change: pd.DataFrame) -> str:
     return f"does not always rise: {'; '.join(found)}" if found else "rises at every phase and frequency"
 
 
-def _frequency(frequency: float) -> str:
-    return f"{frequency:g} Hz" if frequency > 0.0 else "slow"
-
-
 def _orders(scores: pd.DataFrame) -> pd.DataFrame:
     """Per device and frequency whether conditions come in the order of slow cycles: Kendall's tau, and how many there
     are.
@@ -110,7 +107,7 @@ def _orders(scores: pd.DataFrame) -> pd.DataFrame:
             if len(both) > 1:
                 tau = _tau(both[slow], both[frequency])
                 rows.append(
-                    {"device": device, "at": _frequency(frequency), "conditions": len(both), "tau": f"{tau:.2f}"}
+                    {"device": device, "at": frequency_name(frequency), "conditions": len(both), "tau": f"{tau:.2f}"}
                 )
     return pd.DataFrame(rows)
 

@@ -36,6 +36,15 @@ from .inertia import condense_vibrating, highest_frequency, inertia_effect, slip
 SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed
 
 
+def frequency_name(frequency: float) -> str:
+    """What a frequency [Hz] is called in tables.
+
+    >>> frequency_name(20.0), frequency_name(SLOWLY)
+    ('20 Hz', 'slow')
+    """
+    return f"{frequency:g} Hz" if frequency > SLOWLY else "slow"
+
+
 @dataclass(frozen=True)
 class Vibrating:
     """The finger at one frequency. frequency: [Hz]. still, moving: condensed without its mass and with it."""
