@@ -19,7 +19,8 @@ from .profile import profile
 # the end of a face, at least 1 if there is another between
 ADJACENT = 0.75
 
-# What a certificate may not exceed; source: each lies over an order below the score error that is aimed at (0.5 %)
+# What a certificate may not exceed; source: each lies over an order below the error of a strain score that is aimed at
+# (0.5 %); of the change of strain see docs/model.md, section 8
 PENETRATION_LIMIT = 1e-4  # of the indentation [1]
 TENSION_LIMIT = 1e-6  # of the largest pressure [1]
 CONE_LIMIT = 1e-6  # of the largest shear that friction allows, without friction of the largest pressing force [1]
