@@ -150,8 +150,8 @@ def checked_document(
     document = read_yaml(path)
     for key, value in values.items():
         document = with_value(document, key, value, "varied")
-    files = {each.name: read_yaml(each) for each in schema_path.parent.glob("*.schema.yaml")}
-    schema = _plain(read_yaml(schema_path), document, files, schema_path.name)
+    files = {schema_path: read_yaml(schema_path)}
+    schema = _plain(files[schema_path], document, files, schema_path)
     checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(
         "integer", lambda _, value: _is_number(value) and isinstance(value, int)
     )
@@ -220,20 +220,24 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
 
-def _referred(reference: str, files: Mapping[str, Schema], own: str) -> tuple[Schema, str]:
-    """The part of a schema that a reference in the file `own` points to, and the file that holds it.
+def _referred(reference: str, files: dict[Path, Schema], own: Path) -> tuple[Schema, Path]:
+    """The part of a schema that a reference in the file `own` points to, and the file that holds it. files: those that
+    have been read, to which it is added.
 
-    >>> _referred("#/$defs/name", {"a.yaml": {"$defs": {"name": {"type": "string"}}}}, "a.yaml")
-    ({'type': 'string'}, 'a.yaml')
+    >>> _referred("#/$defs/name", {Path("a"): {"$defs": {"name": {"type": "string"}}}}, Path("a"))[0]
+    {'type': 'string'}
     """
-    file, _, place = reference.partition("#/")
-    found: Schema = functools.reduce(operator.getitem, place.split("/"), files[file or own])
-    return found, file or own
+    name, _, place = reference.partition("#/")
+    file = own.with_name(name) if name else own
+    if file not in files:
+        files[file] = read_yaml(file)
+    found: Schema = functools.reduce(operator.getitem, place.split("/"), files[file])
+    return found, file
 
 
-def _plain(schema: Schema, value: Any, files: Mapping[str, Schema], own: str) -> Schema:
-    """The schema with references replaced and, of its if-then branches, those alone that hold for the value. files: all
-    schemas by name. own: the name of the one that it is a part of.
+def _plain(schema: Schema, value: Any, files: dict[Path, Schema], own: Path) -> Schema:
+    """The schema with references replaced and, of its if-then branches, those alone that hold for the value. files: the
+    schemas that have been read. own: the one that it is a part of.
 
     So every error comes with all that is said about its key, and with nothing about kinds that were not chosen.
     """
@@ -242,7 +246,7 @@ def _plain(schema: Schema, value: Any, files: Mapping[str, Schema], own: str) ->
     parts += [(case["then"], own) for case in cases if Draft202012Validator(case["if"]).is_valid(value)]
     rest = {keyword: content for keyword, content in schema.items() if keyword not in ("$ref", "allOf")}
     plain: Schema = {"properties": {}, "required": []}
-    for part in (*(_plain(part, value, files, name) for part, name in parts), rest):
+    for part in (*(_plain(part, value, files, file) for part, file in parts), rest):
         properties = plain["properties"] | part.get("properties", {})
         required = [*part.get("required", []), *plain["required"]]
         plain = plain | part | {"properties": properties, "required": required}
