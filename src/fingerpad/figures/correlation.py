@@ -125,7 +125,7 @@ def correlation_panel(
         axes.locator_params(axis="y", nbins=TICKS)
         axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
     axes.annotate(
-        statistics(row, x), (1.0, 1.0), xycoords="axes fraction", xytext=(6.0, 0.0), textcoords="offset points",
+        statistics(row, x.size), (1.0, 1.0), xycoords="axes fraction", xytext=(6.0, 0.0), textcoords="offset points",
         va="top", linespacing=1.35,
     )  # fmt: skip
 
@@ -141,9 +141,9 @@ def _name_places(axes: Axes, place: FloatArray, names: Sequence[str]) -> None:
     axes.set_ylabel("In order of score")
 
 
-def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
-    """What the correlation table says of one panel, and how far the scores (n,) spread, line by line."""
-    lines = [f"n = {score.size}"]
+def statistics(row: Mapping[str, Any], n: int) -> str:
+    """What the correlation table says of one panel with n scores, line by line."""
+    lines = [f"n = {n}"]
     if pd.notna(row["r2"]):
         lines.append(f"R² = {row['r2']:.3f}, {slope_name(row)}")
     if spread_of_r2 := range_text(row):
@@ -154,8 +154,9 @@ def statistics(row: Mapping[str, Any], score: np.ndarray) -> str:
             lines[-1] += f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
     if published := published_text(row):
         lines.append(f"published{' R²' if pd.notna(row['published_r2']) else ':'} {published}")
-    spread = PERCENT * float(np.ptp(score) / np.abs(score).mean())
-    lines.append(f"spread {spread:.{0 if spread >= 10.0 else 1}f} %")
+    if pd.notna(row["spread"]):
+        spread = PERCENT * row["spread"]
+        lines.append(f"spread {spread:.{0 if spread >= 10.0 else 1}f} %")
     if isinstance(row["note"], str) and row["note"]:
         lines.append(row["note"])
     return "\n".join(part for line in lines for part in wrap(line, STATISTICS_WIDTH))

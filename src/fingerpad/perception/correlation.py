@@ -24,6 +24,7 @@ from .ratings import NO_RATINGS, RatingKind, order_matrix
 COLUMNS = [
     *KEY,
     "n",
+    "spread",
     "slope_sign",
     "r2",
     "r_error",
@@ -101,9 +102,10 @@ def correlation_table(
     `read_stated_order`, `read_published`.
 
     Returns the columns COLUMNS:
-    n: conditions correlated. slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what
-    errors of scores can add up to in r (`error_in_r`), and slope_open: 1 where they leave the slope's sign open, else
-    0; empty if they are not known.
+    n: conditions correlated. spread: range of the scores over the mean of their sizes, empty if all are zero.
+    slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what errors of scores can add
+    up to in r (`error_in_r`), and slope_open: 1 where they leave the slope's sign open, else 0; empty if they are not
+    known.
     r_lowest, r_highest: of r over all ratings that agree with the stated order (`rating_range`), and r2_lowest,
     r2_highest: of R², whichever way the slope then is; range_error and range_open: as r_error,
     the larger of those at both ends of r, and 1 if some rating's slope is open; empty without an order.
@@ -125,7 +127,7 @@ def correlation_table(
     same = KEY[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
     ranges = ("r_lowest", "r_highest", "r2_lowest", "r2_highest", "range_error")
-    numbers = ("r2", "r_error", *ranges, "kendall_tau", "p", "published_r2")
+    numbers = ("spread", "r2", "r_error", *ranges, "kendall_tau", "p", "published_r2")
     signs = dict.fromkeys(("slope_sign", "slope_open", "range_open", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
@@ -139,14 +141,16 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     if score.isna().any():
         reasons = [note for note in scores.loc[scores["score"].isna(), "note"].unique() if isinstance(note, str)]
         return {"n": 0, "rating_kind": kind, "note": "; ".join(filter(None, reasons)) or NO_PREDICTION}
+    x = score.to_numpy()
+    size = float(np.abs(x).mean())
+    found: dict[str, Any] = {"spread": float(np.ptp(x)) / size if size > 0.0 else None, "rating_kind": kind}
     if rating.empty:
-        return {"n": 0, "rating_kind": kind, "note": NO_RATINGS}
+        return {**found, "n": 0, "note": NO_RATINGS}
     if odd := sorted(set(score.index) ^ set(rating.index)):
         where = ", ".join(scores[KEY].iloc[0])
         raise RatingError(f"{where}: scores and ratings are not of the same conditions; in one only: {listed(odd)}")
-    x = score.to_numpy()
     y = rating.loc[score.index].to_numpy()
-    found: dict[str, Any] = {"n": x.size, "rating_kind": kind}
+    found["n"] = x.size
     which = classes(x)
     for is_one, note in ((not which.any(), CONSTANT_SCORE), (is_constant(y), "constant rating")):
         if is_one:
