@@ -320,6 +320,23 @@ def test_table_says_where_inertia_forbids_a_prediction() -> None:
         assert predicted or all("inertia" in row["note"] and "try about" in row["note"] for row in rows[2:])
 
 
+def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> None:
+    """A receptor line too coarse for the filter, and strain that is large for small kinematics, as in a pressed finger
+    whose receptors answer three times as much."""
+    given = coarse()
+    device = replace(given.device, cycles=given.device.cycles[:1])
+    model = replace(given.model, numerics=replace(given.model.numerics, receptor_size=0.9))
+    condensed = condense_mesh(given, mesh(("device2", False)))
+    strained = replace(condensed, section=replace(condensed.section, strain=3.0 * condensed.section.strain))
+    plain, told = (
+        frequency_rows(Scene(each, device), over, creeping(), [], Interface.SHEAR)[0]["note"]
+        for each, over in ((given.model, condensed), (model, strained))
+    )
+    assert plain == ""
+    assert "receptors are strained by up to" in told
+    assert "the filter's wavelength is 1.3 receptor elements" in told
+
+
 def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
     """So the other interface keeps its scores."""
     given = coarse()
