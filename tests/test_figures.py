@@ -260,7 +260,7 @@ def test_captions_explain_what_is_there_alone(correlations: pd.DataFrame) -> Non
     for given, is_open in ((certain, False), (certain.assign(slope_open=1), True)):
         for figure in (
             correlation_figure(SCORES, RATINGS, given, TITLES, Kinematics.SMALL),
-            ablation_figure(SCORES, given, TITLES, Kinematics.SMALL),
+            ablation_figure(SCORES, given, TITLES, Kinematics.SMALL, False),
         ):
             assert ("open:" in words(figure)) is is_open
     assert "range:" in words(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL))
@@ -279,7 +279,7 @@ def test_points_lie_where_the_tables_say(correlations: pd.DataFrame) -> None:
 
 @pytest.mark.parametrize(("device", "said"), [(PHASED, "n = 8"), (FORCED, "no prediction"), (UNRATED, "no ratings")])
 def test_shear_figure_of_any_device(device: Device, said: str, correlations: pd.DataFrame) -> None:
-    figure = shear_figure(device.name, device.title, SCORES, RATINGS, correlations, Kinematics.SMALL)
+    figure = shear_figure(device.name, device.title, SCORES, RATINGS, correlations, Kinematics.SMALL, turning=True)
     require_legible(figure)
     text = words(figure)
     assert said in text
@@ -288,10 +288,11 @@ def test_shear_figure_of_any_device(device: Device, said: str, correlations: pd.
 
 
 def test_ablation_says_where_there_is_no_prediction(correlations: pd.DataFrame) -> None:
-    figure = ablation_figure(SCORES, correlations, TITLES, Kinematics.SMALL)
+    figure = ablation_figure(SCORES, correlations, TITLES, Kinematics.SMALL, turning=True)
     require_legible(figure)
     text = words(figure)
     assert "without shear: no prediction" in text
+    assert "with shear the contact normal turns on rounded edges" in " ".join(text.lower().split())
     assert text.count("\nno prediction") == 2 * len(FORCED.conditions)
     assert "with shear: no ratings" in text
     assert "n = 8" in text
@@ -508,7 +509,7 @@ def test_names_of_many_conditions_are_legible(count: int, alike: bool) -> None:
     device = replace(PHASED, conditions=tuple(conditions))
     scores = make_scores([device])
     correlations = correlation_table(scores, RATINGS[:0], ORDER, PUBLISHED[:0])
-    ablation = ablation_figure(scores, correlations, {device.name: device.title}, Kinematics.SMALL)
+    ablation = ablation_figure(scores, correlations, {device.name: device.title}, Kinematics.SMALL, False)
     ranks = correlation_figure(scores, RATINGS[:0], correlations, {device.name: device.title}, Kinematics.SMALL)
     way = workflow_figure(make_readouts(device), MODEL.gabor, MODEL.readout, scores[scores["interface"] == "shear"])
     for figure in (ablation, way) if alike and count > 3 else (ablation, ranks, way):
@@ -535,8 +536,8 @@ def titled(title: str, section: SectionMesh, correlations: pd.DataFrame) -> list
     entries = [make_readouts(device) for device in devices]
     return [
         correlation_figure(SCORES, RATINGS, correlations, titles, Kinematics.SMALL),
-        shear_figure(PHASED.name, title, SCORES, RATINGS, correlations, Kinematics.SMALL),
-        ablation_figure(SCORES, correlations, titles, Kinematics.SMALL),
+        shear_figure(PHASED.name, title, SCORES, RATINGS, correlations, Kinematics.SMALL, False),
+        ablation_figure(SCORES, correlations, titles, Kinematics.SMALL, False),
         kinematics_figure(SCORES, curves, titles),
         receptor_figure(entries, Kinematics.SMALL),
         section_figure(MODEL, section, devices),

@@ -150,6 +150,11 @@ def tissue_law(name, kinematics):
     return (tissue.law, tissue.ogden_exponent) if kinematics == Kinematics.FINITE else None
 
 
+def turns(name, kinematics):
+    """Whether the contact normal of a device's scene turns where friction acts, with those kinematics."""
+    return SCENE[name].model.contact.turns(Kinematics(kinematics), Interface.SHEAR)
+
+
 def cases_of(wildcards):
     """Conditions and interfaces of the wildcard device."""
     device = scene_of(wildcards).device

@@ -140,6 +140,7 @@ rule figure_ablation:
     params:
         code=code("figure_ablation.py"),
         kinematics=mode_of,
+        turning=lambda w: any(turns(name, mode_of(w)) for name in DEVICES_WITH[mode_of(w)]),
         titles=lambda w: [SCENE[name].device.title for name in DEVICES_WITH[mode_of(w)]],
     script:
         "../scripts/figure_ablation.py"
@@ -280,6 +281,7 @@ if SLIDING:
         params:
             code=code("figure_shear.py"),
             kinematics=mode_of,
+            turning=lambda w: turns(EXAMPLE, mode_of(w)),
             title=SCENE[EXAMPLE].device.title,
             conditions=KNOWN,
         script:

@@ -11,11 +11,13 @@ from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 
 
-def main(config: Path, devices: list[Path], scores: Path, correlations: Path, kinematics: str, stem: Path) -> None:
+def main(
+    config: Path, devices: list[Path], scores: Path, correlations: Path, kinematics: str, turning: bool, stem: Path
+) -> None:
     """Read the tables, draw, write PNG and PDF."""
     titles = device_titles(load_scene(config, path).device for path in devices)
     scored, correlated = (rows_with(pd.read_csv(table), kinematics) for table in (scores, correlations))
-    save(ablation_figure(scored, correlated, titles, Kinematics(kinematics)), stem)
+    save(ablation_figure(scored, correlated, titles, Kinematics(kinematics), turning), stem)
 
 
 if __name__ == "__main__":
@@ -27,5 +29,6 @@ if __name__ == "__main__":
             Path(job.input.scores),
             Path(job.input.correlations),
             job.params.kinematics,
+            job.params.turning,
             Path(job.output.png).with_suffix(""),
         )

@@ -20,13 +20,14 @@ def main(
     correlations: Path,
     conditions: dict[str, list[str]],
     kinematics: str,
+    turning: bool,
     stem: Path,
 ) -> None:
     """Read the tables, draw the device's rows, write PNG and PDF. conditions: of every known device."""
     shown = load_scene(config, device).device
     rated = read_ratings(ratings, conditions)
     scored, correlated = (rows_with(pd.read_csv(table), kinematics) for table in (scores, correlations))
-    save(shear_figure(shown.name, shown.title, scored, rated, correlated, Kinematics(kinematics)), stem)
+    save(shear_figure(shown.name, shown.title, scored, rated, correlated, Kinematics(kinematics), turning), stem)
 
 
 if __name__ == "__main__":
@@ -40,5 +41,6 @@ if __name__ == "__main__":
             Path(job.input.correlations),
             job.params.conditions,
             job.params.kinematics,
+            job.params.turning,
             Path(job.output.png).with_suffix(""),
         )

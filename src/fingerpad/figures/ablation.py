@@ -42,6 +42,8 @@ BAR = 0.38  # width of a bar, of the distance between conditions [1]
 GROUP_OFFSET, TURNED_OFFSET = -15.0, -23.0  # of a dispersion's name below the axis, and below upright phases [pt]
 MOST_LEVEL, MOST_UPRIGHT = 10, 24  # conditions that are named beside each other on level ground, and at all, under bars
 NAMES = 40  # characters of all dispersions' names under the bars
+# what else differs between the interfaces where the contact normal turns under friction (docs/decisions/0021)
+TURNING = " With shear the contact normal turns on rounded edges, which press sideways; without shear it does not."
 LOOK: dict[Interface, dict[str, Any]] = {
     Interface.SHEAR: {"facecolor": BLUE, "edgecolor": BLUE},
     Interface.FRICTIONLESS: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
@@ -54,10 +56,12 @@ def ablation_figure(
     correlations: pd.DataFrame,
     titles: Mapping[str, str],
     kinematics: Kinematics,
+    turning: bool,
 ) -> Figure:
     """Strain (A) and change-of-strain scores (B) of every condition with and without shear, one row a device.
 
-    scores, correlations: the tables of that name. titles: by device.
+    scores, correlations: the tables of that name. titles: by device. turning: whether the contact normal turns where
+    friction acts.
     """
     figure = new_figure(WIDE, ROW_HEIGHT * len(titles) + LEGEND_HEIGHT)
     grid = figure.subplots(len(titles), len(Readout), squeeze=False)
@@ -73,7 +77,8 @@ def ablation_figure(
         letter(axes, text, (-30.0, 26.0))
     handles = [Patch(label=INTERFACE_NAME[interface], **LOOK[interface]) for interface in Interface]
     shown = correlations[correlations["device"].isin(titles)]
-    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}")
+    turned = TURNING if turning else ""
+    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}{turned}")
     return figure
 
 

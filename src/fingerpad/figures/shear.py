@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from .ablation import TURNING
 from .correlation import caption, correlation_panel, shown_in
 from .style import (
     INTERFACE_NAME,
@@ -34,10 +35,12 @@ def shear_figure(
     ratings: pd.DataFrame,
     correlations: pd.DataFrame,
     kinematics: Kinematics,
+    turning: bool,
 ) -> Figure:
     """Strain (top) and change-of-strain score (bottom) against perceived roughness, without (A) and with shear (B).
 
-    Each row has one scale, so that the two interfaces can be compared.
+    Each row has one scale, so that the two interfaces can be compared. turning: whether the contact normal turns where
+    friction acts.
     """
     figure = new_figure(WIDE, HEIGHT)
     scores, ratings, correlations = (t[t["device"] == device] for t in (scores, ratings, correlations))
@@ -49,6 +52,6 @@ def shear_figure(
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(as_title(figure, f"{title}, {INTERFACE_NAME[interface]}", len(COLUMNS)), loc="left")
         letter(axes, text)
-    said = caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ")
+    said = caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ") + (TURNING if turning else "")
     legend_below(figure, as_points(styles.legend), said, as_points(styles.spreads))
     return figure
