@@ -153,13 +153,19 @@ def test_the_drive_in_the_comments_is_valid(checkout: Path) -> None:
     assert main(["new", "other", "--from", "mine"]) == 0  # beside it, so it has the same recording
 
 
-def test_the_line_that_leaves_finite_strain_out_does_so(checkout: Path) -> None:
+def test_lines_in_the_comments_do_what_they_say(checkout: Path) -> None:
     main(["new", "mine", "--from", "device2"])
-    path = checkout / "config/devices/mine.yaml"
-    assert Kinematics.FINITE in load_scene(checkout / "config/config.yaml", path).computed
-    path.write_text(path.read_text(encoding="utf-8").replace("#   kinematics:", "kinematics:"), encoding="utf-8")
+    path, config = checkout / "config/devices/mine.yaml", checkout / "config/config.yaml"
+    assert Kinematics.FINITE in load_scene(config, path).computed
+    for key in ("kinematics", "interfaces", "contact"):
+        text = path.read_text(encoding="utf-8")
+        assert f"#   {key}:" in text
+        path.write_text(text.replace(f"#   {key}:", f"{key}:"), encoding="utf-8")
     assert main(["check", str(path)]) == 0
-    assert load_scene(checkout / "config/config.yaml", path).computed == (Kinematics.SMALL,)
+    scene = load_scene(config, path)
+    assert scene.computed == (Kinematics.SMALL,)
+    assert scene.device.interfaces() == (Interface.SHEAR,)
+    assert scene.model.contact.friction == 0.4
 
 
 def test_new_takes_recordings_along(
