@@ -11,11 +11,11 @@ import pytest
 from fingerpad.contact.symmetry import mirrors
 from fingerpad.errors import SceneError
 from fingerpad.figures.design import DesignPicture
-from fingerpad.figures.style import SCORE_SCALE
 from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
 from fingerpad.prediction.forecast import forecast
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
+from fingerpad.words import SCORE_SCALE
 from scenes import scene
 
 DEVICE = "device2"

@@ -32,18 +32,7 @@ from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figu
 from fingerpad.figures.section import DRIVEN, HEAD, section_figure
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.stimuli import stimuli_figure
-from fingerpad.figures.style import (
-    MIDDLE,
-    MINUS,
-    NARROW,
-    POINTS,
-    TEXT,
-    WIDE,
-    condition_styles,
-    conditions_of,
-    save,
-    save_as,
-)
+from fingerpad.figures.style import MIDDLE, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save, save_as
 from fingerpad.figures.variation import variation_figure
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.perception.correlation import correlation_table
@@ -58,6 +47,7 @@ from fingerpad.scene.scenefile import build_model, read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.compliance import CondensedSection
 from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
+from fingerpad.words import MINUS
 
 ROOT = Path(__file__).parents[1]
 COARSE = Numerics(

@@ -9,11 +9,12 @@ import numpy as np
 from tqdm import tqdm
 
 from ..figures.section import section_figure
-from ..figures.style import save_as, several
+from ..figures.style import save_as
 from ..prediction.caveats import stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
+from ..words import several
 from .options import add_picture, add_scene_options, checked_scene, picture_of
 
 DESCRIPTION = """\

@@ -16,26 +16,9 @@ from ..perception.wording import range_text, slope_name
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, LONGEST_LABEL, SCORE_SCALE, plain, score_label, shortened
 from .correlation import ratings_caption
-from .style import (
-    BLUE,
-    GREY,
-    INTERFACE_NAME,
-    KINEMATICS_NAME,
-    LONGEST_LABEL,
-    ORANGE,
-    SCORE_SCALE,
-    WIDE,
-    as_title,
-    draw_errors,
-    legend_below,
-    letter,
-    new_figure,
-    plain,
-    score_label,
-    shortened,
-    styled,
-)
+from .style import BLUE, GREY, ORANGE, WIDE, as_title, draw_errors, legend_below, letter, new_figure, styled
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
 BAR = 0.38  # width of a bar, of the distance between conditions [1]
@@ -102,7 +85,7 @@ def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.
                     note, (place + side * BAR, 0.0), xytext=(0.0, 3.0), textcoords="offset points", rotation=90.0,
                     ha="center", va="bottom", color=GREY,
                 )  # fmt: skip
-    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
+    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0]), in_two_lines=True))
     axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
     name_conditions(axes, conditions)
     lines = [_statistics(correlations, interface) for interface in Interface]

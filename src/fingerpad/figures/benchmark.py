@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
 from ..scene.tissue_law import Kinematics
+from ..words import PERCENT
 from .style import (
     BLACK,
     BLUE,
@@ -17,7 +18,6 @@ from .style import (
     GREY,
     LETTER_NEAR,
     ORANGE,
-    PERCENT,
     VERMILLION,
     WIDE,
     legend_below,

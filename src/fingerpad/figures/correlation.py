@@ -18,12 +18,9 @@ from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from ..words import KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label, shortened
 from .style import (
     GREY,
-    KINEMATICS_NAME,
-    MINUS,
-    PERCENT,
-    SCORE_SCALE,
     WIDE,
     Shown,
     Styles,
@@ -36,8 +33,6 @@ from .style import (
     letter,
     new_figure,
     note_in,
-    score_label,
-    shortened,
     styled,
 )
 

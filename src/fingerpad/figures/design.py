@@ -23,23 +23,9 @@ from ..prediction.design import Answer
 from ..readouts.roughness import SCORE_UNIT, score_span
 from ..rounding import rounded
 from ..scene.readout import READOUT_NAME, Readout
+from ..words import KILO, PERCENT, SCORE_SCALE, score_label
 from .receptors import face_arcs
-from .style import (
-    BLUE,
-    DASHED,
-    GREY,
-    KILO,
-    LINE,
-    MM,
-    PERCENT,
-    SCORE_SCALE,
-    SHADE,
-    THIN,
-    VERMILLION,
-    WIDE,
-    score_label,
-    styled,
-)
+from .style import BLUE, DASHED, GREY, LINE, MM, SHADE, THIN, VERMILLION, WIDE, styled
 
 HEIGHT = 105.0  # mm
 RESOLUTION = 110.0  # of the picture [dots per inch]
@@ -116,7 +102,7 @@ class DesignPicture:
         )  # fmt: skip
         for readout in Readout:
             self._strains[readout].set_ylabel(f"{READOUT_NAME[readout]} (%)")
-            self._scores[readout].set_ylabel(score_label(readout, SCORE_UNIT).replace(" score", "\nscore"))
+            self._scores[readout].set_ylabel(score_label(readout, SCORE_UNIT, in_two_lines=True))
             self._scores[readout].set_xlim(-0.6, 1.6)
         left, right = [self._tractions, *self._strains.values()], list(self._scores.values())
         for axes in (*left[:-1], *right[:-1]):  # ticks take most of the time, and those at the bottom hold for all

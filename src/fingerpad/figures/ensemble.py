@@ -14,7 +14,8 @@ from ..ensemble.alternatives import FIRST, SECOND
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
 from ..scene.tissue_law import Kinematics
-from .style import BLUE, GREY, KINEMATICS_NAME, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
+from ..words import KINEMATICS_NAME
+from .style import BLUE, GREY, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
 ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.6, 12.0, 52.0  # mm
 CLAIM_WIDTH = 52  # characters in a line of a statement

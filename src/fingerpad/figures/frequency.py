@@ -13,10 +13,9 @@ from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import Readout
 from ..vibration.frequency import SLOWLY
+from ..words import INTERFACE_NAME, SCORE_SCALE, score_label
 from .style import (
     GREY,
-    INTERFACE_NAME,
-    SCORE_SCALE,
     WIDE,
     Styles,
     as_title,
@@ -26,7 +25,6 @@ from .style import (
     letter,
     new_figure,
     note_in,
-    score_label,
     styled,
     subtitle,
 )
@@ -56,7 +54,7 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
             _curves(axes, own[own["interface"] == interface], styles, frequencies, device.frequencies)
         subtitle(row[0], as_title(figure, device.title, len(Interface)), INTERFACE_NAME[Interface.SHEAR])
         subtitle(row[1], " ", INTERFACE_NAME[Interface.FRICTIONLESS])
-        row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0])).replace(" score", "\nscore"))
+        row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0]), in_two_lines=True))
         row[0].margins(y=HEADROOM)
         row[0].set_ylim(bottom=0.0)
     for axes in grid[-1]:

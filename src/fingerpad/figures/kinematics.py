@@ -15,23 +15,9 @@ from matplotlib.patches import Patch
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, SCORE_SCALE, score_label
 from .ablation import BAR, name_conditions
-from .style import (
-    BLUE,
-    INTERFACE_NAME,
-    KINEMATICS_NAME,
-    ORANGE,
-    SCORE_SCALE,
-    WIDE,
-    as_title,
-    draw_errors,
-    legend_below,
-    letter,
-    new_figure,
-    rows_with,
-    score_label,
-    styled,
-)
+from .style import BLUE, ORANGE, WIDE, as_title, draw_errors, legend_below, letter, new_figure, rows_with, styled
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 16.0  # mm
 WIDTHS = (0.75, 1.0, 1.0)  # of the columns, relative
@@ -111,6 +97,6 @@ def _bars(axes: Axes, readout: Readout, scores: pd.DataFrame) -> None:
         heights = factor * own["score"].to_numpy(float)
         axes.bar(places + side * BAR, heights, BAR, **LOOK[kinematics])
         draw_errors(axes, places + side * BAR, heights, factor * own["score_error"].to_numpy(float), along="y")
-    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0])).replace(" score", "\nscore"))
+    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0]), in_two_lines=True))
     axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
     name_conditions(axes, conditions, len(places) > MANY)

@@ -24,26 +24,22 @@ from ..fields.section_fields import Fields
 from ..scene.device import ActuatorRow, Condition
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
+from ..words import KILO, KINEMATICS_NAME, PERCENT, counted, plain
 from .actuators import draw_actuators
 from .style import (
     BLUE,
     DASHED,
     GREY,
-    KILO,
-    KINEMATICS_NAME,
     MIDDLE,
     NARROW,
-    PERCENT,
     THIN,
     VERMILLION,
     WIDE,
     as_title,
     condition_styles,
     conditions_of,
-    counted,
     legend_below,
     new_figure,
-    plain,
     styled,
 )
 

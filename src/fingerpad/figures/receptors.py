@@ -16,10 +16,9 @@ from ..scene.device import Condition, Device
 from ..scene.readout import READOUT_NAME, Readout
 from ..scene.tissue_law import Kinematics
 from ..tissue.compliance import CondensedSection
+from ..words import KINEMATICS_NAME, PERCENT, plain
 from .style import (
     GREY,
-    KINEMATICS_NAME,
-    PERCENT,
     SHADE,
     THIN,
     WIDE,
@@ -32,7 +31,6 @@ from .style import (
     legend_below,
     letter,
     new_figure,
-    plain,
     styled,
 )
 

@@ -8,20 +8,10 @@ from matplotlib.figure import Figure
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
+from ..words import INTERFACE_NAME, KINEMATICS_NAME
 from .ablation import TURNING
 from .correlation import caption, correlation_panel, shown_in
-from .style import (
-    INTERFACE_NAME,
-    KINEMATICS_NAME,
-    WIDE,
-    as_points,
-    as_title,
-    condition_styles,
-    legend_below,
-    letter,
-    new_figure,
-    styled,
-)
+from .style import WIDE, as_points, as_title, condition_styles, legend_below, letter, new_figure, styled
 
 HEIGHT = 108.0  # mm
 COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)

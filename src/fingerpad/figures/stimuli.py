@@ -13,10 +13,10 @@ from matplotlib.patches import Patch
 
 from ..arrays import FloatArray
 from ..scene.device import Condition, Device
+from ..words import MINUS, counted
 from .style import (
     BLUE,
     GREY,
-    MINUS,
     TEXT,
     THIN,
     VERMILLION,
@@ -24,7 +24,6 @@ from .style import (
     as_title,
     condition_styles,
     conditions_of,
-    counted,
     legend_below,
     new_figure,
     styled,

@@ -21,11 +21,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..files import replacing
-from ..readouts.roughness import TYPESET_UNITS
-from ..scene.contact_law import Interface
 from ..scene.device import Device
-from ..scene.readout import READOUT_NAME, Readout
-from ..scene.tissue_law import Kinematics
+from ..words import plain, shortened
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -43,7 +40,7 @@ LETTER_NEAR = (-26.0, 4.0)  # the same, where the labels of ticks are short [pt]
 POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
 BOLD = 1.2  # width of bold letters, of plain ones [1]
-LONGEST_LABEL, LONGEST_KEY = 16, 40  # characters of a name at an axis, and of one in a legend
+LONGEST_KEY = 40  # characters of a name in a legend
 RESOLUTION = 300  # of PNG files [dots per inch]
 PNG_LEVEL = 3  # of 9; source: half the seconds of the default, files up to a sixth larger (measured)
 WRITTEN: dict[str, dict[str, Any]] = {
@@ -103,16 +100,6 @@ DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the s
 FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom", "top")  # as many as share no factor with the lines
 SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
-
-KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
-INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
-SCORE_SCALE = {
-    Readout.STRAIN: (1.0, ""),
-    Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
-}  # factor [1] and its typeset inverse
-PERCENT = 100.0
-KILO = 1e3  # kPa in a MPa
-MINUS = "\N{MINUS SIGN}"
 
 
 class Shown(NamedTuple):
@@ -329,11 +316,6 @@ def note_in(axes: Axes, text: str) -> None:
     axes.tick_params(left=False, bottom=False, labelleft=False, labelbottom=False)
 
 
-def score_label(readout: Readout, unit: str) -> str:
-    """Axis label of a score in a unit such as mm2."""
-    return f"{READOUT_NAME[readout]} score ({SCORE_SCALE[readout][1]}{TYPESET_UNITS.get(unit, unit)})"
-
-
 def face_handle() -> Patch:
     """Legend entry of the shaded faces."""
     return Patch(color=SHADE, label="under a face before the stimulus")
@@ -344,31 +326,3 @@ def subtitle(axes: Axes, title: str, text: str) -> None:
     if title:
         axes.set_title(title + "\n" * (text.count("\n") + 1), loc="left")
     axes.annotate(text, (0.0, 1.0), xycoords="axes fraction", xytext=(0.0, 4.0), textcoords="offset points", color=GREY)
-
-
-def plain(name: str) -> str:
-    """A name from a scene file as text."""
-    return name.replace("_", " ")
-
-
-def shortened(name: str, most: int = LONGEST_LABEL) -> str:
-    """A name of that many characters or fewer: of a longer one the middle is left out, as phases stand at the end.
-
-    >>> shortened("every_second_actuator_090")
-    'every_s…ator_090'
-    """
-    return name if len(name) <= most else f"{name[: most - 1 - most // 2]}…{name[-(most // 2) :]}"
-
-
-def counted(conditions: Sequence[Any]) -> str:
-    """How many conditions there are."""
-    return f"n = {several(len(conditions), 'condition')}"
-
-
-def several(count: int, what: str) -> str:
-    """A count of things that take an s.
-
-    >>> several(1, "pin"), several(2, "pin")
-    ('1 pin', '2 pins')
-    """
-    return f"{count} {what}{'' if count == 1 else 's'}"

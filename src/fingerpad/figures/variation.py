@@ -13,10 +13,8 @@ from ..readouts.roughness import SCORE_UNIT
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, SCORE_SCALE, plain, score_label, shortened
 from .style import (
-    INTERFACE_NAME,
-    KINEMATICS_NAME,
-    SCORE_SCALE,
     WIDE,
     Series,
     as_title,
@@ -27,9 +25,6 @@ from .style import (
     letter,
     new_figure,
     note_in,
-    plain,
-    score_label,
-    shortened,
     styled,
     subtitle,
 )

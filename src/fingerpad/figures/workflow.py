@@ -9,22 +9,18 @@ from matplotlib.figure import Figure
 from ..readouts.roughness import score_span
 from ..rounding import rounded
 from ..scene.readout import READOUT_NAME, GaborFilter, Readout, ReadoutRule
+from ..words import PERCENT, SCORE_SCALE, counted, score_label, shortened
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
-    PERCENT,
-    SCORE_SCALE,
     WIDE,
     as_title,
     condition_styles,
     conditions_of,
-    counted,
     draw_errors,
     face_handle,
     legend_below,
     letter,
     new_figure,
-    score_label,
-    shortened,
     styled,
     subtitle,
 )
@@ -86,7 +82,7 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
         named = slice(len(places) if len(places) <= MOST_NAMES else 0)
         bars.set_xticks(places[named], names[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
         bars.set_ylim(0.0, HEADROOM * float(heights.max()))
-        bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0])).replace(" score", "\nscore"))
+        bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0]), in_two_lines=True))
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     many = len(device.conditions) > MOST_NAMES

@@ -11,7 +11,8 @@ from ..calculix.crosscheck import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.accuracy import CASE
 from ..readouts.roughness import KEY
-from .filling import PERCENT, digits, percent, table
+from ..words import PERCENT
+from .filling import digits, percent, table
 
 AIM = 0.005  # error [1] that every score should keep; source: the project's aim
 BOUND = 2.0  # times the stated error [1] within which the true one should lie

@@ -8,8 +8,7 @@ from string import Template
 import pandas as pd
 
 from .. import markdown
-
-PERCENT = 100.0
+from ..words import PERCENT
 
 
 def filled(template: str, values: Mapping[str, object]) -> str:

@@ -13,7 +13,8 @@ from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
 from ..vibration.frequency import SLOWLY, frequency_name
-from .filling import PERCENT, percent, table
+from ..words import PERCENT, SCORE_SCALE
+from .filling import percent, table
 
 
 def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
@@ -25,7 +26,7 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
     change = shear[shear["readout"] == Readout.CHANGE_OF_STRAIN]
     scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)
     scores = scores.reindex(columns=sorted(scores.columns))
-    shown = (1e3 * scores).map("{:.3f}".format).replace("nan", "")
+    shown = (SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0] * scores).map("{:.3f}".format).replace("nan", "")
     shown.columns = pd.Index([frequency_name(each) for each in shown.columns])
     worst = shear.groupby(["device", "frequency_hz"], sort=False)["inertia"].max()
     refused = change[change["score"].isna()].groupby(["device", "frequency_hz"]).size()

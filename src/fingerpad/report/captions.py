@@ -6,7 +6,6 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
 from ..perception.wording import has_p, p_text, range_text, slope_name
 from ..readouts.roughness import TYPESET_UNITS
 from ..scene.contact_law import Interface
@@ -14,6 +13,7 @@ from ..scene.device import Device
 from ..scene.readout import READOUT_NAME, Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
 from .tables import Row, score_with_error
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
-from ..figures.style import KINEMATICS_NAME
 from ..perception.claims import verdict_counts
 from ..perception.ratings import RatingKind
 from ..scene.sources import Origin, Quantity
 from ..scene.tissue_law import Kinematics
+from ..words import KINEMATICS_NAME
 from .captions import Results, Words, words
 from .provenance import Provenance
 from .tables import (

@@ -7,13 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from ..figures.style import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
 from ..perception.wording import has_p, p_text, published_text, range_text, slope_name
 from ..readouts.accuracy import relative_error
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.readout import READOUT_NAME, Readout
 from ..scene.tissue_law import Kinematics
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition

@@ -1,0 +1,61 @@
+"""What people read in place of the code's names, and in which units: figures, the report, what commands print."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from .readouts.roughness import TYPESET_UNITS
+from .scene.contact_law import Interface
+from .scene.readout import READOUT_NAME, Readout
+from .scene.tissue_law import Kinematics
+
+LONGEST_LABEL = 16  # characters of a name at an axis
+
+KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
+INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
+SCORE_SCALE = {
+    Readout.STRAIN: (1.0, ""),
+    Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
+}  # factor [1] and its typeset inverse
+PERCENT = 100.0
+KILO = 1e3  # kPa in a MPa
+MINUS = "\N{MINUS SIGN}"
+
+
+def score_label(readout: Readout, unit: str, in_two_lines: bool = False) -> str:
+    """Label of a score in a unit such as mm2.
+
+    >>> score_label(Readout.STRAIN, "mm2")
+    'Strain score (mm²)'
+    """
+    gap = "\n" if in_two_lines else " "
+    return f"{READOUT_NAME[readout]}{gap}score ({SCORE_SCALE[readout][1]}{TYPESET_UNITS.get(unit, unit)})"
+
+
+def plain(name: str) -> str:
+    """A name from a scene file as text."""
+    return name.replace("_", " ")
+
+
+def shortened(name: str, most: int = LONGEST_LABEL) -> str:
+    """A name of that many characters or fewer: of a longer one the middle is left out, as phases stand at the end.
+
+    >>> shortened("every_second_actuator_090")
+    'every_s…ator_090'
+    """
+    return name if len(name) <= most else f"{name[: most - 1 - most // 2]}…{name[-(most // 2) :]}"
+
+
+def counted(conditions: Sequence[Any]) -> str:
+    """How many conditions there are."""
+    return f"n = {several(len(conditions), 'condition')}"
+
+
+def several(count: int, what: str) -> str:
+    """A count of things that take an s.
+
+    >>> several(1, "pin"), several(2, "pin")
+    ('1 pin', '2 pins')
+    """
+    return f"{count} {what}{'' if count == 1 else 's'}"
