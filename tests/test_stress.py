@@ -172,7 +172,7 @@ def test_any_friction_is_answered(group: int, member: int, friction: float) -> N
         assert str(error)
         return
     assert solution.certificate.smallest_pressure >= 0.0
-    assert solution.certificate.cone_excess <= 1e-6
+    assert solution.certificate.cone_excess <= scene.model.numerics.newton_tolerance
 
 
 def test_outcomes_are_reproducible_in_any_order() -> None:
