@@ -37,7 +37,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Read the source, write the new file, with its recordings beside it, and say what comes next. Raises UsageError
-    outside a checkout, for a source that is no file, and if a file is there already; SceneError.
+    without a checkout, for a source that is no file, and if a file is there already; SceneError.
     """
     checkout = find_checkout(Path.cwd())
     require_new_name(options.name)

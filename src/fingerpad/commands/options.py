@@ -76,7 +76,7 @@ def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interfa
 def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str, Any] = NO_VALUES) -> Scene:
     """The scene of a device file and the options, with some values in place of those in the files.
 
-    Raises SceneError, and UsageError outside a checkout.
+    Raises SceneError, and UsageError without a checkout.
     """
     config = config_of(device, options)
     schemas = options.schemas or find_checkout(Path.cwd()).schemas

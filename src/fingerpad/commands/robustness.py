@@ -76,14 +76,13 @@ def run(options: argparse.Namespace) -> None:
 def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene], dict[str, str]]:
     """Scenes by the names of the assumptions that are varied in them; and why some names have none.
 
-    Raises SceneError, and UsageError outside a checkout.
+    Raises SceneError, and UsageError without a checkout.
     """
     alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
     found: dict[str, Scene] = {}
     refused: dict[str, str] = {}
-    for name, values in varied_values(
-        read_yaml(config_of(options.device, options)), read_yaml(options.device), alternatives
-    ).items():
+    config, device = read_yaml(config_of(options.device, options)), read_yaml(options.device)
+    for name, values in varied_values(config, device, alternatives).items():
         try:
             other = checked_scene(options.device, options, values)
         except SceneError as error:  # as a pattern of four actuators is no alternative for three

@@ -29,7 +29,7 @@ def touch(problem: ContactProblem, place: FloatArray) -> FloatArray | None:
 
 
 def displacement(problem: ContactProblem, force: FloatArray, there: FloatArray | None) -> FloatArray:
-    """Displacement (n, 2) [mm] of the skin relative to the actuators' bases: C f and what their faces give way."""
+    """Displacement (n, 2) [mm] of the skin relative to the actuators' faces: C f and what these give way."""
     moved = np.asarray((problem.compliance @ force.ravel()).reshape(-1, 2))
     return moved if there is None else moved + face_displacement(problem, force, there)
 

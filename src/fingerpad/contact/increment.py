@@ -157,9 +157,8 @@ def _amiss(problem: ContactProblem, found: _Everywhere, there: FloatArray | None
     """
     if there is None:
         return 0.0
-    astray = face_displacement(problem, found.force, touch(problem, found.place)) - face_displacement(
-        problem, found.force, there
-    )
+    now = touch(problem, found.place)
+    astray = face_displacement(problem, found.force, now) - face_displacement(problem, found.force, there)
     place = found.place + astray[:, 0]
     height = found.gap - profile(problem.row, found.place)[0] + astray[:, 1]
     gap = height + profile(problem.row, place)[0]

@@ -21,6 +21,7 @@ from .style import (
     as_title,
     condition_styles,
     conditions_of,
+    draw_curve,
     legend_below,
     letter,
     new_figure,
@@ -80,17 +81,7 @@ def _curves(
     axes.axvline(np.sqrt(slow * frequencies[0]), color=GREY, linewidth=0.5, linestyle=(0, (2.0, 2.0)))
     scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
     for (device, condition), own in rows.groupby(["device", "condition"], sort=False):
-        look = styles.series[device, condition]
         places = own["frequency_hz"].replace(SLOWLY, slow).to_numpy(float)
         scores = scale * own["score"].to_numpy(float)
         for part in (slice(0, 1), slice(1, None)):
-            axes.plot(
-                places[part],
-                scores[part],
-                color=look.colour,
-                marker=look.marker,
-                linestyle=look.line,
-                fillstyle=look.fill,
-                markerfacecoloralt="white",
-                clip_on=False,
-            )
+            draw_curve(axes, places[part], scores[part], styles.series[device, condition])

@@ -242,6 +242,14 @@ def draw_point(axes: Axes, x: float, y: float, series: Series) -> None:
     )  # fmt: skip
 
 
+def draw_curve(axes: Axes, x: np.ndarray, y: np.ndarray, series: Series) -> None:
+    """A curve with marks at its points (n,) in a condition's style, broken where y is not a number."""
+    axes.plot(
+        x, y, linestyle=series.line, marker=series.marker, color=series.colour, fillstyle=series.fill,
+        markerfacecoloralt="white", clip_on=False, zorder=3,
+    )  # fmt: skip
+
+
 def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, along: str) -> None:
     """Bars of estimated error (n,) on both sides of points (n,), along the axis "x" or "y"."""
     if along == "x":

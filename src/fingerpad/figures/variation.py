@@ -20,6 +20,7 @@ from .style import (
     as_title,
     condition_styles,
     conditions_of,
+    draw_curve,
     draw_errors,
     legend_below,
     letter,
@@ -86,20 +87,10 @@ def _curves(
     if all(row["score"] is None for rows in tables for row in rows):
         note_in(axes, "no prediction")
         return
-    for device, condition in series:
+    for (_, condition), look in series.items():
         by_value = [next((row for row in rows if row["condition"] == condition), {}) for rows in tables]
         scores, errors = (
             scale * np.array([row.get(column) for row in by_value], dtype=float) for column in ("score", "score_error")
         )
-        look = series[device, condition]
         draw_errors(axes, places, scores, errors, along="y")
-        axes.plot(
-            places,
-            scores,
-            color=look.colour,
-            marker=look.marker,
-            linestyle=look.line,
-            fillstyle=look.fill,
-            markerfacecoloralt="white",
-            zorder=3,
-        )
+        draw_curve(axes, places, scores, look)

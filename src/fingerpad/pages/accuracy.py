@@ -111,6 +111,8 @@ def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
     for column in CALCULIX_COLUMNS:
         shown[column] = percent(shown[column].astype(float))
     finest = shown[shown["case"] == FINEST].set_index("against")
+    if not {ContactModel.OWN, ContactModel.TURNING} <= {*finest.index}:
+        return {"calculix_verdict": f"CalculiX did not converge in the case `{FINEST}`.", "calculix": table(shown)}
     verdict = (
         f"In short (`{FINEST}`): where fingerpad takes over CalculiX's penalties and turning normal, the two programs,"
         f" which share no code, differ by {_differences(finest.loc[ContactModel.TURNING])}. As it is, fingerpad differs"
