@@ -69,6 +69,7 @@ def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
     for target in ("honesty", "accuracy", "benchmark"):
         assert f"snakemake {target}" in pages["accuracy_and_run_time"]
     assert "Device 2: lateral pins: alternate_180, shear" in said(pages["walkthrough"])
+    assert "<title>From a finger's section to a roughness score</title>" in pages["walkthrough"]
     assert not [name for name, page in pages.items() if re.search(r"<script[^>]*\bsrc=|unpkg", page)]
 
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 import base64
 import dataclasses
 import re
+import runpy
 from collections.abc import Mapping, Sequence
 from html.parser import HTMLParser
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import pytest
 
 from fingerpad.digraph import layers, placed, read_dot, reduced
+from fingerpad.figures.rules import rules_figure
 from fingerpad.perception.wording import p_text
 from fingerpad.report.captions import Results, Words, rules_words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
@@ -29,6 +31,7 @@ from fingerpad.scene.readout import Readout
 from fingerpad.scene.scenefile import load_scene, read_yaml
 from fingerpad.scene.sources import Origin, page, quantities
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.store import read_rows
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -406,3 +409,19 @@ def test_every_edge_leads_down_and_no_boxes_overlap() -> None:
             assert one == other or row != row_other or abs(x - x_other) >= 1.0 - 1e-9
     assert [(line[0], line[-1]) for line in lines] == [(places[start], places[stop]) for start, stop in edges]
     assert all(stop[1] == start[1] + 1 for line in lines for start, stop in pairwise(line))
+
+
+def test_boxes_of_the_runs_rules_stand_apart_and_hold_their_names(tmp_path: Path) -> None:
+    """Of the graph as it is: a further rule makes columns narrower, until its names no longer fit."""
+    script = runpy.run_path(str(ROOT / "workflow/scripts/rule_graph.py"))
+    script["main"](ROOT / "Snakefile", ROOT / "config", tmp_path / "graph.csv")
+    edges = [(row["rule"], row["feeds"]) for row in read_rows(tmp_path / "graph.csv")]
+    figure = rules_figure(edges)
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    boxes = [patch.get_window_extent() for patch in axes.patches]
+    names = [text.get_window_extent() for text in axes.texts]
+    assert len(boxes) == len(names) == len({rule for edge in edges for rule in edge})
+    assert not [1 for one, other in combinations(boxes, 2) if one.overlaps(other)]
+    for inner, outer in [*zip(names, boxes, strict=True), *((box, axes.get_window_extent()) for box in boxes)]:
+        assert outer.x0 <= inner.x0 and inner.x1 <= outer.x1 and outer.y0 <= inner.y0 and inner.y1 <= outer.y1

@@ -13,9 +13,13 @@ with without("rfc3987_syntax"):  # a checker of web addresses, which notebooks h
     from nbclient import NotebookClient
     from nbconvert import HTMLExporter
 
-# of a page that needs nothing else: without scripts for formulas and diagrams, which notebooks here have none of
+# of a page that needs nothing else: without scripts for formulas and diagrams, which notebooks here have none of; on
+# paper nothing can be scrolled to
 TEMPLATE = """\
 {% extends "lab/index.html.j2" %}
+{% block html_head_css %}
+<style>@media print { .jp-InputArea pre { white-space: pre-wrap; overflow-wrap: anywhere } }</style>
+{% endblock %}
 {% block html_head_js %}{% endblock %}
 {% block html_head_js_mathjax %}{% endblock %}
 {% block html_head_js_mermaidjs %}{% endblock %}
@@ -32,6 +36,7 @@ def main(notebook: Path, scenes: Path, page: Path) -> None:
     # a page has no kernel, so widgets on it could not move: their state is left out, and what would be loaded for it
     NotebookClient(document, record_timing=False, store_widget_state=False, resources=folder).execute()
     exporter = HTMLExporter(raw_template=TEMPLATE, exclude_input_prompt=True, exclude_output_prompt=True)
+    document.metadata["title"] = document.cells[0].source.splitlines()[0].removeprefix("# ")
     text, _ = exporter.from_notebook_node(document)
     write_text(page, text)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
@@ -11,9 +12,10 @@ from ..digraph import Edge, placed, reduced
 from .style import BLUE, GREY, LINE, SHADE, TEXT, WIDE, new_figure, styled
 
 LAYER = 13.0  # distance between layers [mm]
-BOX = (17.0, 7.0)  # width and height of a rule's box [mm]
+BOX = (17.0, 7.0)  # width and height of a rule's box, where its column is that wide [mm]
+GAP = 1.0  # least distance between boxes [mm]
 CORNER = 1.2  # its rounding [mm]
-LENGTH = 11  # characters in a line of a box; longer names break at an underscore
+LENGTH = 9  # characters in a line of a box; longer names break at an underscore
 
 
 @styled
@@ -29,16 +31,19 @@ def rules_figure(edges: Sequence[Edge]) -> Figure:
 
     across = [x for line in lines for x, _ in line]
     column = WIDE / (max(across) - min(across) + 1.0)
+    width = min(BOX[0], column - GAP)
 
     def at(place: tuple[float, int]) -> tuple[float, float]:
         return column * (place[0] - min(across) + 0.5), LAYER * (place[1] + 0.5)
 
     for line in lines:
-        axes.plot(*zip(*map(at, line), strict=True), color=GREY, linewidth=LINE, zorder=1)
+        x, y = np.transpose([at(place) for place in line])
+        y[[0, -1]] += BOX[1] / 2.0, -BOX[1] / 2.0  # from edge to edge: a flat line would cross a neighbour's box
+        axes.plot(x, y, color=GREY, linewidth=LINE, zorder=1)
     for name, place in places.items():
         x, y = at(place)
-        corner = (x - BOX[0] / 2.0 + CORNER, y - BOX[1] / 2.0 + CORNER)
-        size = (BOX[0] - 2.0 * CORNER, BOX[1] - 2.0 * CORNER)
+        corner = (x - width / 2.0 + CORNER, y - BOX[1] / 2.0 + CORNER)
+        size = (width - 2.0 * CORNER, BOX[1] - 2.0 * CORNER)
         axes.add_patch(
             FancyBboxPatch(corner, *size, boxstyle=f"round,pad={CORNER}", facecolor=SHADE, edgecolor=BLUE, zorder=2)
         )
