@@ -17,12 +17,12 @@ from fingerpad.contact.certificate import (
     certify,
     reevaluated_gap,
 )
+from fingerpad.contact.criterion import END_TOLERANCE
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.faces import face_shape, touch
 from fingerpad.contact.force_curve import small_strain_curve
 from fingerpad.contact.formulation import ContactProblem, ContactState, rest, touching_height
 from fingerpad.contact.increment import AMISS
-from fingerpad.contact.indentation import END_TOLERANCE
 from fingerpad.contact.linear_solution import (
     follow_condition,
     indent_device,

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from .checkout import find_checkout, model_for
+from .checkout import model_for, schemas_for
 from .csvrows import listed
 from .errors import UsageError
 from .prediction.forecast import forecast
@@ -40,8 +40,8 @@ def predict(
     """
     if kinematics not in list(Kinematics):
         raise UsageError(f"kinematics: found {kinematics!r}; allowed: {listed(Kinematics)}")
-    model = Path(config) if config else model_for(Path(device))
-    folder = Path(schemas) if schemas else find_checkout(Path.cwd()).schemas
+    model = model_for(Path(device), Path(config) if config else None)
+    folder = schemas_for(Path(schemas) if schemas else None)
     cases = [(values, check_device(Path(device), folder, model, values)) for values in variants(vary)]
     rows = [
         values | row

@@ -55,12 +55,17 @@ def find_checkout(start: Path) -> Checkout:
     )
 
 
-def model_for(device: Path) -> Path:
-    """The config.yaml that a device file goes with: beside the folder that it lies in, as in a folder of scenes, or
-    else that of the checkout. Raises UsageError if there is neither.
+def model_for(device: Path, config: Path | None = None) -> Path:
+    """The config.yaml that a device file goes with: the one that is given; or that beside the folder that it lies in,
+    as in a folder of scenes; or that of the checkout. Raises UsageError if there is none.
 
     >>> model_for(Path("config/devices/device2.yaml")) == Path("config/config.yaml").resolve()
     True
     """
     beside = device.parent.resolve().parent / "config.yaml"
-    return beside if beside.is_file() else find_checkout(Path.cwd()).config
+    return config or (beside if beside.is_file() else find_checkout(Path.cwd()).config)
+
+
+def schemas_for(folder: Path | None = None) -> Path:
+    """The folder of schemas that is given, or that of the checkout. Raises UsageError if there is none."""
+    return folder or find_checkout(Path.cwd()).schemas

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
+from ..contact.criterion import front
 from ..contact.formulation import Status
-from ..contact.indentation import front
 from ..scene.device import ActuatorRow
 from .blocks import HALF_WIDTH, TISSUE, face_means, half_plane, pressed
 from .comparison import ACCURACY, Comparison, compare, refined

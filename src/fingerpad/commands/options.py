@@ -10,7 +10,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from ..checkout import find_checkout, model_for
+from ..checkout import find_checkout, model_for, schemas_for
 from ..csvrows import listed
 from ..errors import UsageError
 from ..files import require_folder
@@ -78,14 +78,8 @@ def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str
 
     Raises SceneError, and UsageError without a checkout.
     """
-    config = config_of(device, options)
-    schemas = options.schemas or find_checkout(Path.cwd()).schemas
+    config, schemas = model_for(device, options.config), schemas_for(options.schemas)
     return check_device(existing_file(device), schemas, config, values)
-
-
-def config_of(device: Path, options: argparse.Namespace) -> Path:
-    """The model's file for a device file. Raises UsageError if there is none."""
-    return Path(options.config or model_for(device))
 
 
 def add_picture(parser: argparse.ArgumentParser, what: str) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from ..checkout import model_for
 from ..csvrows import listed
 from ..errors import ContactError, UsageError
 from ..figures.style import save_as
@@ -30,7 +31,6 @@ from .options import (
     add_scene_options,
     add_variation,
     checked_scene,
-    config_of,
     picture_of,
     require_effect,
     variations,
@@ -113,7 +113,7 @@ def run(options: argparse.Namespace) -> None:
     if all(row["score"] is None for row in rows):
         raise ContactError(f"nothing could be scored: {rows[0]['note']}")
     if picture:
-        files = options.devices[0], config_of(options.devices[0], options)
+        files = options.devices[0], model_for(options.devices[0], options.config)
         unit, drawn = unit_of(key, {file: read_yaml(file) for file in files}), [values[key] for values in varied]
         save_as(variation_figure(key, unit, drawn, devices[0], predictions), picture)
         if is_text:

@@ -10,7 +10,7 @@ from typing import Any
 
 from tqdm import tqdm
 
-from ..checkout import find_checkout
+from ..checkout import find_checkout, model_for
 from ..ensemble.alternatives import AS_CONFIGURED, read_ensemble
 from ..ensemble.robustness import Order, changed, orders_held, reasons, varied_values
 from ..errors import ContactError, SceneError
@@ -19,7 +19,7 @@ from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..store import csv_text
-from .options import add_kinematics, add_scene_options, checked_scene, config_of
+from .options import add_kinematics, add_scene_options, checked_scene
 from .printing import titled
 
 DESCRIPTION = """\
@@ -81,7 +81,7 @@ def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene]
     alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
     found: dict[str, Scene] = {}
     refused: dict[str, str] = {}
-    config, device = read_yaml(config_of(options.device, options)), read_yaml(options.device)
+    config, device = read_yaml(model_for(options.device, options.config)), read_yaml(options.device)
     for name, values in varied_values(config, device, alternatives).items():
         try:
             other = checked_scene(options.device, options, values)

@@ -109,6 +109,28 @@ class Trial:
 
 
 @dataclass(frozen=True)
+class _Patience:
+    """Fewest nodes that asked for another state so far, and iterations since then in which no fewer did."""
+
+    fewest: int
+    waited: int = 0
+
+    def after(self, asking: int) -> _Patience:
+        """Once as many nodes have asked."""
+        return _Patience(min(self.fewest, asking), 0 if asking < self.fewest else self.waited + 1)
+
+    @property
+    def spent(self) -> bool:
+        """Whether nodes are to change one by one."""
+        return self.waited >= PATIENCE
+
+    @property
+    def all_spent(self) -> bool:
+        """Whether one of all is to change, no longer one of each actuator."""
+        return self.waited >= 2 * PATIENCE
+
+
+@dataclass(frozen=True)
 class Settled:
     """Trial and states (b,) of a patch that agree, slip references (n,) [mm] of all nodes, with those of the patch that
     touched on the way, the iterations it took, and whether states settled only one node of an actuator at a time.
@@ -139,19 +161,18 @@ def settle(
     moved = np.concatenate([guess - increment.origin[0], np.zeros(nodes.size)])
     trial = _at(increment, moved, states, reference[nodes])
     released = np.zeros(nodes.size, dtype=bool)
-    residual, turned = float("inf"), False
-    fewest, waited, searched = nodes.size + 1, 0, False  # nodes that asked for another state, and iterations since then
+    residual, turned, searched = float("inf"), False, False
+    patience = _Patience(nodes.size + 1)
     for iteration in range(MAX_ITERATIONS - done):
         matrix, right = _newton_equations(increment, trial, states)
         step = _solved(matrix, right, states.unknown, 2 * nodes.size)
         if step is None:
             break
-        settling = waited >= PATIENCE
         turned = turned or (iteration >= PATIENCE and _is_turned(matrix))
-        trial = (_searched if settling else _stepped)(increment, trial, step, states, reference[nodes])
+        trial = (_searched if patience.spent else _stepped)(increment, trial, step, states, reference[nodes])
         slip = trial.place - reference[nodes]
-        following = _next_status(increment, trial, slip, status, released)
-        changed = (following != status).nonzero()[0]
+        following = _next_status(increment, trial, slip, states.status, released)
+        changed = (following != states.status).nonzero()[0]
         before, residual = residual, largest_of(_cone(trial, states))
         if changed.size == 0:
             # a residual that one more step did not lower is rounding
@@ -159,21 +180,18 @@ def settle(
                 if _is_turned(matrix):
                     turned = True
                     break
-                return Settled(_obeying(problem, trial, states), status, reference, iteration + 1, searched)
+                return Settled(_obeying(problem, trial, states), states.status, reference, iteration + 1, searched)
             continue
-        if settling and residual > SETTLED:
+        if patience.spent and residual > SETTLED:
             continue
-        waited = 0 if changed.size < fewest else waited + 1
-        fewest = min(fewest, changed.size)
-        if waited >= PATIENCE:
+        patience = patience.after(changed.size)
+        if patience.spent:
             searched = True
-            changed = _worst(increment, trial, slip, status, changed, alone=waited >= 2 * PATIENCE)
-        was, now = status[changed], following[changed]
+            changed = _worst(increment, trial, slip, states.status, changed, patience.all_spent)
+        was, now = states.status[changed], following[changed]
         touching = changed[(was == OPEN) & ~released[changed]]
-        status = status.copy()
-        status[changed] = now
-        states = _states(problem, status)
         released[changed[now == OPEN]] = True
+        states = _changed(problem, states, changed, now)
         if touching.size:
             reference = _touched_there(reference, start, nodes, trial, touching)
         if ((was == OPEN) | (now == STICK)).any():  # nodes come to the profile or stop; others are where they were
@@ -186,6 +204,13 @@ def _states(problem: ContactProblem, status: np.ndarray) -> _States:
     slip, open_ = (status > STICK).nonzero()[0], (status == OPEN).nonzero()[0]
     drag = problem.friction * SLIP_SIGN[status[slip]]
     return _States(status, open_, slip, drag, np.concatenate([slip, open_, status.size + open_]))
+
+
+def _changed(problem: ContactProblem, states: _States, nodes: np.ndarray, now: np.ndarray) -> _States:
+    """States once some nodes (k,) are in others (k,)."""
+    status = states.status.copy()
+    status[nodes] = now
+    return _states(problem, status)
 
 
 def _touched_there(

@@ -45,6 +45,20 @@ STRAIGHT = 1e-9  # change of heading [1] below which a path goes on as before; s
 
 
 @dataclass(frozen=True)
+class _Outset:
+    """What an increment sets out with: the last state, without drift where the path turns; states (n,) foreseen, slip
+    references (n,) and places (n,) [mm]; nodes (k,) that a patch needs, and those (n,) that it should look ahead to.
+    """
+
+    start: ContactState
+    status: np.ndarray
+    reference: FloatArray
+    guess: FloatArray
+    needed: np.ndarray
+    ahead: np.ndarray
+
+
+@dataclass(frozen=True)
 class _Everywhere:
     """Forces (n, 2) and shearing forces (n,) [N/mm], states (n,), displacements (n, 2), places (n,), gaps (n,) [mm] and
     slopes (n,) [1] of the direction of shear, of all contact nodes.
@@ -82,19 +96,12 @@ def _solved_as_given(
     problem: ContactProblem, start: ContactState, actuator: FloatArray, patch: Patch | None
 ) -> tuple[ContactState, Patch]:
     """The same with every node given to the actuator that it has. Raises NotConvergedError."""
-    length = float(np.abs(actuator - start.actuator).max())
-    straight = bool(np.abs(_over(actuator - start.actuator, length) - start.heading).max() < STRAIGHT)
-    status, ahead = _foreseen(problem, start, length, straight)
-    # of a way that turns the last increment tells nothing
-    start = start if straight else replace(start, drift=np.zeros_like(start.drift))
-    reference = start.place + _drifted(start, length)
-    gap_scale = length + float(np.abs(actuator).max())
+    length = largest_of(actuator - start.actuator)
+    gap_scale = length + largest_of(actuator)
     origin = unloaded(problem, actuator)
-    needed = np.flatnonzero(status != OPEN)
-    if needed.size == 0:
-        needed, status, reference = _first_touching(problem, start, origin, gap_scale, status, reference)
-    # the last increment promises where the skin will touch the faces
-    guess = start.place + start.drift[:, 0] * length
+    outset = _outset(problem, start, actuator, origin, gap_scale)
+    start, status, reference, guess = outset.start, outset.status, outset.reference, outset.guess
+    needed, ahead = outset.needed, outset.ahead
     expected, there = guess, touch(problem, guess)
     patch = patch if there is None else None
     iterations, searched, residual, bias = 0, False, float("inf"), None
@@ -136,6 +143,25 @@ def _solved_as_given(
     raise NotConvergedError(residual)
 
 
+def _outset(
+    problem: ContactProblem, start: ContactState, actuator: FloatArray, origin: FloatArray, gap_scale: float
+) -> _Outset:
+    """What the last increment promises for the one to `actuator` (n_actuators, 2) [mm], where nodes lie at `origin`
+    (n, 2) [mm] unloaded.
+    """
+    length = largest_of(actuator - start.actuator)
+    straight = bool(np.abs(_over(actuator - start.actuator, length) - start.heading).max() < STRAIGHT)
+    status, ahead = _foreseen(problem, start, length, straight)
+    # of a way that turns the last increment tells nothing
+    start = start if straight else replace(start, drift=np.zeros_like(start.drift))
+    reference = start.place + _drifted(start, length)
+    needed = np.flatnonzero(status != OPEN)
+    if needed.size == 0:
+        needed, status, reference = _first_touching(problem, start, origin, gap_scale, status, reference)
+    guess = start.place + start.drift[:, 0] * length  # where the skin will touch the faces
+    return _Outset(start=start, status=status, reference=reference, guess=guess, needed=needed, ahead=ahead)
+
+
 def _everywhere(
     increment: PatchProblem, origin: FloatArray, there: FloatArray | None, trial: Trial, status: np.ndarray
 ) -> _Everywhere:
@@ -175,7 +201,7 @@ def _accepted(
     residual: float,
 ) -> ContactState:
     """The converged state at the end of an increment, of which nodes slipped by `slip` (n,) [mm]."""
-    length = float(np.abs(actuator - start.actuator).max())
+    length = largest_of(actuator - start.actuator)
     # backward Euler: friction works along the whole slip with the force at its end
     way = slip * np.sqrt(1.0 + found.slope**2) if problem.turning else slip
     work = -float((found.shearing * (found.status > STICK)) @ way)

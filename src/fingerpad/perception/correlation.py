@@ -157,24 +157,14 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
             return {**found, "note": note}
     if x.size < 3:
         return {**found, "note": "fewer than three conditions"}
-    notes = []
     distinct = np.bincount(which, x) / np.bincount(which)
-    if distinct.size < x.size:
-        notes.append(f"{distinct.size} of {x.size} conditions are distinct")
+    notes = [] if distinct.size == x.size else [f"{distinct.size} of {x.size} conditions are distinct"]
     error = scores["score_error"].to_numpy(float)
     known = bool(np.isfinite(error).all())
     if len(order):
         at_most = order_matrix(list(score.index), order)
-        over = rating_range(x, at_most)
-        found["r_lowest"], found["r_highest"] = over.r
-        found["r2_lowest"], found["r2_highest"] = over.r2
-        found["range_error"], range_open = _range_errors(x, over, error)
-        found["range_open"] = int(range_open) if known else None
-        equal = at_most & at_most.T
-        if np.any(at_most & ~equal & (y[:, None] >= y[None, :])):
-            notes.append("ratings contradict the stated order")
-        if np.any(equal & (y[:, None] != y[None, :])):
-            notes.append("ratings differ that are stated to be equal")
+        found |= _over_ratings(x, at_most, error, known)
+        notes += _contradictions(y, at_most)
     r = float(pearsonr(x, y).statistic)
     mean_rating = np.bincount(which, y) / np.bincount(which)
     return {
@@ -187,3 +177,25 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         "p": float(pearsonr(distinct, mean_rating).pvalue) if distinct.size > 2 and np.ptp(mean_rating) > 0.0 else None,
         "note": "; ".join(notes),
     }
+
+
+def _over_ratings(score: FloatArray, at_most: np.ndarray, error: FloatArray, known: bool) -> dict[str, Any]:
+    """What all ratings that agree with an order (n, n) give, and how far errors (n,) of scores (n,) move it."""
+    over = rating_range(score, at_most)
+    range_error, is_open = _range_errors(score, over, error)
+    return {
+        **dict(zip(("r_lowest", "r_highest"), over.r, strict=True)),
+        **dict(zip(("r2_lowest", "r2_highest"), over.r2, strict=True)),
+        "range_error": range_error,
+        "range_open": int(is_open) if known else None,
+    }
+
+
+def _contradictions(rating: FloatArray, at_most: np.ndarray) -> list[str]:
+    """In words what ratings (n,) have against an order (n, n)."""
+    equal = at_most & at_most.T
+    against = {
+        "ratings contradict the stated order": at_most & ~equal & (rating[:, None] >= rating[None, :]),
+        "ratings differ that are stated to be equal": equal & (rating[:, None] != rating[None, :]),
+    }
+    return [words for words, pairs in against.items() if pairs.any()]

@@ -121,9 +121,14 @@ def require_device(name: str, folder: Path) -> Path:
     return folder / f"{name}.yaml"
 
 
+def _is_name(text: str) -> bool:
+    """Whether that may be a device's name."""
+    return bool(re.fullmatch("[a-z][a-z0-9_]*", text)) and len(text) <= LONGEST_NAME
+
+
 def require_name(path: Path) -> None:
     """Raise SceneError for a device file whose name cannot be part of other files' names."""
-    fits = re.fullmatch("[a-z][a-z0-9_]*", path.stem) and len(path.stem) <= LONGEST_NAME
+    fits = _is_name(path.stem)
     if not fits or path.suffix != ".yaml":
         allowed = f"{NAME}, then .yaml"
         meant = path.stem if fits else _as_name(path.stem)
@@ -134,7 +139,7 @@ def require_name(path: Path) -> None:
 
 def require_new_name(name: str) -> None:
     """Raise SceneError for what cannot be the name of a new device."""
-    if not (re.fullmatch("[a-z][a-z0-9_]*", name) and len(name) <= LONGEST_NAME):
+    if not _is_name(name):
         stem, about = name.removesuffix(".yaml"), "name of a device, and of its file without .yaml"
         meant = _as_name(stem) or (stem if stem.isidentifier() and stem.isascii() and stem != name else "")
         raise SceneError(_problem(0, "NAME", _shown_name(name), NAME, meant=meant, about=about)[1])
