@@ -12,7 +12,7 @@ from fingerpad.arrays import FloatArray
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.forecast import forecast
 from fingerpad.prediction.scoring import rows_at
-from fingerpad.readouts.accuracy import COARSENING, LEAST, ORDER, score_errors, true_errors, with_errors
+from fingerpad.readouts.accuracy import LEAST, score_errors, true_errors, with_errors
 from fingerpad.readouts.roughness import roughness_scores, scene_span
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
@@ -59,15 +59,14 @@ def test_curves_that_differ_have_an_error_though_their_areas_agree() -> None:
     assert (start, found[Readout.STRAIN]) == (-stop, pytest.approx(expected, rel=1e-4))
 
 
-def test_an_error_is_no_less_than_the_difference_of_scores_for_the_same_order() -> None:
-    rng = np.random.default_rng(0)
-    base = scene("device2")
-    for _ in range(20):
-        fine, coarse = (curves(*rng.standard_normal((2, GRID.size))) for _ in range(2))
-        scores, others = (roughness_scores(base, each) for each in (fine, coarse))
-        errors = score_errors(base, fine, coarse)
-        for each in Readout:
-            assert errors[each] >= abs(others[each] - scores[each]) / (COARSENING**ORDER - 1.0)
+@pytest.mark.parametrize("factor", [0.9, 1.1])
+def test_an_error_is_the_difference_of_scores_where_curves_differ_one_way(factor: float) -> None:
+    """Over that of sizes twice as large, to the power between first and second order, less one; to rounding."""
+    base, strain, change = scene("device2"), 1.5 + np.sin(GRID), 0.2 + 0.1 * np.cos(GRID)
+    fine, coarse = curves(strain, change), curves(factor * strain, factor * change)
+    scores, others = (roughness_scores(base, each) for each in (fine, coarse))
+    expected = {each: abs(others[each] - scores[each]) / (2.0**1.5 - 1.0) for each in Readout}
+    assert score_errors(base, fine, coarse) == pytest.approx(expected, rel=1e-12)
 
 
 def test_curves_that_agree_have_the_least_error_and_those_of_nothing_none() -> None:
@@ -103,6 +102,15 @@ def test_errors_are_of_the_time_that_is_read(kinematics: Kinematics) -> None:
     errors = {(row["condition"], row["readout"]): row["score_error"] for row in without}
     for readout in Readout:
         assert errors["both", readout] == pytest.approx(errors["once", readout], rel=0.01)
+
+
+def test_a_coarser_solution_takes_fewer_increments() -> None:
+    """So its error is that of the path, too; one is the least."""
+    given = scene("device2").model.numerics
+    for factor in (2.0, 1e3):
+        coarser = given.coarsened(factor)
+        assert coarser.stimulus_increments == max(given.stimulus_increments / factor, 1)
+        assert coarser.indentation_increments == max(given.indentation_increments / factor, 1)
 
 
 def test_errors_stand_behind_scores() -> None:

@@ -123,7 +123,7 @@ def test_calculix_agrees_on_a_small_frictionless_case(tmp_path: Path) -> None:
         small, condense_section(section, small), None, condition, SETTINGS, ContactModel.PENALTIES
     )
     apart = differences(found, reference)
-    assert apart["pressing_indented"] < 0.01
+    assert apart["pressing_indented"] < 0.05**2
     assert apart["strain_indented"] < 0.02
     assert np.allclose(reference.force[0, :, 0].sum(), 0.0, atol=1e-6 * reference.force[0, :, 1].sum())
 

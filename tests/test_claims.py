@@ -183,7 +183,7 @@ def test_each_claim_can_be_broken_and_no_other_breaks_with_it(
         ),
         (
             ("device1", "frictionless", "change_of_strain"),
-            [1.6834 * score for score in (1, 2, 3, 1, 3, 4, 1, 4, 5)],
+            [1.6813 * score for score in (1, 2, 3, 1, 3, 4, 1, 4, 5)],
             "Device 1: leaving out shear matters",
         ),
     ],
@@ -233,6 +233,12 @@ def test_evidence_from_ratings_says_ordinal_surrogate() -> None:
             ("device2", "shear", "change_of_strain"),
             [1, 2, 2.1],
             "Device 2: the change of strain correlates very",
+            "undecided",
+        ),
+        (
+            ("device2", "shear", "change_of_strain"),  # between 0.5 and 1, where without shear it is up to 0.76
+            [1, 2, 2.1],
+            "Device 2 without shear: the change of strain correlates more weakly",
             "undecided",
         ),
         (("device2", "shear", "strain"), [3, 2, 1], "Device 2: the strain correlates well", "no"),
@@ -312,6 +318,35 @@ def test_a_strong_negative_correlation_is_no_weaker_than_a_positive_one() -> Non
     start = "Device 2 without shear: the change of strain correlates more weakly"
     assert "frictionless: negative slope, R² 1," in evidence_of(table, start)
     assert table.loc[table["claim"].str.startswith(start), "holds"].item() == "no"
+
+
+@pytest.mark.parametrize(
+    ("claim", "bound", "below", "above"),
+    [
+        *((f"Device {number}: the change of strain correlates very well", 0.8, "no", "yes") for number in (1, 2, 3)),
+        ("Device 2: the strain correlates well", 0.6, "no", "yes"),
+        ("Device 2 without shear: the change of strain correlates weakly", 0.4, "yes", "no"),
+        ("Device 1: the strain correlates very poorly", 0.2, "yes", "no"),
+    ],
+)
+def test_words_for_correlations_have_their_usual_bounds(claim: str, bound: float, below: str, above: str) -> None:
+    """Those of Evans 1996, with |r| on either side by twice its error."""
+    scores = make_scores()
+    for r, holds in ((bound - 0.02, below), (bound + 0.02, above)):
+        correlations = correlate(scores).assign(r2=r**2, slope_sign=1, r_error=0.01, slope_open=0)
+        table = claims_table(scores, correlations)
+        assert table.loc[table["claim"].str.startswith(claim), "holds"].item() == holds
+
+
+@pytest.mark.parametrize(("apart", "holds"), [(0.015, "undecided"), (0.025, "yes")])
+def test_correlations_compare_by_the_sum_of_their_errors(apart: float, holds: str) -> None:
+    """Each may be off by 0.01."""
+    scores = make_scores()
+    correlations = correlate(scores).assign(slope_sign=1, r_error=0.01, slope_open=0)
+    r = 0.5 + apart * (correlations["interface"] == "shear")
+    table = claims_table(scores, correlations.assign(r2=r**2))
+    start = "Device 2 without shear: the change of strain correlates more weakly"
+    assert table.loc[table["claim"].str.startswith(start), "holds"].item() == holds
 
 
 def test_scores_compare_by_the_sum_of_their_errors() -> None:

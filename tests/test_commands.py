@@ -26,6 +26,7 @@ from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
 from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
+from fingerpad.commands.score_table import as_table
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, MeshError, UsageError
@@ -286,7 +287,7 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     (caveat,) = {caveat for row in shear for caveat in row["caveats"] if caveat.startswith("error unknown")}
     assert caveat.startswith("error unknown: on a mesh of 2 times the sizes, device=device2, condition=alternate_180")
     said = f"caveat: alternate_180 (shear, strain and change_of_strain): {caveat}"
-    assert said in predicting.as_table(given, shear)
+    assert said in as_table(given, shear)
 
 
 def test_a_scene_without_a_mesh_leaves_the_others(
@@ -417,14 +418,33 @@ def test_caveats_of_a_solution() -> None:
     assert apart == "certificate: gap in contact is 30% of its limit"
 
 
-def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_not() -> None:
+def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_told() -> None:
     """Each condition for itself: a recording in metres among others in mm."""
     given = scene("device2").device.conditions[0]
     still = np.zeros_like(given.normal)
     assert stimulus_caveats(given) == []
-    assert stimulus_caveats(replace(given, normal=still, tangential=still)) == []
+    assert stimulus_caveats(replace(given, normal=still, tangential=still)) == ["moves no actuator"]
     doubts = stimulus_caveats(replace(given, normal=still, tangential=1e-3 * given.tangential))
     assert doubts == ["moves actuators by 2e-05 mm at most: are displacements in mm?"]
+
+
+@pytest.mark.parametrize(("phase", "doubted"), [(1.5708, True), (3.0, False), (22.5, False), (0.0, False)])
+def test_phases_as_of_radians_are_doubted(phase: float, doubted: bool) -> None:
+    told = stimulus_caveats(replace(scene("device2").device.conditions[0], phase_deg=phase))
+    assert told == ([f"has a phase of {phase} degrees: are phases in degrees?"] if doubted else [])
+
+
+def test_actuators_that_press_nothing_are_told_by_their_number() -> None:
+    """From the beginning, or from some time on."""
+    given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
+    idle = replace(solution, pressing=solution.pressing * [0.0, 1.0, 1.0, 1.0])
+    assert solution_caveats(given, idle) == [
+        "actuators without force after pre-indentation, counted from the left: 1",
+    ]
+    left = solution.pressing.copy()
+    left[-1, [1, 3]] = 0.0
+    (caveat,) = solution_caveats(given, replace(solution, pressing=left))
+    assert caveat.startswith("actuators that leave the skin, counted from the left: 2, 4; ")
 
 
 def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
@@ -433,6 +453,9 @@ def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
     deep = replace(solved("device2", "alternate_090", Interface.SHEAR), depth=4.34)
     assert solution_caveats(given, deep) == ["actuators indent 87% of the pad: small strain is invalid"]
     assert solution_caveats(given.with_kinematics(Kinematics.FINITE), deep) == []
+    for share, doubted in ((0.49, False), (0.51, True)):  # of the pad; with a half mean strain is 0.5
+        depth = share * given.model.finger.pad_thickness
+        assert bool(solution_caveats(given, replace(deep, depth=depth))) is doubted
 
 
 def test_a_face_of_few_elements_is_doubted() -> None:
@@ -497,6 +520,12 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
             "tude: {value: 0.020",
             "tude: {value: 0.00002",
             "alternate_000 moves actuators by 2e-05 mm at most: are displacements in mm?",
+        ),
+        (
+            "\nstimulus:",
+            "\ncontact:\n  criterion: {value: depth, unit: '1', source: 'our rig'}\n"
+            "  depth: {value: 2.6, unit: mm, source: 'our rig'}\nstimulus:",
+            "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there.",
         ),
         ("absolute: {value: 0.188", "absolute: {value: 4.0", "A lateral stroke takes an actuator beside the finger"),
         (
@@ -569,7 +598,11 @@ def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
     (caveat,) = solution_caveats(scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS))
     assert caveat.startswith("at another time strain changes by 9")
     there = replace(strokes, time=strokes.time[:1], normal=strokes.normal[:1], tangential=tangential[:1])
-    assert solution_caveats(scene("device2"), solve("device2", there, Interface.FRICTIONLESS)) == []
+    alone = solve("device2", there, Interface.FRICTIONLESS)
+    assert solution_caveats(scene("device2"), alone) == []
+    for rival, doubted in ((0.97, False), (0.99, True)):  # finer meshes move it by less than 0.01
+        near = replace(alone, reading=replace(alone.reading, rival_peak=rival))
+        assert bool(solution_caveats(scene("device2"), near)) is doubted
 
 
 def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
@@ -584,6 +617,17 @@ def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
     assert all(0.0 < row["force_N_per_mm"] < 2e-4 and row["indentation_mm"] < 3e-3 for row in rows)
     assert all(0.0 <= row["score"] < 1e-3 for row in rows)
     assert [row["caveats"] for row in rows] == [[]] * 4
+
+
+def test_all_stimuli_of_a_device_set_out_from_one_force() -> None:
+    """That of pre-indentation, which knows nothing of what follows; pins that rise and sink end with others."""
+    base = scene("device1")
+    given = replace(base, device=replace(base.device, conditions=base.device.conditions[-2:], cycles=()))
+    rows = forecast(given.coarsened(4.0), error=False)
+    assert len({row["condition"] for row in rows}) == 2
+    for interface in Interface:
+        (force,) = {row["force_N_per_mm"] for row in rows if row["interface"] == interface}
+        assert force > 0.0
 
 
 @pytest.fixture
@@ -624,9 +668,33 @@ def test_caveats_name_each_condition_once() -> None:
         for readout in ("strain", "change_of_strain")
         for name in names
     ]
-    assert predicting.as_table(scene("device3"), rows).splitlines()[-2:] == [
+    assert as_table(scene("device3"), rows).splitlines()[-2:] == [
         "caveat: alternate_000, alternate_090 (shear, strain and change_of_strain): odd",
         "caveat: all conditions (frictionless, strain and change_of_strain): none is known",
+    ]
+
+
+def test_ranks_that_errors_leave_open_are_ranges() -> None:
+    """Three scores, of which two are closer than their errors; equal ones share a rank, unknown errors leave it."""
+    scores = {"a": (1.0, 0.1), "b": (1.1, 0.1), "c": (2.0, 0.1), "same": (2.0, 0.1), "unknown": (1.05, None)}
+    rows = [
+        ROW | {"condition": name, "score": score, "score_error": error, "rank": rank, "caveats": []}
+        for (name, (score, error)), rank in zip(scores.items(), (5, 3, 1, 1, 4), strict=True)
+    ]
+    printed = as_table(scene("device2"), rows).splitlines()[-5:]
+    assert [line.split()[-1] for line in printed] == ["3-4", "3-4", "1", "1", "4"]
+
+
+def test_caveats_that_differ_in_a_share_are_told_as_one() -> None:
+    said = {"a": ["pressed 44% deep", "odd"], "b": ["pressed 9% deep"], "c": ["pressed 9% of 20% deep"]}
+    rows = [
+        ROW | {"condition": name, "score": 1.0, "score_error": None, "rank": 1, "caveats": own}
+        for name, own in said.items()
+    ]
+    assert as_table(scene("device2"), rows).splitlines()[-3:] == [
+        "caveat: a, b (shear, strain): pressed 9% to 44% deep",
+        "caveat: a (shear, strain): odd",
+        "caveat: c (shear, strain): pressed 9% of 20% deep",
     ]
 
 

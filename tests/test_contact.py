@@ -11,9 +11,12 @@ import pytest
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact.active_set import NotConvergedError
+from fingerpad.contact.criterion import front
 from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest
+from fingerpad.contact.ownership import given_to
 from fingerpad.contact.patch import patch_of
 from fingerpad.contact.path import advance, follow
+from fingerpad.contact.profile import profile
 from fingerpad.errors import ContactError, ConvergenceError
 from fingerpad.scene.device import ActuatorRow
 
@@ -67,12 +70,13 @@ def test_mirrored_motion_gives_mirrored_forces() -> None:
 
 
 def test_energy_balance_and_dissipation() -> None:
-    """Work of the punch = elastic energy + frictional dissipation, but for trapezoids of 1/20 of the way, an
-    error of the second order; none < 0.
+    """Work of the punch = elastic energy + frictional dissipation, the better the finer the increments: halves leave a
+    third, as slip is backward Euler and work comes by trapezoids. What stays is the profile's slope, which forces along
+    the face leave out: 1.1e-4, a quarter of that on four times the radius at a quarter of the depth. None < 0.
     """
     problem = touched(100.0, 200.0, 0.3)  # nearly flat: the force along the face is the force on the skin
     errors = []
-    for increments in (5, 20):
+    for increments in (5, 10, 80):
         state = pressed(problem, 0.008, 4)
         stored, lost, work = _elastic(problem, state), state.dissipation, 0.0
         origin = state.actuator
@@ -86,8 +90,8 @@ def test_energy_balance_and_dissipation() -> None:
         stored, lost = _elastic(problem, state) - stored, state.dissipation - lost
         assert lost > 0.1 * abs(work)  # it slides
         errors.append(abs(work - stored - lost) / abs(work))
-    assert errors[1] < errors[0] / 4**2
-    assert errors[1] < (1 / 20) ** 2
+    assert errors[1] < errors[0] / 2.5
+    assert errors[2] < 2e-4
 
 
 def _elastic(problem: ContactProblem, state: ContactState) -> float:
@@ -198,5 +202,35 @@ def test_a_patch_whose_nodes_move_alike_is_inverted(reach: float) -> None:
     order = np.concatenate([2 * np.arange(x.size), 2 * np.arange(x.size) + 1])
     patch = patch_of(problem, np.arange(x.size), None)
     unit = compliance[np.ix_(order, order)] @ patch.response.T  # which has one displacement a row
-    # what elimination with pivots leaves: some 1e-16 times the condition
-    assert np.abs(unit - np.eye(2 * x.size)).max() < 1e-7
+    # what elimination with pivots leaves: rounding times the condition
+    assert np.abs(unit - np.eye(2 * x.size)).max() < np.finfo(float).eps * np.linalg.cond(alike)
+
+
+def test_the_front_of_contact_is_where_hertz_has_it() -> None:
+    """Skin that leaves the face as distance to the power 3/2, between two nodes."""
+    x = np.linspace(-0.2, 0.3, 11)
+    assert front(x, np.maximum(x - 0.07, 0.0) ** 1.5, x < 0.02) == pytest.approx(0.07, abs=1e-13)  # rounding
+
+
+def test_skin_that_is_given_to_another_actuator_has_the_gap_over_that_one() -> None:
+    """Actuators stand at heights and places of their own. Exact, but for the rounding of lengths of some mm."""
+    x = np.linspace(-0.5, 2.5, 13)
+    problem = ContactProblem(
+        position=np.stack([x, 0.1 * x**2], axis=1),
+        compliance=np.eye(2 * x.size),
+        row=ActuatorRow((0.0, 2.0), 1.0, 0.1),
+        body=None,
+        friction=0.5,
+        tolerance=1e-9,
+        max_cuts=10,
+    )
+    actuator = np.array([[0.1, 0.01], [-0.2, 0.05]])
+    there = []
+    for number, (centre, height) in enumerate(zip((0.1, 1.8), (0.01, 0.05), strict=True)):
+        own = replace(problem, given=np.full(x.size, number))
+        gap = problem.position[:, 1] - height + profile(problem.row, x - centre)[0]
+        there.append(replace(rest(own, 0.0), actuator=actuator, place=x - centre, gap=gap))
+    for state, other in (there, there[::-1]):
+        _, found = given_to(replace(problem, given=state.given), state, other.given)
+        assert found.place == pytest.approx(other.place, abs=1e-14)
+        assert found.gap == pytest.approx(other.gap, abs=1e-14)

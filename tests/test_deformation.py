@@ -131,7 +131,9 @@ def test_undeformed_tissue_is_linear_elastic(law: Law) -> None:
 
 @everywhere
 def test_small_displacements_are_linear(law: Law) -> None:
-    """The force differs from the linear one by a part that falls with the displacement: a tenth for a tenth."""
+    """The force differs from the linear one by a part that falls with the displacement: a tenth for a tenth. The next
+    order is as much smaller as gradients are small, which are 1e-3 and 1e-4 (measured: 6e-5 and 6e-6).
+    """
     own = section(law)
     field = np.zeros(own.basis.N)
     field[own.dofs] = large_displacement(own.place)
@@ -140,8 +142,8 @@ def test_small_displacements_are_linear(law: Law) -> None:
         linear = own.linear @ (scale * field)
         apart.append(np.linalg.norm(internal_force(own.elements, scale * field) - linear) / np.linalg.norm(linear))
     assert apart[0] < 0.01
-    assert apart[0] / apart[1] == pytest.approx(10.0, rel=0.02)
-    assert apart[1] / apart[2] == pytest.approx(10.0, rel=0.002)
+    assert apart[0] / apart[1] == pytest.approx(10.0, rel=5e-4)
+    assert apart[1] / apart[2] == pytest.approx(10.0, rel=5e-5)
 
 
 @everywhere

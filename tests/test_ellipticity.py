@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,8 +13,10 @@ from fingerpad.errors import EllipticityError
 from fingerpad.finite.deformation import Elements, elements_of
 from fingerpad.finite.ellipticity import require_elliptic, smallest_stiffness
 from fingerpad.finite.hyperelasticity import tissue_of
+from fingerpad.finite.pressing import press
+from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.finger import Material
-from fingerpad.scene.tissue_law import Law
+from fingerpad.scene.tissue_law import Kinematics, Law
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from scenes import scene
@@ -21,13 +25,14 @@ SKIN = [Material(0.08, 0.48)]
 EXPONENT = 9.0  # of Ogden's law
 STEP = 1e-5  # of central differences of the stress: their error is its square, or rounding over it
 DIFFERENCES = 1e-7  # relative; both of these, times a stiffness that grows with the ninth power
-# Directions 7.5 degrees apart miss the softest by 3.75 at most. Q goes with the cosine of twice the angle: at such a
-# distance from a minimum it is larger by 4/2 of the distance's square, in terms of its stiffest part
+# Directions 7.5 degrees apart miss the softest by 3.75 at most. What Q makes of one movement goes with the cosine of
+# twice the angle: at such a distance from a minimum it is larger by 4/2 of the distance's square, in amplitudes. Of all
+# movements the softest is softer still
 MISSED = 2.0 * np.deg2rad(3.75) ** 2
 
 
 def along(law: Law, gradient: FloatArray, angles: FloatArray) -> FloatArray:
-    """Eigenvalues (2, n_angles) of d(P N)/d(u) for H + u (x) N, by differences of the first stress."""
+    """Acoustic tensors (n_angles, 2, 2), d(P N)/d(u) for H + u (x) N, by differences of the first stress."""
     tissue = tissue_of(law, EXPONENT, SKIN, np.zeros(1, dtype=int))
     found = []
     for angle in angles:
@@ -37,23 +42,28 @@ def along(law: Law, gradient: FloatArray, angles: FloatArray) -> FloatArray:
             change = STEP * np.outer(axis, direction)[..., None]
             stress = first_stress(tissue, gradient + change) - first_stress(tissue, gradient - change)
             columns.append(stress[..., 0] @ direction / (2.0 * STEP))
-        found.append(np.linalg.eigvalsh(np.array(columns)))
-    return np.array(found).T
+        found.append(columns)
+    return np.array(found)
 
 
 @pytest.mark.parametrize("law", Law)
 def test_smallest_stiffness_is_that_of_the_stored_energy(law: Law) -> None:
-    """At random gradients: below all eigenvalues on a fine grid of directions, and hardly below."""
+    """At random gradients: below all eigenvalues on a fine grid of directions but for differences, and above the least
+    by no more than the movement that belongs to it becomes stiffer in the directions looked along.
+    """
     angles = np.linspace(0.0, np.pi, 144, endpoint=False)
     random = np.random.default_rng(3)
     tissue = tissue_of(law, EXPONENT, SKIN, np.zeros(1, dtype=int))
     for _ in range(12):
         gradient = 0.25 * random.standard_normal((2, 2, 1))
-        eigenvalues = along(law, gradient, angles)
+        tensors = along(law, gradient, angles)
+        eigenvalues, movements = np.linalg.eigh(tensors)
         found = float(smallest_stiffness(tissue, gradient)[0])
         scale = float(np.abs(eigenvalues).max())
         assert found >= eigenvalues.min() - DIFFERENCES * scale
-        assert found <= eigenvalues.min() + MISSED * scale
+        softest = movements[eigenvalues[:, 0].argmin(), :, 0]
+        amplitude = np.ptp(softest @ tensors @ softest) / 2.0
+        assert found <= eigenvalues.min() + MISSED * amplitude + DIFFERENCES * scale
 
 
 def test_logarithmic_law_softens_in_shear() -> None:
@@ -67,6 +77,17 @@ def test_logarithmic_law_softens_in_shear() -> None:
         lost = shear[left <= 0.0]
         assert (lost.min(initial=np.inf) <= begins) and (left[shear < 0.8 * begins] > 0.0).all()
         assert (lost.size > 0) == (law is Law.HENCKY)
+
+
+def test_pressing_a_device_ends_where_tissue_is_no_longer_elliptic() -> None:
+    """Into half of the pad with the logarithmic law. The error names device and interface."""
+    base = scene("device2").coarsened(5.0).with_kinematics(Kinematics.FINITE)
+    law = replace(base.model.contact, criterion=Criterion.DEPTH, depth=2.5)
+    deep = replace(base, model=replace(base.model, contact=law, tissue=replace(base.model.tissue, law=Law.HENCKY)))
+    section = mesh_section(deep, nominal_edges(deep.device.actuators))
+    said = r"device=device2, interface=frictionless, pre-indentation: the tissue's law is no longer elliptic"
+    with pytest.raises(EllipticityError, match=said):
+        press(deep, section, None, Interface.FRICTIONLESS)
 
 
 @pytest.mark.parametrize("law", [Law.HENCKY, Law.NEO_HOOKEAN])

@@ -595,6 +595,18 @@ def test_a_motion_on_one_diagonal_has_one_arrow(section: SectionMesh, along: flo
     assert bool(np.isclose(tilt[0], tilt[1])) is (along == 1.0)
 
 
+@pytest.mark.parametrize(("moved", "heads"), [((1.0, 2.0), "<-"), ((-1.0, 0.0), "->"), ((1.0, -1.0), "<->")])
+def test_an_arrow_has_a_head_where_actuators_go(section: SectionMesh, moved: tuple[float, float], heads: str) -> None:
+    """Of a history, which goes no other way than it says; drawn from where positive displacements lead to."""
+    still = np.zeros((2, len(PINS.positions)))
+    history = np.repeat(np.array(moved)[:, None], len(PINS.positions), axis=1)
+    condition = replace(PHASED.conditions[0], time=np.array([1.0, 2.0]), normal=0.02 * history, tangential=still)
+    axes = section_figure(MODEL, section, [replace(PHASED, conditions=(condition,))]).axes[1]
+    drawn = [t for t in axes.texts if isinstance(t, Annotation) and (t.arrowprops or {}).get("linewidth") == DRIVEN]
+    assert {(arrow.arrowprops or {})["arrowstyle"] for arrow in drawn} == {heads}
+    assert all(arrow.xyann[1] > arrow.xy[1] for arrow in drawn)
+
+
 def make_contact(row: ActuatorRow) -> CondensedSection:
     """Skin of equal elements of 0.1 mm under every actuator; nothing else of the section is drawn."""
     x = np.concatenate([np.linspace(centre - 0.6, centre + 0.6, 25) for centre in row.positions])

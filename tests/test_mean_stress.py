@@ -44,6 +44,22 @@ def test_patches_in_a_line_have_no_gradient_across_it() -> None:
     assert found == pytest.approx(means, abs=1e-13)  # but for rounding of numbers of about one
 
 
+def test_the_nearer_elements_lie_the_more_they_count() -> None:
+    """Each fit, solved on its own: squares over the element's area and that of the distance, to rounding."""
+    mesh = MeshTri2.from_mesh(MeshTri.init_tensor(np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 5)))
+    means = np.random.default_rng(0).standard_normal(mesh.nelements)
+    centre = mesh.p[:, mesh.t].mean(axis=1)
+    place = mesh.p[:, mesh.t.T]
+    found = recover_linear(displacement_basis(mesh), np.zeros(mesh.nelements, dtype=int), means, place)
+    for own in range(mesh.nelements):
+        patch = np.flatnonzero(np.isin(mesh.t, mesh.t[:, own]).any(axis=0))
+        apart = centre[:, patch] - centre[:, [own]]
+        root = 1.0 / np.sqrt(1.0 / 32.0 + (apart**2).sum(axis=0))  # each of the 32 elements has that area
+        middle, *slope = np.linalg.lstsq((np.stack([np.ones(patch.size), *apart]) * root).T, root * means[patch])[0]
+        expected = middle + np.array(slope) @ (place[:, own] - centre[:, [own]])
+        assert found[own] == pytest.approx(expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("poisson", bending.RATIOS)
 def test_bent_tissue_has_no_swings(poisson: float) -> None:
     """A bent block: at all corners and midpoints within 1 % of the largest mean stress, though at 0.4999 the elements'

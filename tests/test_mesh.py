@@ -66,7 +66,8 @@ def test_receptor_line_lies_between_epidermis_and_dermis() -> None:
 
 
 def test_sizes_are_as_asked() -> None:
-    """On the skin, elements within the edge zone are at most edge_size long, none under the row above face_size."""
+    """On the skin, elements within the edge zone are at most edge_size long, none under the row above face_size, and
+    none of the receptor line above receptor_size; but for what sizes grow by within an element."""
     base = scene("device2")
     numerics, row, mesh = base.model.numerics, base.device.actuators, section("device2")
     nodes = mesh.mesh.doflocs[:, mesh.skin]
@@ -79,6 +80,10 @@ def test_sizes_are_as_asked() -> None:
     assert at_edge.any()
     assert length[at_edge].max() <= numerics.edge_size
     assert length[under].max() <= numerics.face_size * (1.0 + numerics.growth)
+    ends = mesh.mesh.p[:, mesh.mesh.facets[:, mesh.receptor_facets]]
+    read = np.hypot(*(ends[:, 1] - ends[:, 0]))
+    below = np.abs(ends[0].mean(axis=0)) < max(row.positions) + row.width / 2
+    assert read[below].max() <= numerics.receptor_size * (1.0 + numerics.growth)
 
 
 def test_same_scene_same_mesh_and_round_trip(tmp_path) -> None:  # type: ignore[no-untyped-def]

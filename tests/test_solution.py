@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import fingerpad.contact.linear_solution
 from fingerpad.contact.certificate import (
     CONE_LIMIT,
     DISSIPATION_LIMIT,
@@ -16,12 +18,13 @@ from fingerpad.contact.certificate import (
     Certificate,
     certify,
     reevaluated_gap,
+    require_within_reach,
 )
 from fingerpad.contact.criterion import END_TOLERANCE
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.faces import face_shape, touch
 from fingerpad.contact.force_curve import small_strain_curve
-from fingerpad.contact.formulation import ContactProblem, ContactState, rest, touching_height
+from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
 from fingerpad.contact.increment import AMISS
 from fingerpad.contact.linear_solution import (
     follow_condition,
@@ -33,6 +36,7 @@ from fingerpad.contact.linear_solution import (
 from fingerpad.contact.ownership import handed_over
 from fingerpad.contact.path import follow
 from fingerpad.contact.problem import contact_problem, named_stimulus
+from fingerpad.contact.profile import profile
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError
 from fingerpad.prediction.edges import mesh_device
@@ -45,7 +49,7 @@ from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.stimuli import phased
 from fingerpad.tissue.actuator_body import condense_body
-from fingerpad.tissue.compliance import MIRROR
+from fingerpad.tissue.compliance import MIRROR, CondensedSection
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
@@ -244,6 +248,32 @@ def test_what_is_shown_is_what_is_read() -> None:
         assert np.array_equal(read, both.reading.readouts[readout]), readout
 
 
+def tap(*heights: float) -> Condition:
+    """All four pins up to some heights [mm] above those of pre-indentation, one after the other."""
+    normal = np.repeat(np.array(heights)[:, None], 4, axis=1)
+    return Condition("tap", "test", 0.0, 1.0 + np.arange(len(heights)), normal, np.zeros_like(normal))
+
+
+def test_depth_is_the_largest_of_all_times() -> None:
+    """A tap is as much deeper than rest as it is high, though pins come back; but for rounding."""
+    still, tapped = (solve("device2", tap(*heights), Interface.SHEAR) for heights in ((0.0,), (0.02, 0.0)))
+    assert tapped.depth - still.depth == pytest.approx(0.02, abs=1e-9)
+
+
+def test_every_state_of_a_stimulus_is_certified(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those on the way as the last one."""
+    base, (section, body) = scene("device2"), condensed("device2")
+    pressed, heights = indent_device(base, section, body, Interface.SHEAR), []
+
+    def noting(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
+        heights.append(state.actuator[0, 1] - pressed.state.actuator[0, 1])
+        return certify(problem, section, state)
+
+    monkeypatch.setattr(fingerpad.contact.linear_solution, "certify", noting)
+    stimulate(base, section, pressed, tap(0.01, 0.03, 0.02))
+    assert heights == pytest.approx([0.01, 0.03, 0.02])
+
+
 def test_normal_and_lateral_histories_combine() -> None:
     """An arbitrary stimulus: each pin its own normal and tangential path; lifting one pin off unloads it alone."""
     time = np.array([1.0, 2.0, 3.0])
@@ -432,6 +462,44 @@ def test_skin_that_is_handed_over_keeps_actuators_in_order() -> None:
     assert np.all(np.diff(given) >= 0)
 
 
+def touching(x: np.ndarray, row: ActuatorRow, node: int) -> tuple[ContactProblem, ContactState]:
+    """Skin with nodes at x (n,) [mm], of which one touches a row that stands 0.1 mm deep in it."""
+    problem = ContactProblem(
+        position=np.stack([x, np.zeros(x.size)], axis=1),
+        compliance=np.eye(2 * x.size),
+        row=row,
+        body=None,
+        friction=0.5,
+        tolerance=1e-9,
+        max_cuts=10,
+    )
+    state = rest(problem, 0.1)
+    return problem, replace(state, status=np.where(np.arange(x.size) == node, Status.STICK, Status.OPEN))
+
+
+@pytest.mark.parametrize(("node", "is_within"), [(0, False), (1, True), (2, False), (3, False), (4, True), (5, False)])
+def test_contact_ends_beside_skin_that_is_not_considered(node: int, is_within: bool) -> None:
+    """Elements of 1 mm, without the one in the middle, whose ends bear half of it: they are no neighbours."""
+    problem, state = touching(np.array([0.0, 1.0, 2.0, 4.0, 5.0, 6.0]), ActuatorRow((3.0,), 8.0, 0.0), node)
+    section = replace(condensed("device2")[0], weight=np.array([0.5, 1.0, 1.0, 1.0, 1.0, 0.5]))
+    with nullcontext() if is_within else pytest.raises(ReachError, match="edge of the modelled contact zone"):
+        require_within_reach(problem, section, state)
+
+
+@pytest.mark.parametrize(("share", "is_within"), [(0.5, True), (2.0, False)])
+def test_skin_that_presses_into_the_neighbour_of_its_actuator_is_refused(share: float, is_within: bool) -> None:
+    """An open node of the left pin lies over the right one's face, deeper than PENETRATION_LIMIT allows or less."""
+    x = np.arange(-1.0, 3.1, 0.25)
+    problem, state = touching(x, ActuatorRow((0.0, 2.0), 1.0, 0.1), 4)
+    last = int(np.flatnonzero(state.given == 0)[-1])
+    place, gap = state.place.copy(), state.gap.copy()
+    place[last] = 1.9  # 0.1 mm to the left of the right pin's middle
+    gap[last] = profile(problem.row, place[last : last + 1])[0][0] - share * PENETRATION_LIMIT * 0.1
+    section = replace(condensed("device2")[0], weight=np.full(x.size, 0.25))
+    with nullcontext() if is_within else pytest.raises(ReachError, match="skin that only its neighbour's may touch"):
+        require_within_reach(problem, section, replace(state, place=place, gap=gap))
+
+
 @pytest.mark.parametrize("interface", Interface)
 @pytest.mark.parametrize("force", [1e-4, 1e-2])
 def test_light_forces_are_met_as_well(force: float, interface: Interface) -> None:
@@ -475,6 +543,7 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
         return certify(tampered[0], found, tampered[1])
 
     left_over = problem.tolerance / PENETRATION_LIMIT  # by the solver, of gaps, over what a certificate allows
+    tenth = 5e-4 / PENETRATION_LIMIT  # of the error that strain scores aim at
     assert certify(problem, found, state).penetration_share < left_over
     assert certified(lowered(0.5)).penetration_share == pytest.approx(0.5, abs=left_over)
     assert certified(lowered(-0.5)).gap_share == pytest.approx(0.5, abs=left_over)
@@ -483,6 +552,7 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
     for law, tampered in (
         ("contact residual", (problem, replace(state, residual=2.0 * problem.tolerance))),
         ("penetration", lowered(2.0)),
+        ("penetration", lowered(tenth)),
         ("gap in contact", lowered(-2.0)),
         ("tension", pulling(2.0)),
         ("excess over the friction cone", sheared(2.0)),

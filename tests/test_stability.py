@@ -23,6 +23,7 @@ from fingerpad.scene.finger import Finger, Layer, Material
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics, Law
 from fingerpad.stress.randomscene import STILL
+from fingerpad.tissue.compliance import CondensedBody
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
 from fingerpad.tissue.factors import factorise
 from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
@@ -100,13 +101,13 @@ def test_a_vertical_tangent_is_a_named_error() -> None:
         pressed(given, 5.2)
 
 
-def springs(stiffness: FloatArray, status: list[Status]) -> int:
+def springs(stiffness: FloatArray, status: list[Status], body: CondensedBody | None = None) -> int:
     """Unstable directions of two nodes on springs (4, 4)."""
     problem = ContactProblem(
         position=np.array([[0.0, 0.0], [1.0, 0.0]]),
         compliance=np.linalg.inv(stiffness),
         row=ActuatorRow((0.5,), 3.0, 0.0),
-        body=None,
+        body=body,
         friction=0.5,
         tolerance=1e-9,
         max_cuts=5,
@@ -125,6 +126,15 @@ def test_contact_holds_what_is_unstable_without() -> None:
     assert springs(pulled, [open_, open_]) == 2
     assert springs(pulled, [slip, slip]) == 1
     assert springs(pulled, [stick, slip]) == 0
+
+
+@pytest.mark.parametrize(("softer", "unstable"), [(0.5, 0), (2.0, 1)])
+def test_a_face_softer_than_what_it_presses_does_not_hold_it(softer: float, unstable: int) -> None:
+    """Springs in series, one of stiffness -1: of negative compliance together as long as the face's is below 1."""
+    whole = np.kron(np.ones((3, 3)), softer * np.eye(2))  # the face moves as one
+    body = CondensedBody(np.array([-1.5, 0.0, 1.5]), whole)
+    falling = np.diag([1.0, -1.0, 1.0, 1.0])
+    assert springs(falling, [Status.STICK, Status.OPEN], body) == unstable
 
 
 @cache

@@ -17,6 +17,7 @@ from fingerpad.scene.recording import FARTHEST, LATEST, MOST_TIMES, read_recordi
 from fingerpad.scene.scenefile import recordings
 from fingerpad.scene.stimuli import KINDS, alternating, alternating_cycles, measured, phased, phased_cycles
 from fingerpad.scene.validation import check_device
+from fingerpad.vibration import cycling
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"
@@ -110,6 +111,18 @@ def test_a_snapshot_does_not_tell_where_a_wave_runs(playback: str) -> None:
     made = phased(stimulus, count, ROOT)
     for one, other in zip(made[:3], made[:2:-1], strict=True):
         assert one.same_stimulus(other) is (playback == "snapshot")
+
+
+def test_waves_run_from_pins_that_are_ahead() -> None:
+    """As vibrations and played in time: pin i is ahead by i quarters of a period, at A cos or A sin of w t + k_i p."""
+    stimulus = {**PHASED, "direction": "normal", "half_cycle": "first", "phases": [90], "playback": "cycle"}
+    stimulus["dispersions"] = {"wave": [0, 1, 2]}
+    ahead = np.radians([0.0, 90.0, 180.0])
+    (cycle,), (played,) = phased_cycles(stimulus, 3), phased(stimulus, 3, ROOT)
+    # but for rounding
+    assert cycling.displacement(cycle, 0.7)[:, 1] == pytest.approx(0.02 * np.cos(0.7 + ahead), abs=1e-12)
+    expected = 0.02 * np.sin(2.0 * np.pi * played.time[:, None] + ahead)
+    assert played.normal == pytest.approx(expected, abs=1e-12)
 
 
 def test_a_snapshot_needs_an_actuator_whose_peak_it_is() -> None:

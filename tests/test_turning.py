@@ -72,7 +72,7 @@ def test_without_friction_the_work_done_is_stored() -> None:
         state, work = work_of(each, rest(each, touching_height(each)), lift(each, 0.0, DEPTH), 100)
         assert np.abs(profile(each.row, state.place)[1][state.status != Status.OPEN]).max() > 0.1  # the edges do press
         missing.append(abs(work - stored(each, state)) / work)
-    assert missing[0] < (1 / 100) ** 2  # trapezoids of 1/100 of the way
+    assert missing[0] < 0.05 / 100**2  # trapezoids of 1/100 of the way: 0.02 of its square for 25 to 200 (measured)
     assert missing[1] > 10.0 * missing[0]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -20,8 +21,9 @@ from fingerpad.readouts.measures import Measure
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.readouts.roughness import score_rows
 from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.device import Condition
 from fingerpad.scene.readout import Side
-from scenes import condensed, scene, section, solved
+from scenes import condensed, scene, section, solve, solved
 
 DEVICE = "device2"
 
@@ -53,6 +55,22 @@ def test_configured_variant_has_the_configured_score() -> None:
         expected += score_rows(scene(DEVICE), condition, Interface.SHEAR, read)
     assert [row["score"] for row in usual] == pytest.approx([row["score"] for row in expected], rel=1e-12)
     assert [row["unit"] for row in usual] == [row["unit"] for row in expected]
+
+
+def test_variants_are_read_when_a_stimulus_has_settled() -> None:
+    """Pins go to, and half as far fro; the stroke to, which changes more, is not read."""
+    base = scene(DEVICE)
+    tangential = np.outer([0.02, -0.01], [1.0, -1.0, 1.0, -1.0])
+    strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential, 1)
+    given = replace(base, device=replace(base.device, conditions=(strokes,), cycles=()))
+    solution = solve(DEVICE, strokes, Interface.FRICTIONLESS)
+    found = variant_rows(given, {Side.DERMIS: condensed(DEVICE)[0]}, {("strokes", Interface.FRICTIONLESS): solution})
+    usual = [row for row in found if row["measure"] == Measure.MAXIMUM_PRINCIPAL and row["wavelength_factor"] == 1.0]
+    resampling = resampling_to_grid(solution.arc, given.model.gabor.spacing)
+    read = filtered_readouts(resampling, solution.reading.readouts, given.model.gabor)
+    expected = score_rows(given, strokes, Interface.FRICTIONLESS, read)
+    assert solution.reading.time == 1
+    assert [row["score"] for row in usual] == pytest.approx([row["score"] for row in expected], rel=1e-12)
 
 
 def test_energy_and_stress_have_their_unit() -> None:

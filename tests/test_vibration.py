@@ -12,9 +12,11 @@ import fingerpad.vibration.cycling
 from fingerpad.contact.certificate import certify
 from fingerpad.contact.linear_solution import Indented, indent_device
 from fingerpad.contact.path import follow
-from fingerpad.errors import CycleError, ReachError, SceneError
+from fingerpad.errors import CycleError, DepthError, ReachError, SceneError
 from fingerpad.prediction.edges import mesh_device
 from fingerpad.prediction.scoring import condense_mesh
+from fingerpad.readouts.roughness import scene_span
+from fingerpad.readouts.strain import maximum_principal
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow, Cycle
 from fingerpad.scene.readout import Readout
@@ -106,6 +108,18 @@ def test_material_is_stiffer_at_once_by_what_relaxes() -> None:
     assert stiffening(relaxation, 1j * speed) == pytest.approx(storage + 1j * loss)
 
 
+def test_layers_that_relax_are_stiffened_to_their_storage_modulus() -> None:
+    """What they lose does not stiffen them; the others stay as they are."""
+    given = coarse()
+    relaxation, speed = given.model.vibration.relaxation, 2.0 * np.pi * 40.0
+    shares, squares = np.array(relaxation.shares), (speed * np.array(relaxation.times)) ** 2
+    storage = 1.0 + np.sum(shares * squares / (1.0 + squares)) / (1.0 - shares.sum())
+    stiff = stiffened(given, 1j * speed).model.finger
+    for before, after in zip(given.model.finger.layers, stiff.layers, strict=True):
+        factor = storage if before.name in relaxation.layers else 1.0
+        assert after.material.modulus == pytest.approx(factor * before.material.modulus, rel=1e-12), before.name
+
+
 def test_strain_creeps_where_stress_relaxes_to_nothing() -> None:
     relaxation = scene("device2").model.vibration.relaxation
     times = retardation_times(relaxation)
@@ -151,7 +165,8 @@ def test_maps_hold_at_rates_they_were_not_found_from() -> None:
 @pytest.mark.parametrize("frequency", [0.2, 5.0, 80.0])
 def test_small_vibration_is_that_of_the_frequency_domain(frequency: float) -> None:
     # flat faces and no friction: nodes in contact move by a normally and bear no shear, so that f = C_yy(i w)^-1 a, and
-    # the time domain must come to Re(E f exp(i w t)), but for steps linear in force: (w h)^2 / 12 = 0.3 % of 32
+    # the time domain must come to Re(E f exp(i w t)), but for steps linear in force: (w h)^2 / 12 = 0.3 % of 32, of
+    # what creeps, which is no more than 12 % of strain here: 4e-4 (measured: 1.2e-4)
     indented, steps = pressed(Interface.FRICTIONLESS, sharp=True), 32
     found = vibration(Interface.FRICTIONLESS, normal(SMALL), frequency, DEEP, steps, sharp=True)
     relaxed = condense_section(mesh(("device2", True)), coarse(sharp=True))
@@ -165,7 +180,7 @@ def test_small_vibration_is_that_of_the_frequency_domain(frequency: float) -> No
     force = np.linalg.solve(compliance[np.ix_(unknowns, unknowns)], moved)
     expected = (strain[:, unknowns] @ force).real
     got = found.strain[-1] - found.strain.mean(axis=0)
-    assert np.linalg.norm(got - expected) < 0.01 * np.linalg.norm(expected)
+    assert np.linalg.norm(got - expected) < 5e-4 * np.linalg.norm(expected)
 
 
 def test_strain_does_not_know_the_frequency_where_all_tissue_relaxes_as_one() -> None:
@@ -175,7 +190,8 @@ def test_strain_does_not_know_the_frequency_where_all_tissue_relaxes_as_one() ->
         for frequency in (0.0, 150.0)
     )
     ranges = [np.ptp(each.strain, axis=0) for each in (slow, fast)]
-    assert np.linalg.norm(ranges[1] - ranges[0]) < 1e-3 * np.linalg.norm(ranges[0])  # a millionth of it opens at edges
+    # a millionth at most opens at edges (measured: 6e-9)
+    assert np.linalg.norm(ranges[1] - ranges[0]) < 1e-6 * np.linalg.norm(ranges[0])
     forces = [np.ptp([state.force[:, 1] for state in each.states], axis=0) for each in (slow, fast)]
     stiffer = np.linalg.norm(forces[1]) / np.linalg.norm(forces[0])
     expected = abs(stiffening(coarse().model.vibration.relaxation, 2j * np.pi * 150.0))
@@ -217,6 +233,15 @@ def test_every_state_of_the_last_cycle_is_certified() -> None:
         certified_vibration(coarse(), condensed, creeping(), pressed(Interface.FRICTIONLESS), far, 0.0)
 
 
+def test_a_vibration_through_the_tissue_is_refused() -> None:
+    """Its highest place counts, not where it is read."""
+    condensed = condense_mesh(coarse(), mesh(("device2", False)))
+    late = replace(normal(5.0), normal=1j * normal(5.0).normal)
+    for cycle in (normal(5.0), late):
+        with pytest.raises(DepthError, match=r"condition=normal, .*, slowly: .* mm deep, into 5 mm of tissue"):
+            certified_vibration(coarse(), condensed, creeping(), pressed(Interface.FRICTIONLESS), cycle, 0.0)
+
+
 def test_cycles_that_do_not_repeat_say_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two cycles are too few for any: nothing can have been repeated. Without friction none walks on."""
     monkeypatch.setattr(fingerpad.vibration.cycling, "MAX_CYCLES", 2)
@@ -247,7 +272,7 @@ def test_mass_is_density_times_area() -> None:
     both = np.ones(matrix.shape[0])  # every node moves by 1 in x and in y
     finger = scene("device2").model.finger
     soft = np.pi / 4.0 * (finger.width * finger.height - finger.bone_width * finger.bone_height)
-    assert both @ matrix @ both / 2.0 == pytest.approx(2.0 * soft, rel=1e-3)  # curved sides are parabolas
+    assert both @ matrix @ both / 2.0 == pytest.approx(2.0 * soft, rel=1e-7)  # parabolas for arcs: 6e-9 (measured)
 
 
 def test_inertia_grows_with_the_square_of_frequency_and_is_nothing_without_mass() -> None:
@@ -258,8 +283,45 @@ def test_inertia_grows_with_the_square_of_frequency_and_is_nothing_without_mass(
         still, moving = (condense_vibrating(section, given, frequency, density) for density in (0.0, 1.1e-9))
         assert inertia_effect(given, stuck(indented, cycle), still, still) == 0.0
         effects.append(inertia_effect(given, stuck(indented, cycle), still, moving))
-    # four times, more by resonance (the effect itself, 6 %) and less by stiffening (9 % from 40 to 80 Hz)
-    assert 0.85 < effects[1] / (4.0 * effects[0]) < 1.1
+    # four times, more by resonance (by less than the effect itself, 5 %) and less by stiffening (8 % from 40 to 80 Hz)
+    assert 0.9 < effects[1] / (4.0 * effects[0]) < 1.0
+
+
+def test_mass_makes_tissue_yield_more_below_resonance() -> None:
+    """K - w^2 M is softer than K as long as it is positive: no pattern of forces moves the skin less, but for rounding.
+    K is that of tissue stiffened by its storage modulus."""
+    given, frequency = coarse(), 80.0
+    at = condense_vibrating_at(mesh(("device2", False)), given, frequency)
+    stiff = condense_section(mesh(("device2", False)), stiffened(given, 2j * np.pi * frequency))
+    scale = np.abs(stiff.compliance).max()
+    assert np.abs(at.still.compliance - stiff.compliance).max() < 1e-12 * scale
+    softer = np.linalg.eigvalsh(at.moving.compliance - at.still.compliance)
+    assert softer.min() > -1e-10 * scale
+    assert softer.max() > scale  # mass is felt
+
+
+def answers(section: CondensedSection, change: np.ndarray) -> CondensedSection:
+    """The section with receptors stretched along the skin by the sum of all forces across it, and strained by changes
+    (m, 3) more."""
+    stretched = np.tile([1.0, 0.0, 0.0], (section.arc.size, 1)) + change
+    return replace(section, strain=np.outer(stretched.ravel(), np.tile([0.0, 1.0], section.weight.size)))
+
+
+def test_inertia_is_the_norm_of_strain_within_the_span() -> None:
+    """Of the tensor: gxy = 2 is exy = eyx = 1, as large as a stretch of sqrt(2). Beyond the span nothing counts."""
+    given = coarse()
+    section = condense_section(mesh(("device2", False)), given)
+    driven, nothing = stuck(pressed(Interface.SHEAR), normal(0.01, (1.0,) * 4)), np.zeros((section.arc.size, 3))
+    start, stop = scene_span(given)
+    beyond = (section.arc < start) | (section.arc > stop)
+    assert beyond.any()
+    assert not beyond.all()
+    for change, effect in (([0.0, 0.0, 2.0], 2.0**0.5), ([0.0, 1.0, 0.0], 1.0), ([1.0, 0.0, 0.0], 1.0)):
+        everywhere = answers(section, nothing + change)
+        outside = answers(section, nothing + beyond[:, None] * change)
+        still = answers(section, nothing)
+        assert inertia_effect(given, driven, still, everywhere) == pytest.approx(effect, rel=1e-12)
+        assert inertia_effect(given, driven, still, outside) == 0.0
 
 
 def test_skin_that_never_opens_moves_with_the_faces_where_nothing_sticks() -> None:
@@ -365,6 +427,15 @@ def test_what_rounding_leaves_of_a_change_is_none() -> None:
     assert not cyclic_readouts(noisy)[Readout.CHANGE_OF_STRAIN].any()
 
 
+def test_vibrations_are_read_at_phase_zero() -> None:
+    """With which a cycle ends; the change is that from the cycle's mean."""
+    strains = np.random.default_rng(4).standard_normal((8, 30))
+    found = cyclic_readouts(strains)
+    measured = np.array([maximum_principal(each) for each in strains])
+    assert np.array_equal(found[Readout.STRAIN], measured[-1])
+    assert found[Readout.CHANGE_OF_STRAIN] == pytest.approx(measured[-1] - measured.mean(axis=0), rel=1e-12)
+
+
 def test_inertia_does_not_know_how_receptors_are_spaced() -> None:
     """Maps of one point of the line, or of three there, to the same strains: linear along the arc."""
     given = coarse()
@@ -378,7 +449,8 @@ def test_inertia_does_not_know_how_receptors_are_spaced() -> None:
         still = replace(section, arc=arc, strain=_interpolated(section, arc))
         moving = replace(still, strain=still.strain * np.repeat(1.0 + 0.01 * np.abs(arc), 3)[:, None])
         effects.append(inertia_effect(given, driven, still, moving))
-    assert effects[1] == pytest.approx(effects[0], rel=0.01)
+    # but for what trapezoids miss of squares, which are no longer linear (measured: 7e-5)
+    assert effects[1] == pytest.approx(effects[0], rel=1e-3)
 
 
 def _interpolated(section: CondensedSection, arc: np.ndarray) -> np.ndarray:

@@ -62,7 +62,9 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
             if any(map(str.strip, row)):
                 lines.append((line, [cell.strip() for cell in row]))
     except OSError as failure:
-        raise error(f"{path}: cannot be read: {failure.strerror}") from failure
+        close = get_close_matches(path.name, [other.name for other in sorted(path.parent.glob("*.csv"))], n=1)
+        hint = f"; did you mean {close[0]}?" if close and not path.exists() else ""
+        raise error(f"{path}: cannot be read: {failure.strerror}{hint}") from failure
     except UnicodeDecodeError as failure:
         line = 1 + failure.object.count(b"\n", 0, failure.start)
         found = f"a byte {failure.object[failure.start]:#x} that is not UTF-8"

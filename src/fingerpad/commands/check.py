@@ -10,7 +10,7 @@ from tqdm import tqdm
 
 from ..figures.section import section_figure
 from ..figures.style import save_as
-from ..prediction.caveats import stimulus_caveats
+from ..prediction.caveats import DEEP, stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
@@ -34,6 +34,7 @@ TOO_WIDE = (
 # of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
 # friction
 WIDE = 0.3
+TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 PRESSED = {
@@ -83,10 +84,11 @@ def described(scene: Scene) -> str:
     places = ", ".join(f"{x:g}" for x in row.positions)
     rise, pad = _rise(scene), scene.model.finger.pad_thickness
     law = scene.model.contact
-    deep = law.criterion is Criterion.FULL and rise > WIDE * pad
+    wide = law.criterion is Criterion.FULL and rise > WIDE * pad
     farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
     warned = {
-        TOO_WIDE: deep,
+        TOO_WIDE: wide,
+        TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
         TOO_FAR: (law.depth if law.criterion is Criterion.DEPTH else rise) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }

@@ -84,7 +84,9 @@ def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str
 
 def add_picture(parser: argparse.ArgumentParser, what: str) -> None:
     """The option for a picture; `what` says what it shows."""
-    parser.add_argument("-o", "--output", type=Path, metavar="PICTURE", help=f"{what} ({', '.join(PICTURES)})")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="PICTURE", help=f"{what} ({', '.join(PICTURES)}); replaced if it is there"
+    )
 
 
 def picture_of(options: argparse.Namespace) -> Path | None:

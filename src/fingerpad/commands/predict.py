@@ -18,12 +18,9 @@ from ..figures.style import save_as
 from ..figures.variation import variation_figure
 from ..prediction.forecast import forecast, steps
 from ..prediction.orders import orders
-from ..readouts.roughness import KEY
-from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
-from ..scene.validation import shown
-from ..scene.variation import NO_VALUES, unit_of
+from ..scene.variation import unit_of
 from ..store import csv_text
 from .options import (
     add_kinematics,
@@ -35,12 +32,13 @@ from .options import (
     require_effect,
     variations,
 )
-from .printing import aligned, titled
+from .score_table import as_table, named
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
 discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
-read-out. Below the table stands what to know before believing it.
+read-out; where errors leave it open, both ends stand there (1-3). Below the table stands what to know before believing
+it.
 
 examples:
   fingerpad predict config/devices/device2.yaml
@@ -50,8 +48,6 @@ examples:
   fingerpad predict --vary contact.friction=0.3,0.6,1.0 config/devices/device2.yaml
   fingerpad predict --vary actuators.pitch=1.5,2,2.5,3 -o pitch.png config/devices/device2.yaml
 """
-COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
-RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -93,7 +89,7 @@ def run(options: argparse.Namespace) -> None:
                 tables: dict[str, list[dict[str, Any]]] = {}
                 for scene, values in zip(own, varied, strict=True):
                     bar.set_description(scene.device.name)
-                    predicted = tables[_named(values)] = forecast(scene, error, bar.update)
+                    predicted = tables[named(values)] = forecast(scene, error, bar.update)
                     predictions.append(predicted)
                     found = [values | row for row in predicted]
                     if options.csv:
@@ -105,7 +101,7 @@ def run(options: argparse.Namespace) -> None:
                     rows += found
                 if is_text and len(varied) > 1:
                     title = f"{own[0].device.name}, {kinematics} strain: {len(varied)} variants"
-                    said = orders(tables) if error else ["their orders are told with errors alone, not with --no-error"]
+                    said = orders(tables) if error else ["orders need errors: leave out --no-error"]
                     bar.write("\n".join(["", title, *said]))
     finally:
         if options.json:
@@ -127,62 +123,3 @@ def _drawn_key(devices: Sequence[Path], varied: Sequence[Mapping[str, Any]]) -> 
         found = f"{len(devices)} devices" if len(devices) != 1 else listed(several) or "no key with several values"
         raise UsageError(f"-o: found {found}; allowed: one device, and one key with several values in --vary")
     return several[0]
-
-
-def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
-    """Title, aligned table and caveats of one device, with these values in place of those in its files."""
-    title = ", ".join([titled(scene), *([_named(values)] if values else [])])
-    ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
-    # why there is none is a caveat, as are the notes of scores
-    notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
-    cells = [
-        [note if column == "note" else _shown(column, row[column]) for column in COLUMNS]
-        for row, note in zip(ordered, notes, strict=True)
-    ]
-    columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
-    chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
-    lines = [title, *_pressed(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
-    told: dict[str, list[Mapping[str, Any]]] = {}
-    for row in ordered:
-        for caveat in row["caveats"]:
-            told.setdefault(caveat, []).append(row)
-    every = [condition.name for condition in scene.device.conditions]
-    lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in told.items()]
-    return "\n".join(lines)
-
-
-def _pressed(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """How high above the pad's lowest point, and how hard, the device was pressed at each interface, if it was."""
-    preloads = dict.fromkeys(
-        f"{row['indentation_mm']:.3g} mm and {row['force_N_per_mm']:.3g} N/mm ({row['interface']})"
-        for row in rows
-        if row["indentation_mm"] is not None
-    )
-    return [f"pre-indentation: {', '.join(preloads)}"] if preloads else []
-
-
-def _named(values: Mapping[str, Any]) -> str:
-    """What a variant differs in, in words."""
-    return ", ".join(f"{key} {shown(value)}" for key, value in values.items())
-
-
-def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
-    """Which scores some rows are, each condition named once an interface; or that it is `every` condition."""
-    readouts: dict[tuple[str, str], list[str]] = {}
-    for row in rows:
-        readouts.setdefault((row["interface"], row["condition"]), []).append(row["readout"])
-    conditions: dict[tuple[str, str], list[str]] = {}
-    for (interface, condition), own in readouts.items():
-        conditions.setdefault((interface, " and ".join(own)), []).append(condition)
-    return "; ".join(
-        f"{'all conditions' if len(every) > 1 and own == [*every] else ', '.join(own)} ({interface}, {both})"
-        for (interface, both), own in conditions.items()
-    )
-
-
-def _shown(column: str, value: Any) -> str:
-    if value is None:
-        return ""
-    if column in KEY or not isinstance(value, float):
-        return str(value)
-    return f"{value:.1e}" if column == "score_error" else f"{value:.5g}"

@@ -50,7 +50,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
     whole = figure.add_subplot(grid[0, :])
     _draw_section(whole, section)
     _label(whole, model, section)
-    letter(whole, "A", (0.0, -8.0))
+    letter(whole, "A", (-12.0, -8.0))
     for number, device in enumerate(devices):
         block, column = divmod(number, columns)
         axes = figure.add_subplot(grid[1 + block, column])
@@ -152,11 +152,11 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, size: float) 
     draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH * size)
     for x in row.positions:
         middle = face + np.array([x, -_arrow_depth(row, size)])
-        for direction in _directions(device):
+        for direction, heads in _directions(device):
             half = ARROW * size / 2.0 * np.array(direction)
             axes.annotate(
                 "", tuple(middle - half), tuple(middle + half),
-                arrowprops={"linewidth": DRIVEN, "mutation_scale": HEAD, **DOUBLE},
+                arrowprops={"linewidth": DRIVEN, "mutation_scale": HEAD, **DOUBLE, "arrowstyle": heads},
             )  # fmt: skip
 
 
@@ -165,12 +165,23 @@ def _arrow_depth(row: ActuatorRow, size: float) -> float:
     return row.body.thickness + BASE + ARROW * size / 2.0 if row.body else DEPTH * size / 2.0
 
 
-def _directions(device: Device) -> list[tuple[float, float]]:
-    """Directions in which actuators are driven, as unit vectors: one if they move as far along the skin as into it."""
+def _directions(device: Device) -> list[tuple[tuple[float, float], str]]:
+    """Directions in which actuators are driven, as unit vectors: one if they move as far along the skin as into it.
+    With each the heads of its arrow: at one end if no actuator goes the other way, and none would in a cycle.
+    """
     if all(np.array_equal(each.normal, each.tangential) for each in device.conditions):
-        return [(math.sqrt(0.5), math.sqrt(0.5))]
-    axes = (("normal", (0.0, 1.0)), ("tangential", (1.0, 0.0)))
-    return [unit for driven, unit in axes if any(getattr(each, driven).any() for each in device.conditions)]
+        axes = {"normal": (math.sqrt(0.5), math.sqrt(0.5))}
+    else:
+        axes = {"normal": (0.0, 1.0), "tangential": (1.0, 0.0)}
+    moved = {driven: np.concatenate([getattr(each, driven).ravel() for each in device.conditions]) for driven in axes}
+    return [(unit, _heads(moved[driven], bool(device.cycles))) for driven, unit in axes.items() if moved[driven].any()]
+
+
+def _heads(moved: FloatArray, cyclic: bool) -> str:
+    """Style of an arrow, from its far end, for what actuators move by (n,) [mm]."""
+    if cyclic or (moved.min() < 0.0 < moved.max()):
+        return "<->"
+    return "<-" if moved.max() > 0.0 else "->"
 
 
 def _described(row: ActuatorRow) -> str:

@@ -155,7 +155,7 @@ def save_as(figure: Figure, path: Path) -> None:
     """Write one file, in the format that its ending names, without dates and versions: same figure, same bytes."""
     suffix = path.suffix.removeprefix(".")
     with mpl.rc_context(RC), replacing(path) as part:
-        figure.align_ylabels()
+        figure.align_ylabels([axes for axes in figure.axes if axes.get_ylabel()])  # a panel without has no say
         if engine := figure.get_layout_engine():
             engine.execute(figure)
         figure.set_layout_engine(None)

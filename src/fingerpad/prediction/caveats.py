@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -37,10 +38,16 @@ SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' 
 
 
 def stimulus_caveats(condition: Condition) -> list[str]:
-    """Strokes so short that they may be in other units than mm."""
-    stroke = condition.stroke
-    tiny = 0.0 < stroke < SHORTEST
-    return [f"moves actuators by {stroke:.2g} mm at most: are displacements in mm?"] if tiny else []
+    """Nothing that moves; strokes and phases so small that they may be in other units than mm and degrees."""
+    stroke, phase = condition.stroke, condition.phase_deg
+    found = []
+    if stroke == 0.0:
+        found.append("moves no actuator")
+    elif stroke < SHORTEST:
+        found.append(f"moves actuators by {stroke:.2g} mm at most: are displacements in mm?")
+    if phase != round(phase) and abs(phase) < 2.0 * math.pi:
+        found.append(f"has a phase of {phase:g} degrees: are phases in degrees?")
+    return found
 
 
 def scene_caveats(scene: Scene) -> list[str]:
@@ -130,6 +137,15 @@ def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
         ]
         found.append([f"errors are larger than the difference to {', '.join(close)}"] if close else [])
     return found
+
+
+def rank_range(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
+    """The first and the last rank, 1 the largest, that errors leave the score of a row among those of its device,
+    interface and read-out; scores of which one or its error is not there are left out.
+    """
+    found = [_relation(row, other) for other in rows if all(row[column] == other[column] for column in KEY)]
+    first = 1 + found.count(Relation.LESS)
+    return first, first + found.count(Relation.NEAR)
 
 
 def is_resolved(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:

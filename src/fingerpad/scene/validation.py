@@ -13,8 +13,10 @@ import math
 import operator
 import re
 import sys
+import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +24,7 @@ import yaml
 
 from ..errors import SceneError
 from ..imports import without
+from .contact_law import Criterion
 from .scene import Model, Scene
 from .scenefile import build_device, build_model, read_yaml, with_contact
 from .variation import NO_VALUES, shared_out, with_value
@@ -90,7 +93,19 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     with _located(where, schema, "stimulus"):
         device = build_device(path, document)
     with _located(where, schema, "actuators"):
-        return Scene(with_contact(model, document), device)
+        scene = Scene(with_contact(model, document), device)
+    if not values:  # what is varied may end pre-indentation otherwise
+        _report(where, _idle_preloads(document, schema, scene.model.contact.criterion))
+    return scene
+
+
+def _idle_preloads(document: dict[str, Any], schema: Schema, criterion: Criterion) -> Iterator[Problem]:
+    """Depth and force that a device's document has though pre-indentation ends at neither."""
+    for key in (Criterion.DEPTH, Criterion.FORCE):
+        if key in document.get("contact", {}) and criterion is not key:
+            about = schema["properties"]["contact"]["properties"][key]["description"]
+            found = f"a value without effect, as contact.criterion is {criterion}"
+            yield _problem(2, f"contact.{key}", found, f"one beside contact.criterion: {key}", about=about)
 
 
 def known_devices(folder: Path) -> list[str]:
@@ -372,11 +387,14 @@ def _decimal_comma(found: Mapping[Any, Any], allowed: Schema) -> str:
 
 
 def _scaled(value: Any, factor: float) -> Any:
-    """A number, or a list of numbers, times a factor and without rounding noise; None if that cannot be."""
+    """A number, or a list of numbers, times a factor, to the digits that it has; None if that cannot be."""
     if isinstance(value, list):
         scaled = [_scaled(entry, factor) for entry in value]
         return None if None in scaled else scaled
-    return float(f"{value * factor:.12g}") if _is_number(value) and _is_number(factor) else None
+    if not (_is_number(value) and _is_number(factor)):
+        return None
+    digits = len(Decimal(str(value)).normalize().as_tuple().digits)
+    return float(f"{value * factor:.{digits}g}")
 
 
 def _closest(word: object, known: Iterable[str]) -> str:
@@ -390,9 +408,10 @@ def _as_name(text: object) -> str:
     """The name that comes nearest to a text that is none, or nothing."""
     if isinstance(text, bool):  # an unquoted no, which YAML takes for false
         return f'"{"yes" if text else "no"}" in quotes'
-    if not str(text).isascii():
+    plain = re.sub("[\u0300-\u036f]", "", unicodedata.normalize("NFKD", str(text)))  # without accents
+    if not plain.isascii():
         return ""
-    name = re.sub("[^a-z0-9]+", "_", str(text).lower()).strip("_").lstrip("0123456789_")
+    name = re.sub("[^a-z0-9]+", "_", plain.lower()).strip("_").lstrip("0123456789_")
     return name if name != text else ""
 
 

@@ -1,0 +1,98 @@
+"""The table in which `fingerpad predict` prints scores: how the device was pressed, ranks, and caveats below."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
+from typing import Any
+
+from ..prediction.caveats import rank_range
+from ..readouts.roughness import KEY
+from ..scene.scene import Scene
+from ..scene.validation import shown
+from ..scene.variation import NO_VALUES
+from .printing import aligned, titled
+
+COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
+SHARE = re.compile(r"\d+(?:\.\d+)?%")
+RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
+
+
+def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
+    """Title, aligned table and caveats of one device, with these values in place of those in its files."""
+    title = ", ".join([titled(scene), *([named(values)] if values else [])])
+    ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
+    # why there is none is a caveat, as are the notes of scores
+    notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
+    cells = [
+        [{"note": note, "rank": _ranked(row, ordered)}.get(column) or _shown(column, row[column]) for column in COLUMNS]
+        for row, note in zip(ordered, notes, strict=True)
+    ]
+    columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
+    chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
+    lines = [title, *_pressed(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
+    every = [condition.name for condition in scene.device.conditions]
+    lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in _told(ordered)]
+    return "\n".join(lines)
+
+
+def _told(rows: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, list[Mapping[str, Any]]]]:
+    """Each caveat once, with the rows that have it; those that differ in one share alone as one, with both ends."""
+    alike: dict[str, dict[str, list[Mapping[str, Any]]]] = {}
+    for row in rows:
+        for caveat in row["caveats"]:
+            kind = SHARE.sub("%", caveat) if len(SHARE.findall(caveat)) == 1 else caveat
+            alike.setdefault(kind, {}).setdefault(caveat, []).append(row)
+    for caveats in alike.values():
+        first, own = next(iter(caveats)), list(chain.from_iterable(caveats.values()))
+        shares = sorted((SHARE.findall(caveat)[0] for caveat in caveats), key=_size) if len(caveats) > 1 else []
+        yield SHARE.sub(f"{shares[0]} to {shares[-1]}", first) if shares else first, own
+
+
+def _size(share: str) -> float:
+    """What a share in words comes to [%]."""
+    return float(share.removesuffix("%"))
+
+
+def _pressed(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """How high above the pad's lowest point, and how hard, the device was pressed at each interface, if it was."""
+    preloads = dict.fromkeys(
+        f"{row['indentation_mm']:.3g} mm and {row['force_N_per_mm']:.3g} N/mm ({row['interface']})"
+        for row in rows
+        if row["indentation_mm"] is not None
+    )
+    return [f"pre-indentation: {', '.join(preloads)}"] if preloads else []
+
+
+def named(values: Mapping[str, Any]) -> str:
+    """What a variant differs in, in words."""
+    return ", ".join(f"{key} {shown(value)}" for key, value in values.items())
+
+
+def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
+    """Which scores some rows are, each condition named once an interface; or that it is `every` condition."""
+    readouts: dict[tuple[str, str], list[str]] = {}
+    for row in rows:
+        readouts.setdefault((row["interface"], row["condition"]), []).append(row["readout"])
+    conditions: dict[tuple[str, str], list[str]] = {}
+    for (interface, condition), own in readouts.items():
+        conditions.setdefault((interface, " and ".join(own)), []).append(condition)
+    return "; ".join(
+        f"{'all conditions' if len(every) > 1 and own == [*every] else ', '.join(own)} ({interface}, {both})"
+        for (interface, both), own in conditions.items()
+    )
+
+
+def _ranked(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
+    """The rank of a row's score, or the first and the last that errors leave it; nothing without a score."""
+    first, last = rank_range(row, rows)
+    return f"{first}-{last}" if last > first else ""
+
+
+def _shown(column: str, value: Any) -> str:
+    if value is None:
+        return ""
+    if column in KEY or not isinstance(value, float):
+        return str(value)
+    return f"{value:.1e}" if column == "score_error" else f"{value:.5g}"
