@@ -242,6 +242,8 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     assert "| small | CalculiX | 150 | 300 | 1 |" in page
     assert "| finite | CalculiX | 40 | 1 | 1 |" in page
     assert "of at least 20.5 times the unknowns" in page
+    assert values["median"] == "0.45 %"
+    assert "| 2 | 0.40 % | 0.60 % | 3.00 |" in page  # stated, true
     assert "| c | strain | 2.04 |" in page.replace("order, ", "")
     assert "skipped: ccx not installed" in page
     differences = {name: 0.001 * (number + 1) for number, name in enumerate(CALCULIX_COLUMNS)}
@@ -286,6 +288,28 @@ def test_the_frequency_page_says_where_scores_do_not_rise() -> None:
     assert "| another | +0 to +0 % | 1.00 |" in page
 
 
+def test_the_frequency_page_says_how_scores_inertia_and_assumptions_compare() -> None:
+    """Scores in thousandths; of two conditions the larger inertia; changes over scores as shipped."""
+    case = {"device": "d", "interface": "shear", "readout": "change_of_strain", "dispersion": "low"}
+    conditions = [case | {"condition": name, "phase_deg": phase} for name, phase in (("a", 0.0), ("b", 180.0))]
+    rows = [
+        row | {"frequency_hz": hertz, "score": 0.001 * (number + 1), "inertia": 0.01 + 0.02 * number}
+        for hertz in (0.0, 20.0)
+        for number, row in enumerate(conditions)
+    ]
+    variants = [
+        row | {"frequency_hz": 20.0, "assumption": assumption, "change_of_strain": score}
+        for assumption, scores in (("as shipped", (1.0, 2.0)), ("another", (1.25, 1.8)))
+        for row, score in zip(conditions, scores, strict=True)
+    ]
+    quasistatic = [row | {"kinematics": "small", "score": 2.0, "score_error": 0.03} for row in conditions]
+    tables = {"frequencies": rows, "variants": variants, "scores": quasistatic}
+    values = frequency_values({name: pd.DataFrame(given) for name, given in tables.items()})
+    assert str(values["scores"]).splitlines()[-2:] == ["| d | a | 1.000 | 1.000 |", "| d | b | 2.000 | 2.000 |"]
+    assert str(values["inertia"]).splitlines()[-1] == "| d | 20 | 3.00 % | 0 |"
+    assert str(values["variants"]).splitlines()[-1] == "| d | another | -10 to +25 % | 1.00 |"
+
+
 def test_a_missing_value_is_an_error() -> None:
     with pytest.raises(KeyError):
         filled("${nothing}", {})
@@ -324,6 +348,31 @@ def test_benchmark_figure_shows_every_solver_and_where_they_are_compared() -> No
     assert {str(line.get_label()).partition(",")[0].partition(" for ")[0] for line in climbed} == set(solvers)
     assert all(list(line.get_xdata()) == [0.01, 0.02] for line in climbed)
     assert list(compared.get_xdata()) == [COMPARED_AT, COMPARED_AT]
+
+
+def test_benchmark_figure_draws_seconds_and_their_growth_over_the_smallest_size() -> None:
+    """Of fingerpad from scene to score, of a further condition and of a further stimulus; growth begins at (1, 1)."""
+    seconds = {"cold_s": 3.0, "warm_s": 2.0, "stimulus_s": 1.0}
+    rung = {"kinematics": "small", "solver": OWN_LADDER, "error_change_of_strain": 0.001}
+    ladder = pd.DataFrame([rung | seconds | {"error_strain": error} for error in (0.005, 0.02)])
+    size = {"unknowns": 100.0, "contact_nodes": 10.0, "increments": 4.0, "actuators": 2.0}
+    sizes = [
+        {"varied": varied, "setup_s": 5.0 * times, "condition_s": 2.0 * times**2}
+        | {name: times * value for name, value in size.items()}
+        for varied in ("mesh", "increments", "actuators")
+        for times in (3.0, 1.0)
+    ]
+    fits = [
+        {"against": against, "seconds": step, "exponent": exponent}
+        for against in size
+        for step, exponent in (("setup", 1.0), ("condition", 2.0))
+    ]
+    left, right = benchmark_figure(ladder, pd.DataFrame(sizes), pd.DataFrame(fits)).axes
+    assert [list(line.get_ydata()) for line in left.lines[:-1]] == [[each, each] for each in seconds.values()]
+    for line in right.lines:
+        power = 1.0 if str(line.get_label()).startswith("set-up") else 2.0
+        assert str(line.get_label()).endswith(f": {power:.2f}")
+        assert line.get_xydata().tolist() == [[1.0, 1.0], [3.0, 3.0**power]]
 
 
 def test_graph_of_jobs_is_timed_and_only_the_real_one_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

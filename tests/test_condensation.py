@@ -63,6 +63,13 @@ def test_receptor_line_is_ordered_and_spans_the_pad() -> None:
     assert found.arc[-1] > 10.0
 
 
+def test_contact_nodes_lie_where_their_forces_are_shared_out_about() -> None:
+    """A unit resultant has the moment of the nodal forces that stand for it, to rounding."""
+    tractions, mesh = contact_tractions(section("device2"), scene("device2")), section("device2").mesh
+    moment = tractions.loads.T @ mesh.doflocs[:, tractions.nodes].T
+    assert moment == pytest.approx(tractions.position, abs=1e-12)
+
+
 def test_global_equilibrium_bone_carries_what_the_pins_press() -> None:
     """The reaction at the bone, from the full field, balances the contact forces in x and y."""
     mesh, base = section("device2"), scene("device2")
@@ -84,7 +91,9 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     """The recovered field near the receptors has the strain that the condensed map gave."""
     mesh, base = section("device2"), scene("device2")
     solution = solved("device2", "alternate_180", Interface.SHEAR)
-    fields = states_fields(base, mesh, recover_displacement(mesh, base, solution.forces))
+    displacement = recover_displacement(mesh, base, solution.forces)
+    fields = states_fields(base, mesh, displacement)
+    assert np.array_equal(fields.displacement, displacement[1:, :, mesh.mesh.t.T.ravel()])  # not of pre-indentation
     found, _ = condensed("device2")
     strain = maximum_principal(found.strain @ solution.force[-1].ravel())
     dermis = mesh.layer_names.index("dermis")

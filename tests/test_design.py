@@ -11,6 +11,7 @@ import pytest
 from fingerpad.contact.symmetry import mirrors
 from fingerpad.errors import SceneError
 from fingerpad.figures.design import DesignPicture
+from fingerpad.figures.style import BLUE, VERMILLION
 from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
 from fingerpad.prediction.forecast import forecast
 from fingerpad.scene.contact_law import Interface
@@ -117,6 +118,24 @@ def test_picture_shows_both_designs() -> None:
             for rows in zip(before.rows if before else (None, None), now.rows, strict=True)
         ]
         assert np.allclose(heights, expected_heights)
+
+
+def test_picture_is_in_the_units_of_its_axes() -> None:
+    """Tractions in kPa where skin is in contact, strain in per cent, its change's score and error in thousandths."""
+    picture, found = DesignPicture(4), answer(pressed(0.6), AMPLITUDE, 180.0, True)
+    picture.show(found)
+    tractions, *strains = [axes for axes in picture.figure.axes if "score" not in axes.get_ylabel()]
+    touching = found.solution.pressure > 0.0
+    for colour, traction in ((BLUE, found.solution.pressure), (VERMILLION, found.solution.shear)):
+        (drawn,) = [np.asarray(line.get_ydata()) for line in tractions.lines if line.get_color() == colour]
+        assert drawn[np.isfinite(drawn)] == pytest.approx(1e3 * traction[touching])
+    for axes, readout in zip(strains, Readout, strict=True):
+        (drawn,) = [np.asarray(line.get_ydata()) for line in axes.lines if line.get_color() == BLUE]
+        assert drawn == pytest.approx(100.0 * found.readouts.unfiltered(readout))
+    scores = [axes for axes in picture.figure.axes if "score" in axes.get_ylabel()]
+    for axes, row, factor in zip(scores, found.rows, (1.0, 1e3), strict=True):
+        ends = [list(line.get_ydata()) for line in axes.lines if len(line.get_ydata())]
+        assert ends == [pytest.approx([factor * (row["score"] + sign * row["score_error"]) for sign in (-1.0, 1.0)])]
 
 
 def test_picture_is_the_same_from_a_kept_background() -> None:

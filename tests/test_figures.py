@@ -15,7 +15,9 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, TriMesh
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 from matplotlib.text import Annotation, Text
 
 from fingerpad.arrays import FloatArray
@@ -26,13 +28,26 @@ from fingerpad.fields.section_fields import Fields
 from fingerpad.figures.ablation import ablation_figure
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.correlation import correlation_figure
+from fingerpad.figures.frequency import frequency_figure
 from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.section import DRIVEN, HEAD, section_figure
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.stimuli import stimuli_figure
-from fingerpad.figures.style import MIDDLE, NARROW, POINTS, TEXT, WIDE, condition_styles, conditions_of, save, save_as
+from fingerpad.figures.style import (
+    BLUE,
+    MIDDLE,
+    NARROW,
+    POINTS,
+    TEXT,
+    VERMILLION,
+    WIDE,
+    condition_styles,
+    conditions_of,
+    save,
+    save_as,
+)
 from fingerpad.figures.variation import variation_figure
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.perception.correlation import correlation_table
@@ -479,8 +494,11 @@ def test_section_names_every_layer(section: SectionMesh) -> None:
     text = words(figure)
     for layer in MODEL.finger.layers:
         assert f"{layer.name.replace('_', ' ')}, {layer.thickness:g} mm" in text
-    for said in ("bone, rigid", "receptors, 0.6 mm deep", "16 mm", "13 mm", *TITLES.values()):
+    rows = ("rigid, pitch 2, width 1 mm\nedge radius 0.1 mm", "pitch 3, width 1.5 mm\nedge radius 0, thickness 0.15 mm")
+    for said in ("bone, rigid", "receptors, 0.6 mm deep", "16 mm", "13 mm", *rows, *TITLES.values()):
         assert said in text
+    named = [label.get_text().partition(",")[0] for label in figure.axes[0].texts]
+    assert named.index("viable epidermis") < named.index("receptors") < named.index("dermis")
     assert [axes.get_xlabel() for axes in figure.axes[1:]] == ["x (mm)"] * len(DEVICES)
 
 
@@ -703,6 +721,204 @@ def test_maps_show_a_history_when_it_is_read(section: SectionMesh) -> None:
         middle[read] = float(np.mean(np.concatenate(drawn)))
         assert "when strain at the receptors has changed most" in words(figure).replace("\n", " ")
     assert middle[0] - middle[1] == pytest.approx(0.3, abs=1e-9)  # but for rounding
+
+
+def test_receptor_curves_are_in_per_cent() -> None:
+    """Strain on the left and its change on the right, a hundred times the number without a unit."""
+    own = make_readouts(SINGLE)
+    (found,) = own.readouts.values()
+    panels = receptor_figure([own], Kinematics.SMALL).axes
+    for axes, values in zip(panels, (found.strain, found.change_of_strain), strict=True):
+        (curve,) = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        np.testing.assert_array_equal(curve.get_xdata(), found.arc)
+        np.testing.assert_allclose(curve.get_ydata(), 100.0 * values)
+
+
+def error_bars(axes: Axes) -> list[FloatArray]:
+    """Lower and upper ends (2, n) of the vertical bars of errors, an array for each time that some were drawn."""
+    drawn = [each for each in axes.collections if isinstance(each, LineCollection)]
+    return [np.array([segment[:, 1] for segment in each.get_segments()]).T for each in drawn]
+
+
+@pytest.mark.parametrize("device", [PHASED, UNRATED])
+def test_workflow_curves_and_errors_are_in_the_units_of_their_axes(device: Device) -> None:
+    """Strain in per cent; filtered it is in mm, its change in thousandths of that, and so are scores and errors."""
+    own = make_readouts(device)
+    shear = SCORES[(SCORES["device"] == device.name) & (SCORES["interface"] == "shear")]
+    panels = workflow_figure(own, MODEL.gabor, MODEL.readout, shear).axes
+    found = own.readouts[device.conditions[0].name]
+    for row, readout, factor in zip((panels[:3], panels[3:]), Readout, (1.0, 1e3), strict=True):
+        read = (100.0 * found.unfiltered(readout), factor * found.filtered(readout))
+        for axes, values in zip(row[:2], read, strict=True):
+            curve = next(line for line in axes.lines if len(line.get_xdata()) > 2)
+            np.testing.assert_allclose(curve.get_xydata(), np.stack([found.arc, values], axis=1))
+        scores = factor * shear.loc[shear["readout"] == readout, "score"].to_numpy()
+        np.testing.assert_allclose([bar.get_height() for bar in row[2].patches], scores)
+        if device is UNRATED:
+            said = [text.get_text() for text in row[2].texts if "±" in text.get_text()]
+            assert said[0] == ("0.300\n±0.003" if factor == 1.0 else "300\n±3")
+        else:
+            np.testing.assert_allclose(error_bars(row[2])[0], [0.99 * scores, 1.01 * scores])
+
+
+def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -> None:
+    """Two stimuli, which conditions of the second dispersion have in the opposite order: the first moves all tissue by
+    0.1 mm, strains it by 2 % and changes that by -1 %, the second by 0.2 mm, 4 % and -2 %. Pins stand where they are
+    moved to, at the height of indentation; pressure and shear are in kPa, and both are in sight.
+    """
+    low = PHASED.by_dispersion["low"][1:3]
+    device = replace(PHASED, conditions=(*low, *(PHASED.by_dispersion["high"][number] for number in (2, 1))))
+    corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
+    one = 3 * int(np.flatnonzero((section.mesh.t == section.skin[section.skin.size // 2]).any(axis=0))[0])
+    side, times = np.array([[one, one + 1]]), np.array([1.0, 2.0])
+    places = np.stack([0.1 * times, [1.5, 1.5]], axis=1)  # the skin comes up to the faces
+    moved = np.repeat(places[:, :, None], corner.shape[1], axis=2)
+    each = np.tile(times[:, None], corner.shape[1])
+    fields = Fields(corner, side, side, moved, 0.02 * each, -0.01 * each)
+    found = make_solution(make_contact(PINS), PINS, np.tile(np.linspace(0.01, 0.03, 25), 3))
+    found = replace(found, shear=-0.5 * found.pressure)
+    shown = device.by_dispersion["high"]
+    figure = strain_map_figure(Scene(MODEL, device), "high", fields, dict.fromkeys([c.name for c in shown], found))
+    panels = figure.axes
+    for axes, condition, time, percent in zip(
+        panels[:4], [*shown, *shown], [2.0, 1.0, 2.0, 1.0], [4.0, 2.0, -2.0, -1.0], strict=True
+    ):
+        (drawn,) = [each for each in axes.collections if isinstance(each, TriMesh)]
+        np.testing.assert_allclose(np.asarray(drawn.get_array()), percent)
+        ends = corner[:, side[0]].T + np.array([0.1 * time, 1.5])
+        assert all(np.allclose(line.get_xydata()[:2], ends) for line in axes.lines)
+        pins = [patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon)]
+        assert [pin[:, 1].max() for pin in pins] == pytest.approx([found.indentation] * 3)
+        middle = [(pin[:, 0].min() + pin[:, 0].max()) / 2.0 for pin in pins]
+        assert middle == pytest.approx(list(PINS.positions + condition.tangential[0]))
+    for axes in panels[4:6]:
+        for colour, traction in ((BLUE, found.pressure), (VERMILLION, found.shear)):
+            lines = [line.get_ydata() for line in axes.lines if line.get_color() == colour]
+            np.testing.assert_allclose(np.concatenate(lines), 1e3 * traction)
+        bottom, top = axes.get_ylim()
+        assert bottom <= -15.0 and top >= 30.0
+    strain, change = (axes.get_ylim() for axes in panels[6:])
+    assert strain[0] == 0.0 and 4.0 <= strain[1] <= 5.0  # rounded up to 5 %
+    assert -change[0] == change[1] and 2.0 <= change[1] <= 2.5  # rounded up to 0.5 %
+
+
+def test_colours_of_maps_end_by_area_not_by_the_number_of_elements(section: SectionMesh) -> None:
+    """The five smallest of 400 elements in view, 0.2 % of the area, are strained ten times as much as all others."""
+    corner = section.mesh.doflocs[:, section.mesh.t]
+    first, second = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    smallest = np.argsort(np.abs(first[0] * second[1] - first[1] * second[0]))[:5]
+    strain = np.full(section.mesh.t.shape, 0.04)
+    strain[:, smallest] = 0.4
+    drawn, side = section.mesh.doflocs[:, section.mesh.t.T.ravel()], np.array([[0, 1]])
+    still = np.zeros((1, *drawn.shape))
+    fields = Fields(drawn, side, side, still, strain.T.reshape(1, -1), np.full((1, drawn.shape[1]), 0.001))
+    found = make_solution(make_contact(PIN), PIN, np.full(25, 0.03))
+    figure = strain_map_figure(Scene(MODEL, SINGLE), "lone", fields, {"tap": found})
+    assert figure.axes[-2].get_ylim() == pytest.approx((0.0, 5.0))  # per cent
+
+
+def test_kinematics_draws_forces_scores_and_errors_of_both() -> None:
+    """Small kinematics to the left of finite ones, whose scores and errors are twice as large here."""
+    forced = SCORES[SCORES["device"] == FORCED.name]
+    finite = forced.assign(kinematics="finite", score=2.0 * forced["score"], score_error=2.0 * forced["score_error"])
+    names = ["kinematics", "device", "interface", "indentation_mm", "force_N_per_mm", "limit_point"]
+    heights = np.linspace(0.0, 1.0, 4)
+    curves = [("small", FORCED.name, "shear", height, 0.3 * height**2, False) for height in heights]
+    scores = pd.concat([finite, forced])
+    panels = kinematics_figure(scores, pd.DataFrame(curves, columns=names), {FORCED.name: FORCED.title}).axes
+    drawn = next(line for line in panels[0].lines if len(line.get_xdata()) == heights.size)
+    np.testing.assert_allclose(drawn.get_xydata(), np.stack([heights, 0.3 * heights**2], axis=1))
+    for axes, readout, factor in zip(panels[1:], Readout, (1.0, 1e3), strict=True):
+        shear = (forced["readout"] == readout) & (forced["interface"] == "shear")
+        own = factor * forced.loc[shear, "score"].to_numpy()
+        bars = sorted((bar.get_x(), bar.get_height()) for bar in axes.patches)
+        assert [height for _, height in bars] == pytest.approx(list(np.stack([own, 2.0 * own], axis=1).ravel()))
+        for times, ends in zip((1.0, 2.0), error_bars(axes), strict=True):
+            np.testing.assert_allclose(ends, times * np.stack([0.99 * own, 1.01 * own]))
+
+
+def test_stimuli_of_several_times_are_drawn_where_actuators_have_moved_farthest() -> None:
+    """Into the skin by 20 and back to 5 µm, beside which they go aside by 10 µm: bars of both, in this order."""
+    moved = np.outer([0.5, 1.0, 0.25], np.ones(3))
+    time = np.array([1.0, 2.0, 3.0])
+    history = replace(PHASED.conditions[0], time=time, normal=0.02 * moved, tangential=-0.01 * moved)
+    (axes,) = stimuli_figure([replace(PHASED, conditions=(history,))]).axes
+    assert [bar.get_height() for bar in axes.patches] == pytest.approx([20.0] * 3 + [-10.0] * 3)
+
+
+def test_frequency_figure_shows_scores_at_each_interface_apart_from_slow_cycles() -> None:
+    """Of the change of strain in thousandths, with shear at the left, twice as large as without; of slow cycles a point
+    of its own, at half of the lowest frequency.
+    """
+    hertz = [0.0, 20.0, 80.0]
+    rows = [
+        (UNRATED.name, name, str(interface), str(readout), frequency, share * growth * of_readout * number, "mm2")
+        for number, name in enumerate((condition.name for condition in UNRATED.conditions), start=1)
+        for interface, share in zip(Interface, (2.0, 1.0), strict=True)
+        for readout, of_readout in zip(Readout, (1.0, 1e-3), strict=True)
+        for frequency, growth in zip(hertz, (1.0, 1.5, 2.0), strict=True)
+    ]
+    names = ["device", "condition", "interface", "readout", "frequency_hz", "score", "unit"]
+    figure = frequency_figure([UNRATED], pd.DataFrame(rows, columns=names))
+    require_legible(figure)
+    assert [label for _, label in axis_labels(figure)] == ["Change of strain\nscore (10⁻³ mm²)", ""]
+    for axes, share in zip(figure.axes, (2.0, 1.0), strict=True):
+        curves = [line.get_xydata().tolist() for line in axes.lines if line.get_marker() not in ("", "None", None)]
+        for number, (slow, others) in enumerate(zip(curves[::2], curves[1::2], strict=True), start=1):
+            np.testing.assert_allclose(slow, [[10.0, share * number]])
+            np.testing.assert_allclose(others, [[20.0, 1.5 * share * number], [80.0, 2.0 * share * number]])
+        assert len(curves) == 2 * len(UNRATED.conditions)
+
+
+def test_correlation_draws_errors_a_least_squares_line_and_the_spread(correlations: pd.DataFrame) -> None:
+    """Scores of 0.30, 0.31 and 0.34 with errors of 1 %, rated 0, 1 and 2, have a line of slope 0.04 / 8.67e-4 through
+    their means, and a spread of 0.04 / 0.317.
+    """
+    certain = correlations.assign(slope_open=0)
+    figure = correlation_figure(SCORES, RATINGS, certain, {"forced": "Forced pucks"}, Kinematics.SMALL)
+    own = np.array([0.30, 0.31, 0.34])
+    for axes, factor in zip(figure.axes, (1.0, 1e3), strict=True):
+        (bars,) = [each for each in axes.collections if isinstance(each, LineCollection)]
+        ends = np.array([segment[:, 0] for segment in bars.get_segments()])
+        np.testing.assert_allclose(ends, factor * np.stack([0.99 * own, 1.01 * own], axis=1))
+        (line,) = [line for line in axes.lines if len(line.get_xdata()) == 2]
+        np.testing.assert_allclose(line.get_xydata(), [[factor * 0.30, 0.2308], [factor * 0.34, 2.0769]], rtol=1e-3)
+        assert "spread 13 %" in [text for part in axes.texts for text in part.get_text().split("\n")]
+
+
+def halved_without_shear() -> pd.DataFrame:
+    """SCORES, and half of them and of their errors without shear."""
+    share = np.where(SCORES["interface"] == "shear", 1.0, 0.5)
+    return SCORES.assign(score=share * SCORES["score"], score_error=share * SCORES["score_error"])
+
+
+def test_ablation_has_scores_with_shear_at_the_left_of_those_without(correlations: pd.DataFrame) -> None:
+    """Bars and errors in the unit of their axis, and above them how either correlates."""
+    scores = halved_without_shear()
+    related = correlations.assign(r2=np.where(correlations["interface"] == "shear", 0.9, 0.4))
+    panels = ablation_figure(scores, related, {PHASED.name: PHASED.title}, Kinematics.SMALL, False).axes
+    for axes, readout, factor in zip(panels, Readout, (1.0, 1e3), strict=True):
+        shear = (scores["device"] == PHASED.name) & (scores["readout"] == readout) & (scores["interface"] == "shear")
+        own = factor * scores.loc[shear, "score"].to_numpy()
+        bars = sorted((bar.get_x(), bar.get_height()) for bar in axes.patches)
+        assert [height for _, height in bars] == pytest.approx(list(np.stack([own, 0.5 * own], axis=1).ravel()))
+        for times, ends in zip((1.0, 0.5), error_bars(axes), strict=True):
+            np.testing.assert_allclose(ends, times * np.stack([0.99 * own, 1.01 * own]))
+        above = axes.get_title(loc="left").split("\n")
+        assert above[0].startswith("with shear: R² 0.900") and above[1].startswith("without shear: R² 0.400")
+
+
+def test_variation_draws_each_interface_in_the_unit_of_its_axis() -> None:
+    """Scores grow with the value that is varied, and are half as large without shear; the first condition's is 0.3."""
+    own = halved_without_shear()
+    own = own[own["device"] == PHASED.name]
+    values = [1.0, 1.5]
+    tables = [own.assign(score=value * own["score"]).to_dict("records") for value in values]
+    figure = variation_figure("actuators.edge_radius", "mm", values, [Scene(MODEL, PHASED)] * 2, tables)
+    for axes, share, factor in zip(figure.axes, (1.0, 0.5, 1.0, 0.5), (1.0, 1.0, 1e3, 1e3), strict=True):
+        curve = next(line for line in axes.lines if len(line.get_xdata()) == len(values))
+        np.testing.assert_allclose(curve.get_ydata(), factor * share * 0.3 * np.array(values))
+        np.testing.assert_allclose(error_bars(axes)[0][0], factor * share * (0.3 * np.array(values) - 0.003))
 
 
 def test_styles_differ_wherever_conditions_do() -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.special import ellipe
 
 from fingerpad.errors import ContactError, ConvergenceError, CriterionError, MeshError, SceneError
 from fingerpad.prediction import edges
@@ -19,7 +20,7 @@ from fingerpad.tissue.elasticity import displacement_basis, node_dofs
 from fingerpad.tissue.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
-from scenes import scene, section
+from scenes import scene, section, solved
 
 DEVICES = ("device1", "device2", "device3")
 MEASURED = 0.003  # mm to which edges on coarse meshes agree (edges.COARSER)
@@ -63,6 +64,15 @@ def test_receptor_line_lies_between_epidermis_and_dermis() -> None:
     assert set(map(tuple, names.T)) == {("viable_epidermis", "dermis")}
     ends = mesh.mesh.facets[:, mesh.receptor_facets]
     assert np.all([np.intersect1d(ends[:, i], ends[:, i + 1]).size == 1 for i in range(ends.shape[1] - 1)])
+
+
+def test_skin_ends_where_the_nail_begins() -> None:
+    """Along the outline the pad's skin leaves the nail's width out; chords of its coarse part are 0.02 mm short."""
+    finger, mesh = scene("device2").model.finger, section("device2")
+    half_width, half_height = finger.width / 2.0, finger.height / 2.0
+    outline = 4.0 * half_width * ellipe(1.0 - (half_height / half_width) ** 2)
+    length = np.hypot(*np.diff(mesh.mesh.doflocs[:, mesh.skin], axis=1)).sum()
+    assert length == pytest.approx(outline - finger.nail_width, abs=0.05)
 
 
 def test_sizes_are_as_asked() -> None:
@@ -241,6 +251,24 @@ def test_an_interface_that_is_out_of_reach_has_no_say_where_edges_are(monkeypatc
         assert (stop - start).sum() < (last - first).sum()
     assert np.array_equal(refusing(CriterionError, *Interface), nominal)
     assert np.array_equal(refusing(ConvergenceError, Interface.SHEAR), wide)
+
+
+@pytest.mark.parametrize("name", ["alternate_000", "alternate_180"])
+def test_edges_end_up_in_their_intervals(name: str) -> None:
+    """Skin over both ends of every rounded edge, when pins on the fine mesh have slid aside together, or in turn."""
+    base, found = scene("device2"), solved("device2", name, Interface.FRICTIONLESS)
+    condition = base.device.condition(name)
+    row, (start, stop) = base.device.actuators, edge_intervals(base.with_conditions([condition])).T
+    centre = row.positions + condition.tangential[found.reading.time]
+    ends = np.add.outer(centre, [-row.width / 2.0, -row.half_face, row.half_face, row.width / 2.0])
+    undeformed = np.abs(np.interp(ends, found.place + centre[found.actuator], found.position[:, 0]))[..., None]
+    inside = (undeformed >= start - MEASURED) & (undeformed <= stop + MEASURED)
+    assert inside.any(axis=-1).all()
+
+
+def test_an_interval_within_another_takes_nothing_from_it() -> None:
+    both = np.array([[0.1, 0.9], [0.2, 0.3], [1.5, 1.6]])
+    assert edges._joined(both).tolist() == [[0.1, 0.9], [1.5, 1.6]]
 
 
 def test_without_a_coarse_mesh_edges_are_sought_widely() -> None:

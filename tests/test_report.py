@@ -21,6 +21,7 @@ from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
 from fingerpad.report.tables import (
     CORRELATION_COLUMNS,
+    accuracy_grid,
     accuracy_summary,
     correlation_bodies,
     score_grid,
@@ -32,6 +33,7 @@ from fingerpad.scene.scenefile import load_scene, read_yaml
 from fingerpad.scene.sources import Origin, page, quantities
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows
+from fingerpad.words import INTERFACE_NAME
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -303,6 +305,41 @@ def test_captions_of_finite_figures_name_the_devices_that_they_show(results: Res
         assert all(scene.device.title in caption for scene in others)
     assert beside.count("small strain") == 2
     assert beside.count("finite strain") == 1
+
+
+def test_captions_take_numbers_from_the_rows_that_their_figures_show(results: Results) -> None:
+    """All scores and correlations differ from one another, and finite ones from small ones."""
+    small = [row | {"score": row["score"] and str(0.1 + 0.01 * n)} for n, row in enumerate(results.scores)]
+    finite = [row | {"kinematics": "finite", "score": row["score"] and str(float(row["score"]) + 1.0)} for row in small]
+    related = tuple(row | {"r2": row["r2"] and str(0.1 + 0.01 * n)} for n, row in enumerate(results.correlations))
+    both = dataclasses.replace(results, scores=(*small, *finite), correlations=related)
+    said = words([*FIGURES, "kinematics"], both)
+    change = Readout.CHANGE_OF_STRAIN
+    for row in filter(lambda row: row["score"], both.scores):
+        told = f"{row['condition']} {score_with_error(row)}"
+        is_small, is_shear = row["kinematics"] == "small", row["interface"] == "shear"
+        first, is_change = row["device"] == "device2", row["readout"] == change
+        assert (told in said["figure_3_workflow"].caption) is (is_small and is_shear and first)
+        assert (told in said["kinematics"].caption) is (is_shear and is_change)
+        assert (told in said["map_device3_alternate"].caption) is (is_small and is_shear and is_change and not first)
+    after_finite = said["kinematics"].caption.split("finite strain")[1].split(";")[0]
+    assert score_with_error(next(row for row in finite if row["readout"] == change)) in after_finite
+    gabor = results.scenes[0].model.gabor
+    assert f"Strain (λ = {gabor.wavelength_strain:g} mm" in said["figure_3_workflow"].caption
+    assert f"Change of strain (λ = {gabor.wavelength_change:g} mm" in said["figure_3_workflow"].caption
+    for row in filter(lambda row: row["r2"], related):
+        told = f"{INTERFACE_NAME[Interface(row['interface'])]} {float(row['r2']):.3f}"
+        assert (told in said["ablation_shear"].caption) is (row["readout"] == change)
+    assert f"Receptors lie {results.scenes[0].model.receptor_depth:g} mm below" in said["section"].caption
+
+
+def test_accuracy_is_in_per_cent_of_each_score(results: Results) -> None:
+    """Errors of 1, 2 and 6 % have the median 2 %."""
+    rows = [row | {"score": "0.5", "score_error": error} for row, error in
+            zip(results.scores[::2], ("0.005", "0.01", "0.03"), strict=False)]  # fmt: skip
+    (body,) = accuracy_grid(rows, {"device2": "Device 2"}).bodies
+    assert [cell for _, cells in body.rows for cell in cells if cell[0].isdigit()] == ["1.00", "2.00", "6.00"]
+    assert "the median stated error is 2.00 %, the largest 6.00 %" in accuracy_summary(rows)
 
 
 def test_figure_without_a_caption_is_an_error(results: Results) -> None:

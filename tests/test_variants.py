@@ -57,6 +57,21 @@ def test_configured_variant_has_the_configured_score() -> None:
     assert [row["unit"] for row in usual] == [row["unit"] for row in expected]
 
 
+def test_wavelengths_of_both_readouts_are_varied() -> None:
+    """Scores at twice the wavelength are those of a filter with twice both wavelengths, and others than at once."""
+    name, gabor = scene(DEVICE).device.conditions[-1].name, scene(DEVICE).model.gabor
+    own = [row for row in rows() if row["measure"] == Measure.MAXIMUM_PRINCIPAL and row["condition"] == name]
+    once, twice = ([row["score"] for row in own if row["wavelength_factor"] == factor] for factor in (1.0, 2.0))
+    wider = replace(
+        gabor, wavelength_strain=2.0 * gabor.wavelength_strain, wavelength_change=2.0 * gabor.wavelength_change
+    )
+    solution = solved(DEVICE, name, Interface.SHEAR)
+    read = filtered_readouts(resampling_to_grid(solution.arc, wider.spacing), solution.reading.readouts, wider)
+    expected = score_rows(scene(DEVICE), scene(DEVICE).device.condition(name), Interface.SHEAR, read)
+    assert twice == pytest.approx([row["score"] for row in expected], rel=1e-12)
+    assert all(abs(one - other) > 0.01 * one for one, other in zip(once, twice, strict=True))
+
+
 def test_variants_are_read_when_a_stimulus_has_settled() -> None:
     """Pins go to, and half as far fro; the stroke to, which changes more, is not read."""
     base = scene(DEVICE)
@@ -94,6 +109,18 @@ def test_material_is_that_of_the_side() -> None:
     finger = scene(DEVICE).model.finger
     names = {side: finger.pad[scene(DEVICE).model.receptor_layer(side)].name for side in Side}
     assert names == {Side.DERMIS: "dermis", Side.EPIDERMIS: "viable_epidermis"}
+
+
+def test_stress_is_that_of_the_side_on_which_strain_is_read() -> None:
+    """One and the same strain on both sides, of which the layers differ in stiffness."""
+    name = scene(DEVICE).device.conditions[-1].name
+    solutions = {(name, Interface.SHEAR): solved(DEVICE, name, Interface.SHEAR)}
+    found = list(variant_rows(scene(DEVICE), dict.fromkeys(Side, condensed(DEVICE)[0]), solutions))
+    for measure, differs in ((Measure.MAXIMUM_PRINCIPAL, False), (Measure.VON_MISES, True)):
+        one, other = (
+            [row["score"] for row in found if (row["measure"], row["side"]) == (measure, side)] for side in Side
+        )
+        assert (one != other) is differs
 
 
 def variant(condition: str, measure: Measure, score: float) -> dict[str, Any]:

@@ -187,6 +187,14 @@ def test_stress_is_that_of_the_elements_layer(read: meshio.Mesh) -> None:
         assert np.abs(linear @ (np.linalg.pinv(linear) @ nodal) - nodal).max() < tolerance
 
 
+def test_pressure_and_shear_are_those_of_the_solution(read: meshio.Mesh) -> None:
+    """Their ends, which lie at vertices, but for rounding."""
+    solution = solved(DEVICE, CONDITION, Interface.SHEAR)
+    for name, traction in (("contact_pressure_MPa", solution.pressure), ("contact_shear_MPa", solution.shear)):
+        drawn = read.point_data[name]
+        assert (drawn.min(), drawn.max()) == pytest.approx((traction.min(), traction.max()), rel=1e-9)
+
+
 @pytest.mark.parametrize("state", [0, 1])
 def test_tractions_integrate_to_the_contact_forces(state: int) -> None:
     """Integrals of pressure and shear along the skin, linear between vertices, are the forces of the solution,
