@@ -115,9 +115,9 @@ def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
         return {"calculix_verdict": f"CalculiX did not converge in the case `{FINEST}`.", "calculix": table(shown)}
     verdict = (
         f"In short (`{FINEST}`): where fingerpad takes over CalculiX's penalties and turning normal, the two programs,"
-        f" which share no code, differ by {_differences(finest.loc[ContactModel.TURNING])}. As it is, fingerpad differs"
-        f" by {_differences(finest.loc[ContactModel.OWN])}: CalculiX's contact gives way, and small strain here has a"
-        " normal that does not turn."
+        f" which share no code, differ by {_differences(finest.loc[ContactModel.TURNING])}. With its own contact,"
+        f" fingerpad differs by {_differences(finest.loc[ContactModel.OWN])}: CalculiX's contact gives"
+        " way, and small strain here has a normal that does not turn."
     )
     return {"calculix_verdict": verdict, "calculix": table(shown)}
 
