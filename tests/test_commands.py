@@ -687,12 +687,13 @@ def test_ranks_that_errors_leave_open_are_ranges() -> None:
 
 def test_caveats_that_differ_in_a_share_are_told_as_one() -> None:
     said = {"a": ["pressed 44% deep", "odd"], "b": ["pressed 9% deep"], "c": ["pressed 9% of 20% deep"]}
+    said |= {"d": ["pressed 44% deep"]}
     rows = [
         ROW | {"condition": name, "score": 1.0, "score_error": None, "rank": 1, "caveats": own}
         for name, own in said.items()
     ]
     assert as_table(scene("device2"), rows).splitlines()[-3:] == [
-        "caveat: a, b (shear, strain): pressed 9% to 44% deep",
+        "caveat: a, b, d (shear, strain): pressed 9% to 44% deep",
         "caveat: a (shear, strain): odd",
         "caveat: c (shear, strain): pressed 9% of 20% deep",
     ]

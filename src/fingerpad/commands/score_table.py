@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
 from typing import Any
 
 from ..prediction.caveats import rank_range
@@ -25,10 +24,8 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
-    cells = [
-        [{"note": note, "rank": _ranked(row, ordered)}.get(column) or _shown(column, row[column]) for column in COLUMNS]
-        for row, note in zip(ordered, notes, strict=True)
-    ]
+    told = [{**row, "note": note, "rank": _ranked(row, ordered)} for row, note in zip(ordered, notes, strict=True)]
+    cells = [[_shown(column, row[column]) for column in COLUMNS] for row in told]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
     lines = [title, *_pressed(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
@@ -39,20 +36,20 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
 
 def _told(rows: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, list[Mapping[str, Any]]]]:
     """Each caveat once, with the rows that have it; those that differ in one share alone as one, with both ends."""
-    alike: dict[str, dict[str, list[Mapping[str, Any]]]] = {}
+    alike: dict[str, list[tuple[str, Mapping[str, Any]]]] = {}
     for row in rows:
         for caveat in row["caveats"]:
             kind = SHARE.sub("%", caveat) if len(SHARE.findall(caveat)) == 1 else caveat
-            alike.setdefault(kind, {}).setdefault(caveat, []).append(row)
-    for caveats in alike.values():
-        first, own = next(iter(caveats)), list(chain.from_iterable(caveats.values()))
-        shares = sorted((SHARE.findall(caveat)[0] for caveat in caveats), key=_size) if len(caveats) > 1 else []
-        yield SHARE.sub(f"{shares[0]} to {shares[-1]}", first) if shares else first, own
+            alike.setdefault(kind, []).append((caveat, row))
+    for found in alike.values():
+        caveats = sorted({caveat for caveat, _ in found}, key=_share)
+        ends = f"{SHARE.findall(caveats[0])[0]} to {SHARE.findall(caveats[-1])[0]}" if len(caveats) > 1 else ""
+        yield SHARE.sub(ends, caveats[0]) if ends else caveats[0], [row for _, row in found]
 
 
-def _size(share: str) -> float:
-    """What a share in words comes to [%]."""
-    return float(share.removesuffix("%"))
+def _share(caveat: str) -> float:
+    """The first share in a caveat [%], or zero."""
+    return float(next(iter(SHARE.findall(caveat)), "0%").removesuffix("%"))
 
 
 def _pressed(rows: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -86,8 +83,10 @@ def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
 
 def _ranked(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
     """The rank of a row's score, or the first and the last that errors leave it; nothing without a score."""
+    if row["rank"] is None:
+        return ""
     first, last = rank_range(row, rows)
-    return f"{first}-{last}" if last > first else ""
+    return f"{first}-{last}" if last > first else str(row["rank"])
 
 
 def _shown(column: str, value: Any) -> str:

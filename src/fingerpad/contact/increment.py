@@ -96,8 +96,7 @@ def _solved_as_given(
     problem: ContactProblem, start: ContactState, actuator: FloatArray, patch: Patch | None
 ) -> tuple[ContactState, Patch]:
     """The same with every node given to the actuator that it has. Raises NotConvergedError."""
-    length = largest_of(actuator - start.actuator)
-    gap_scale = length + largest_of(actuator)
+    gap_scale = largest_of(actuator - start.actuator) + largest_of(actuator)
     origin = unloaded(problem, actuator)
     outset = _outset(problem, start, actuator, origin, gap_scale)
     start, status, reference, guess = outset.start, outset.status, outset.reference, outset.guess
