@@ -45,7 +45,7 @@ include: "workflow/rules/stress.smk"
 include: "workflow/rules/pages.smk"
 
 
-for custom in sorted((BASE / "workflow" / "rules" / "custom").glob("*.smk")):
+for custom in sorted((BASE / "workflow" / "rules" / "custom").glob("[!.]*.smk")):
 
     include: custom  # rules of a device that needs its own (docs/extending.md)
 

@@ -119,6 +119,10 @@ def test_the_second_half_cycle_turns_every_displacement_round(tmp_path: Path) ->
         ({"model": [{"key": "contact.friction", "values": [1.0]}]}, r"model\[0\]: found .*; allowed: the keys key"),
         ({"model": [{"key": "a", "values": 1.0, "source": "s"}]}, "allowed: a list"),
         ({"model": [{"key": "a", "times": ["x"], "source": "s"}]}, "allowed: a list, of numbers under times"),
+        (
+            {"model": [{"key": "a.b", "values": [-9.0, 9.0], "source": "s"}]},
+            r"found a\.b -9\.0 and a\.b 9\.0, which share a file name",
+        ),
     ],
 )
 def test_bad_alternatives_are_named(document: dict[str, object], said: str, tmp_path: Path) -> None:

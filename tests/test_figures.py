@@ -359,6 +359,25 @@ def test_variation_has_a_curve_a_condition_and_gaps_where_there_is_no_score(devi
     assert axis_labels(figure)[-1][0] == "actuators.edge radius (mm)"
 
 
+def test_variation_runs_from_left_to_right_and_shows_all_interfaces_that_there_are() -> None:
+    """However values are given, and whichever scene comes first: the first of these has friction alone."""
+    alone = replace(PHASED, frictionless=False)
+    own = halved_without_shear()
+    own = own[own["device"] == PHASED.name]
+    values = [3.0, 1.0]
+    tables = [own.assign(score=value * own["score"]).to_dict("records") for value in values]
+    tables[0] = [row for row in tables[0] if row["interface"] == "shear"]
+    scenes = [Scene(MODEL, alone), Scene(MODEL, PHASED)]
+    figure = variation_figure("actuators.edge_radius", "mm", values, scenes, tables)
+    assert len(figure.axes) == 4
+    with_shear, without = (
+        next(line for line in axes.lines if len(line.get_xdata()) == len(values)) for axes in figure.axes[:2]
+    )
+    assert list(with_shear.get_xdata()) == list(without.get_xdata()) == [1.0, 3.0]
+    np.testing.assert_allclose(with_shear.get_ydata(), [0.3, 0.9])
+    np.testing.assert_allclose(without.get_ydata(), [0.15, np.nan])
+
+
 def test_variation_sets_what_is_no_number_side_by_side() -> None:
     values = ["full", "touch", [0, 1, 1, 0]]
     figure = variation_figure("contact.criterion", "1", values, [Scene(MODEL, PHASED)] * 3, variation_tables(PHASED, 0))

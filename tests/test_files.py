@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from fingerpad.files import replacing, require_folder, write_text
-from fingerpad.store import read_rows, write_rows
+from fingerpad.store import read_rows, save_arrays, write_rows
 
 
 def test_a_failed_write_leaves_what_was_there(tmp_path: Path) -> None:
@@ -30,6 +31,24 @@ def test_a_row_that_does_not_fit_leaves_no_table(tmp_path: Path) -> None:
 def test_no_rows_are_an_empty_table(tmp_path: Path) -> None:
     write_rows(tmp_path / "table.csv", [])
     assert read_rows(tmp_path / "table.csv") == []
+
+
+def test_two_that_write_one_file_leave_one_of_theirs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As two processes that are at it at once."""
+    path = tmp_path / "table.csv"
+    with replacing(path) as first:
+        first.write_text("first")
+        monkeypatch.setattr(os, "getpid", lambda: -1)
+        write_text(path, "second")
+        assert path.read_text() == "second"
+    assert path.read_text() == "first"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_archive_holds_no_pickles(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="allow_pickle"):
+        save_arrays(tmp_path / "solution.npz", {"a": np.array([{}], dtype=object)})
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_written_file_replaces_the_old_one(tmp_path: Path) -> None:

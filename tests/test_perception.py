@@ -447,6 +447,15 @@ def test_scores_that_only_rounding_tells_apart_are_tied(noise: float) -> None:
     assert row["note"] == "3 of 5 conditions are distinct"
 
 
+def test_ratings_whose_means_are_one_but_for_rounding_have_no_p() -> None:
+    """Two pairs share a stimulus each: their mean ratings, and that of the fifth condition, are 0.15."""
+    ratings = pd.DataFrame(
+        {"device": "own", "condition": [f"c{i}" for i in range(5)], "rating": [0.1, 0.2, 0.1, 0.2, 0.15]}
+    )
+    row = make_table(make_scores("own", [1.0, 1.0, 2.0, 2.0, 3.0]), ratings.assign(kind="measured", source="")).iloc[0]
+    assert math.isnan(row["p"])
+
+
 def test_conditions_with_one_stimulus_count_once_whatever_is_stated() -> None:
     """Three of five share a stimulus, rated 1, 2 and 3: p is that of three conditions, the first rated 2."""
     scores, ratings = [1.0, 1.0, 1.0, 2.0, 3.0], [1.0, 2.0, 3.0, 5.0, 4.0]

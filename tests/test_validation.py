@@ -18,7 +18,14 @@ from jsonschema import Draft202012Validator
 from fingerpad.errors import SceneError
 from fingerpad.scene.contact_law import Criterion
 from fingerpad.scene.scenefile import load_scene, read_values
-from fingerpad.scene.validation import MOST_REPORTED, check_config, check_device, known_devices, require_device
+from fingerpad.scene.validation import (
+    MOST_REPORTED,
+    check_config,
+    check_device,
+    known_devices,
+    require_device,
+    require_new_name,
+)
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"
@@ -322,7 +329,17 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "dispersion with a reserved name": (
         {"stimulus.dispersions": {"value": quantity([0, 1, 0, 1], "1")}},
         "stimulus.dispersions",
-        ["the name value", 'not "value"'],
+        ["the name value", "none of value, source, nan and null"],
+    ),
+    "dispersion that would be taken for a quantity": (
+        {"stimulus.dispersions": {"source": quantity([0, 1, 0, 1], "1")}},
+        "stimulus.dispersions",
+        ["the name source", "none of value, source, nan and null"],
+    ),
+    "dispersion that tables would take for missing": (
+        {"stimulus.dispersions": {"nan": quantity([0, 1, 0, 1], "1")}},
+        "stimulus.dispersions",
+        ["the name nan", "none of value, source, nan and null"],
     ),
     "too few group indices": (
         {"stimulus.dispersions.low.value": [0, 1, 0]},
@@ -589,6 +606,17 @@ def test_file_name_that_is_no_device_name(tmp_path: Path, name: str, meant: str)
         message = str(caught.value)
         parts = [f"{path}: file name: found {name}", "small letters", f"did you mean {meant}?"]
         assert [part for part in parts if part not in message] == []
+
+
+@pytest.mark.parametrize("name", ["nan", "null"])
+def test_device_that_tables_would_take_for_missing(tmp_path: Path, name: str) -> None:
+    (tmp_path / f"{name}.yaml").write_bytes((DEVICES / "device1.yaml").read_bytes())
+    with pytest.raises(
+        SceneError, match=f"file name: found {name}.yaml; allowed: a name other than nan, null, then .yaml"
+    ):
+        known_devices(tmp_path)
+    with pytest.raises(SceneError, match=f"NAME: found {name}; allowed: a name other than nan, null"):
+        require_new_name(name)
 
 
 def subschemas(node: Any) -> Iterator[dict[str, Any]]:

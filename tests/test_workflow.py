@@ -255,6 +255,15 @@ def test_graph_is_timed_on_all_that_a_run_needs(fresh: Project) -> None:
     assert not any("__pycache__" in name for name in job.inputs)
 
 
+def test_hidden_files_are_left_out(fresh: Project) -> None:
+    """As some systems and editors leave them beside what they copy or open."""
+    for name in ("config/devices/._device2.yaml", "workflow/rules/custom/._own.smk"):
+        (fresh.folder / name).parent.mkdir(exist_ok=True)
+        (fresh.folder / name).write_bytes(b"\0 no text")
+    run = fresh.snakemake("-n", "results/scores.csv")
+    assert run.status == 0, run.text
+
+
 def test_jobs_have_as_many_threads_as_their_rule_says(fresh: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever the user's environment says."""
     custom = fresh.folder / "workflow/rules/custom"

@@ -20,9 +20,10 @@ if unknown := [name for name in config if name not in SETTINGS]:
 
 SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
-RULE_FILES = sorted((BASE / "workflow" / "rules").rglob("*.smk"))  # with those in rules/custom
+RULE_FILES = sorted((BASE / "workflow" / "rules").rglob("[!.]*.smk"))  # with those in rules/custom
 SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
+SHIPPED_DEVICES = BASE / "config" / "devices"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
 
 COMPARED_DEVICE, COMPARED_CONDITION = COMPARED  # what comparisons with CalculiX and of run times are about
@@ -44,8 +45,8 @@ try:
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
     SHIPPED = {
-        path.stem: check_device(path, SCHEMAS, BASE / "config" / "config.yaml")
-        for path in sorted((BASE / "config" / "devices").glob("*.yaml"))
+        name: check_device(SHIPPED_DEVICES / f"{name}.yaml", SCHEMAS, BASE / "config" / "config.yaml")
+        for name in known_devices(SHIPPED_DEVICES)
     }
     # a device of the paper that has no file any more has no conditions: what data/ says of it is left out
     KNOWN = {name: [] for name in sorted(set(read_published(DATA / "published_r2.csv")["device"]))} | {

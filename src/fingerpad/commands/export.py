@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
@@ -67,20 +68,21 @@ def run(options: argparse.Namespace) -> None:
     acting = scene.model.contact.coefficient(touching)
     indenting = acting if options.friction_from == "indentation" else 0.0
     interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS
+    settings = DeckSettings(
+        indentation=0.0,  # until it is known how deep
+        friction_indenting=indenting,
+        friction_acting=acting,
+        pressure_slope=options.pressure_slope,
+        stick_slope=options.stick_slope,
+        indentation_increments=options.indentation_increments,
+        stimulus_increments=options.stimulus_increments,
+        rest_increments=options.rest_increments,
+    )
     progress = tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None)
     with threadpool_limits(1), progress as bar:  # how deep the deck goes does not depend on the number of threads
         section = mesh_device(scene)
         bar.update()
-        settings = DeckSettings(
-            indentation=indented_height(scene, section, interface),
-            friction_indenting=indenting,
-            friction_acting=acting,
-            pressure_slope=options.pressure_slope,
-            stick_slope=options.stick_slope,
-            indentation_increments=options.indentation_increments,
-            stimulus_increments=options.stimulus_increments,
-            rest_increments=options.rest_increments,
-        )
+        settings = replace(settings, indentation=indented_height(scene, section, interface))
         bar.update()
     write_text(options.output, input_deck(scene, section, condition, settings))
     print(f"written: {options.output}")

@@ -6,6 +6,7 @@ Every member of the ensemble is a folder of scene files in which what is varied 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -74,7 +75,8 @@ def slug(name: str) -> str:
 def read_ensemble(path: Path) -> list[Alternative]:
     """The alternatives in a file, in its order.
 
-    Raises SceneError if it holds anything but lists of key, values or times, and source under PARTS.
+    Raises SceneError if it holds anything but lists of key, values or times, and source under PARTS, or if members
+    would have one file name.
     """
     document = read_yaml(path)
     if unknown := [key for key in document if key not in PARTS]:
@@ -95,6 +97,11 @@ def read_ensemble(path: Path) -> list[Alternative]:
             for choice in choices:
                 value, times = (None, float(choice)) if "times" in entry else (choice, None)
                 found.append(Alternative(part, key, value, times, source))
+    files = Counter(slug(each.name) for each in found)
+    if shared := [each.name for each in found if files[slug(each.name)] > 1]:
+        raise SceneError(
+            f"{path}: found {' and '.join(shared)}, which share a file name; allowed: names that differ in it"
+        )
     return found
 
 

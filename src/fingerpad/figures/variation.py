@@ -51,11 +51,13 @@ def variation_figure(
     """
     first = scenes[0]
     styles = condition_styles(each for scene in scenes for each in conditions_of([scene.device]))
-    interfaces = first.device.interfaces()
+    interfaces = [each for each in Interface if any(each in scene.device.interfaces() for scene in scenes)]
     figure = new_figure(WIDE, ROW_HEIGHT * len(Readout) + LEGEND_HEIGHT)
     grid = figure.subplots(len(Readout), len(interfaces), squeeze=False, sharey="row", sharex=True)
     are_numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
     places = np.array(values, dtype=float) if are_numbers else np.arange(len(values), dtype=float)
+    order = np.argsort(places, kind="stable")  # curves run from left to right, however values were given
+    places, tables = places[order], [tables[each] for each in order]
     for row, readout in zip(grid, Readout, strict=True):
         for axes, interface in zip(row, interfaces, strict=True):
             own = [[r for r in rows if (r["interface"], r["readout"]) == (interface, readout)] for rows in tables]

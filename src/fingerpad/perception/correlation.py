@@ -174,7 +174,9 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         "r_error": error_in_r(x, y, error),
         "slope_open": int(is_turned(x, y, error)) if known else None,
         "kendall_tau": float(kendalltau(which, y).statistic),
-        "p": float(pearsonr(distinct, mean_rating).pvalue) if distinct.size > 2 and np.ptp(mean_rating) > 0.0 else None,
+        "p": float(pearsonr(distinct, mean_rating).pvalue)
+        if distinct.size > 2 and not is_constant(mean_rating)
+        else None,
         "note": "; ".join(notes),
     }
 

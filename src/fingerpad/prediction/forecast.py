@@ -53,7 +53,7 @@ def _preload(read: ReadSolution | None) -> dict[str, float | None]:
 
 
 def steps(scene: Scene, error: bool = True) -> int:
-    """How often `forecast` calls its `step`: after condensation and after every condition of every solution."""
+    """How often at most `forecast` calls its `step`: after condensation and after every condition of every solution."""
     return (2 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
 
 

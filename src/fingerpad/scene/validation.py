@@ -38,6 +38,7 @@ Problem = tuple[int, str]  # how fundamental (0 is the most), and the line that 
 
 MOST_REPORTED = 5  # problems in one message [1]
 LONGEST_NAME = 64  # characters of a device's name [1]; source: as in the schemas
+RESERVED = {"nan", "null"}  # source: tables that are read with pandas take them for missing
 NAME = f"small letters, digits and underscores that begin with a letter, at most {LONGEST_NAME}"
 YAML_ENDINGS = {".yaml", ".yml"}
 LONGEST_SHOWN = 60  # characters of a found value in a message [1]
@@ -138,14 +139,19 @@ def require_device(name: str, folder: Path) -> Path:
 
 def _is_name(text: str) -> bool:
     """Whether that may be a device's name."""
-    return bool(re.fullmatch("[a-z][a-z0-9_]*", text)) and len(text) <= LONGEST_NAME
+    return bool(re.fullmatch("[a-z][a-z0-9_]*", text)) and len(text) <= LONGEST_NAME and text not in RESERVED
+
+
+def _allowed_name(found: str) -> str:
+    """What may be a device's name, where what was found may not."""
+    return f"a name other than {', '.join(sorted(RESERVED))}" if found in RESERVED else NAME
 
 
 def require_name(path: Path) -> None:
     """Raise SceneError for a device file whose name cannot be part of other files' names."""
     fits = _is_name(path.stem)
     if not fits or path.suffix != ".yaml":
-        allowed = f"{NAME}, then .yaml"
+        allowed = f"{_allowed_name(path.stem)}, then .yaml"
         meant = path.stem if fits else _as_name(path.stem)
         hint = f"{meant}.yaml" if meant and path.suffix.lower() in YAML_ENDINGS else ""
         about = "the file name is the device's name"
@@ -157,7 +163,7 @@ def require_new_name(name: str) -> None:
     if not _is_name(name):
         stem, about = name.removesuffix(".yaml"), "name of a device, and of its file without .yaml"
         meant = _as_name(stem) or (stem if stem.isidentifier() and stem.isascii() and stem != name else "")
-        raise SceneError(_problem(0, "NAME", _shown_name(name), NAME, meant=meant, about=about)[1])
+        raise SceneError(_problem(0, "NAME", _shown_name(name), _allowed_name(stem), meant=meant, about=about)[1])
 
 
 def checked_document(
@@ -412,7 +418,7 @@ def _as_name(text: object) -> str:
     if not plain.isascii():
         return ""
     name = re.sub("[^a-z0-9]+", "_", plain.lower()).strip("_").lstrip("0123456789_")
-    return name if name != text else ""
+    return name if name != text and name not in RESERVED else ""
 
 
 def _dotted(key: Key) -> str:
