@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fingerpad.contact.acceleration import accelerated
+from fingerpad.contact.acceleration import MEMORY, accelerated
 
 ROUNDING = 1e-10  # of a system of four equations whose condition is some hundreds
 
@@ -22,3 +22,9 @@ def test_linear_map(largest: float) -> None:
         steps.append(ends[-1] - point)
         point = accelerated(steps, ends)
     assert point == pytest.approx(fixed, rel=ROUNDING)
+
+
+def test_only_the_last_iterates_are_combined() -> None:
+    steps, ends = np.random.default_rng(1).normal(size=(2, MEMORY + 3, 40))
+    expected = accelerated([*steps[-MEMORY:]], [*ends[-MEMORY:]])
+    assert accelerated([*steps], [*ends]) == pytest.approx(expected, rel=1e-12)

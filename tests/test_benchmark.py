@@ -253,6 +253,20 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     page = filled((PAGES / "accuracy.md").read_text(), accuracy_values(frames))
     assert "differ by 0.30 % in strain, 0.40 % in forces and 0.50 % in the change of strain. With its own" in page
     assert "| finer_mesh | fingerpad | 5.00 % |" in page
+    assert "With friction from the first touch (`rubbing`) CalculiX did not converge." in page
+    rubbed = [
+        {"case": case, "against": against} | dict.fromkeys(differences, size)
+        for case, against, size in (
+            ("rubbing", "fingerpad", 0.12),
+            ("rubbing_finer_mesh", "fingerpad", 0.07),
+            ("rubbing_finer_mesh", "CalculiX in rubbing", 0.03),
+            ("rubbing_finer_mesh", "fingerpad with penalties", 0.9),
+            ("finite_rubbing", "fingerpad", 0.9),
+        )
+    ]
+    verdict = str(accuracy_values({**frames, "calculix": pd.DataFrame([*compared, *rubbed])})["calculix_verdict"])
+    assert "7.0 to 12.0 % in the change of strain" in verdict
+    assert "from itself by 3.0 to 3.0 % in the change of strain" in verdict
     lost = {**frames, "calculix": frames["calculix"].assign(case="base")}
     assert "CalculiX did not converge in the case `finer_mesh`" in accuracy_values(lost)["calculix_verdict"]
     assert "takes 2.5 times as long as with small strain only" in page

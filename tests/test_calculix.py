@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from fingerpad.calculix.crosscheck import (
 )
 from fingerpad.calculix.deck import DeckSettings, input_deck, material_lines
 from fingerpad.calculix.deformed_crosscheck import deformed_outcome
-from fingerpad.calculix.run import installed, read_printed, run
+from fingerpad.calculix.run import PROGRAM, installed, read_printed, run
 from fingerpad.errors import CalculixError, ContactError
 from fingerpad.finite.deformation import elements_of, internal_force
 from fingerpad.finite.hyperelasticity import tissue_of
@@ -215,3 +216,13 @@ def test_calculix_agrees_on_a_small_case_of_large_strains(tmp_path: Path) -> Non
     apart = differences(deformed_outcome(small, section, None, condition, settings, ContactModel.PENALTIES), reference)
     assert apart["pressing_indented"] < 0.005
     assert apart["strain_indented"] < 0.01
+
+
+def test_a_run_that_does_not_finish_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Though it ends with 0."""
+    fake = tmp_path / PROGRAM
+    fake.write_text("#!/bin/sh\necho '*ERROR: no convergence'\n", encoding="utf-8")
+    fake.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    with pytest.raises(CalculixError, match="no convergence"):
+        run("", tmp_path / "job", 60.0)

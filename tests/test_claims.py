@@ -68,7 +68,7 @@ def claims_of(change: dict[tuple[str, str, str], list[float]] | None = None) -> 
 def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
     table = claims_of()
     assert list(table.columns) == COLUMNS
-    assert table["kind"].value_counts().to_dict() == {"stated": 15, "weaker": 3}
+    assert table["kind"].value_counts().to_dict() == {"stated": 15, "weaker": 4}
     assert table["claim"].is_unique
     assert (table["holds"] == "yes").all(), table.loc[table["holds"] != "yes", ["claim", "evidence"]].to_string()
     assert table["source"].str.startswith("paper").all()
@@ -78,7 +78,7 @@ def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
     ("key", "values", "broken"),
     [
         (("device2", "shear", "change_of_strain"), [1, 3, 2], {"Device 2: the change of strain "}),
-        (("device2", "shear", "change_of_strain"), [1, 2, 2 + 1e-12], {"Device 2: the change of strain rises"}),
+        (("device2", "shear", "change_of_strain"), [1, 2, 2 + 1e-12], {"Device 2: the change of strain "}),
         (
             ("device2", "shear", "change_of_strain"),
             [2, 4, 2],
@@ -87,12 +87,12 @@ def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
         (("device3", "shear", "change_of_strain"), [1, 2, 3], {"Device 3: the change of strain "}),
         (
             ("device1", "shear", "change_of_strain"),
-            [1, 2, 3, 1, 3.9, 3.5, 1, 4, 5],
+            [1, 2, 3, 1, 3.6, 3.5, 1, 4, 6],
             {"Device 1: the change of strain rises with phase", "Device 1: leaving out shear turns"},
         ),
         (
             ("device1", "shear", "change_of_strain"),
-            [1, 2, 4.5, 1, 3, 4, 1, 4, 5],
+            [1, 2, 4.1, 1, 3, 4, 1, 4.5, 6],
             {"Device 1: the change of strain rises with dispersion", "Device 1: leaving out shear turns"},
         ),
         (("device1", "shear", "strain"), [1, 2, 3, 1, 3, 4, 1, 4, 5], {"Device 1: the strain "}),
@@ -140,7 +140,7 @@ def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
         ),
         (
             ("device1", "frictionless", "change_of_strain"),
-            [1, 2, 3, 1, 3, 2.9, 1, 4, 5],
+            [1, 2, 3, 1, 3.3, 3.2, 1, 4, 6],
             {"Device 1: leaving out shear turns"},
         ),
     ],
@@ -157,8 +157,14 @@ def test_each_claim_can_be_broken_and_no_other_breaks_with_it(
 @pytest.mark.parametrize(
     ("key", "values", "open_"),
     [
-        (("device2", "shear", "change_of_strain"), [1, 2, 2.0009], "Device 2: the change of strain rises"),
-        (("device2", "shear", "change_of_strain"), [1, 2, 1.9991], "Device 2: the change of strain rises"),
+        *(
+            (
+                ("device1", "shear", "change_of_strain"),
+                [1, 2, 3, 1, 3.5, 3.5 + step, 1, 4, 6],
+                ("Device 1: the change of strain rises with phase", "Device 1: leaving out shear turns"),
+            )
+            for step in (0.0009, -0.0009)
+        ),
         (("device3", "shear", "strain"), [2.0005, 2, 2.0011], "Device 3: the strain correlates"),
         (("device3", "shear", "strain"), [2.0005, 2.0011, 2], "Device 3: the strain correlates"),
         (
@@ -189,7 +195,7 @@ def test_each_claim_can_be_broken_and_no_other_breaks_with_it(
     ],
 )
 def test_what_differs_by_less_than_its_error_decides_nothing(
-    key: tuple[str, str, str], values: list[float], open_: str
+    key: tuple[str, str, str], values: list[float], open_: str | tuple[str, ...]
 ) -> None:
     table = claims_of({key: values})
     undecided = table[table["holds"] == "undecided"]
@@ -227,11 +233,11 @@ def test_evidence_from_ratings_says_ordinal_surrogate() -> None:
 @pytest.mark.parametrize(
     ("key", "values", "claim", "holds"),
     [
-        # r is 0.87 at least with any ratings that rise, 0.5 at least where two scores are all but equal
-        (("device2", "shear", "change_of_strain"), [1, 2, 3], "Device 2: the change of strain correlates very", "yes"),
+        # r of equal steps is 0.87 at least with any ratings that rise: enough for well, not for very well
+        (("device2", "shear", "strain"), [1, 2, 3], "Device 2: the strain correlates well", "yes"),
         (
             ("device2", "shear", "change_of_strain"),
-            [1, 2, 2.1],
+            [1, 2, 3],
             "Device 2: the change of strain correlates very",
             "undecided",
         ),
@@ -280,8 +286,8 @@ def test_a_constant_score_is_evidence_without_a_slope() -> None:
     ("drop", "left"),
     [
         (lambda scores: scores["device"] == "device1", 11),
-        (lambda scores: scores["device"] == "device2", 9),
-        (lambda scores: scores["device"] == "device3", 15),
+        (lambda scores: scores["device"] == "device2", 10),
+        (lambda scores: scores["device"] == "device3", 16),
         (lambda scores: scores["interface"] == "frictionless", 11),
         (lambda scores: scores["device"].str.startswith("device"), 0),
     ],
@@ -302,7 +308,7 @@ def test_one_score_that_is_not_there_is_enough_for_no_row(value: float | None) -
     one = (scores["device"] == "device1") & (scores["condition"] == "medium_180") & (scores["interface"] == "shear")
     changed = scores[~one] if value is None else scores.assign(score=scores["score"].mask(one, value))
     table = claims_table(changed, correlations)
-    assert len(table) == 13
+    assert len(table) == 14
     of_device1 = table.loc[table["claim"].str.startswith("Device 1"), "claim"]
     assert of_device1.str.contains("correlates").all()  # the table of correlations is still there
 
@@ -323,14 +329,15 @@ def test_a_strong_negative_correlation_is_no_weaker_than_a_positive_one() -> Non
 @pytest.mark.parametrize(
     ("claim", "bound", "below", "above"),
     [
-        *((f"Device {number}: the change of strain correlates very well", 0.8, "no", "yes") for number in (1, 2, 3)),
+        *((f"Device {number}: the change of strain correlates very well", 0.936, "no", "yes") for number in (1, 2, 3)),
+        ("Device 1 without shear: the change of strain still correlates very well", 0.936, "no", "yes"),
         ("Device 2: the strain correlates well", 0.6, "no", "yes"),
         ("Device 2 without shear: the change of strain correlates weakly", 0.4, "yes", "no"),
         ("Device 1: the strain correlates very poorly", 0.2, "yes", "no"),
     ],
 )
 def test_words_for_correlations_have_their_usual_bounds(claim: str, bound: float, below: str, above: str) -> None:
-    """Those of Evans 1996, with |r| on either side by twice its error."""
+    """Those of Evans 1996, very well as the paper has it (R² 0.876). |r| is on either side by twice its error."""
     scores = make_scores()
     for r, holds in ((bound - 0.02, below), (bound + 0.02, above)):
         correlations = correlate(scores).assign(r2=r**2, slope_sign=1, r_error=0.01, slope_open=0)

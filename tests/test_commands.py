@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,8 @@ from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
 from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
-from fingerpad.commands.score_table import as_table
+from fingerpad.commands.options import variations
+from fingerpad.commands.score_table import _pressed, as_table
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, MeshError, UsageError
@@ -1034,3 +1036,13 @@ main(["new", "mine", "--from", "device1"])
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT / "src")
     assert done.returncode == 1
     assert "Traceback" in done.stderr
+
+
+def test_depth_and_force_of_pre_indentation_stand_with_their_units() -> None:
+    row = {"interface": "shear", "indentation_mm": 1.25, "force_N_per_mm": 0.5}
+    assert _pressed([row, row]) == ["pre-indentation: 1.25 mm and 0.5 N/mm (shear)"]
+
+
+def test_values_of_a_key_that_is_given_twice_are_all_taken() -> None:
+    asked = Namespace(vary=["contact.friction=0.3", "contact.friction=0.6"])
+    assert variations(asked) == [{"contact.friction": 0.3}, {"contact.friction": 0.6}]

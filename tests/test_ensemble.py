@@ -173,7 +173,7 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
 def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
     """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
     claims, correlations = tables
-    assert len(claims) == 4 * 18
+    assert len(claims) == 4 * 19
     verdict = claims.set_index(["half_cycle", "varied", "claim"])["holds"]
     turned = verdict[verdict != "yes"].to_dict()
     strain2, strain3 = "Device 2: the strain correlates well.", "Device 3: the strain correlates negatively."

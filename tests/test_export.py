@@ -273,3 +273,10 @@ def test_command_refuses_settings_that_make_no_deck(
 ) -> None:
     assert main([*export(tmp_path, CONDITION), flag, "0"]) == FAILED
     assert f"{flag[2:].replace('-', ' ')} must be positive" in capsys.readouterr().err
+
+
+def test_steps_take_the_increments_that_are_asked_for() -> None:
+    """Still, indented, at rest, stimulated, at rest."""
+    settings = replace(DECK, indentation_increments=10, stimulus_increments=4, rest_increments=2)
+    first = [float(rows[0][0]) for _, _, rows in of_kind(parsed(scene("device2"), settings), "STATIC")]
+    assert first == pytest.approx([1.0, 1 / 10, 1 / 2, 1 / 4, 1 / 2])

@@ -31,6 +31,7 @@ from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.frequency import frequency_figure
 from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.maps import strain_map_figure
+from fingerpad.figures.phases import phases_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.section import DRIVEN, HEAD, section_figure
 from fingerpad.figures.shear import shear_figure
@@ -376,6 +377,29 @@ def test_variation_runs_from_left_to_right_and_shows_all_interfaces_that_there_a
     assert list(with_shear.get_xdata()) == list(without.get_xdata()) == [1.0, 3.0]
     np.testing.assert_allclose(with_shear.get_ydata(), [0.3, 0.9])
     np.testing.assert_allclose(without.get_ydata(), [0.15, np.nan])
+
+
+def test_phases_have_a_curve_per_dispersion_and_marks_where_the_device_is_tried() -> None:
+    rows = [
+        (kinematics, PHASED.name, dispersion, phase, readout, size * (1.0 + phase / 60.0), 1e-4, "mm2")
+        for kinematics in Kinematics
+        for readout, size in (("strain", 0.3), ("change_of_strain", 1e-3))
+        for dispersion in ("low", "high")
+        for phase in (0.0, 60.0, 120.0, 180.0)
+    ]
+    columns = ["kinematics", "device", "dispersion", "phase_deg", "readout", "score", "score_error", "unit"]
+    figure = phases_figure([PHASED], pd.DataFrame(rows, columns=columns))
+    require_legible(figure)
+    assert len(figure.axes) == len(Kinematics)
+    for axes in figure.axes:
+        tried = sorted({float(line.get_xdata()[0]) for line in axes.lines if len(line.get_xdata()) == 2})
+        assert tried == sorted({condition.phase_deg for condition in PHASED.conditions})
+        curves = [line for line in axes.lines if len(line.get_xdata()) == 4]
+        assert len({(line.get_color(), str(line.get_marker())) for line in curves}) == len(curves) == 2
+        for curve in curves:
+            np.testing.assert_allclose(curve.get_ydata(), [1.0, 2.0, 3.0, 4.0])
+        np.testing.assert_allclose(error_bars(axes)[0][0], np.array([0.9, 1.9, 2.9, 3.9]))
+    assert "10⁻³ mm²" in figure.axes[0].get_ylabel()
 
 
 def test_variation_sets_what_is_no_number_side_by_side() -> None:

@@ -16,7 +16,9 @@ from fingerpad.store import load
 
 NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
     "Device 1: the change of strain correlates very well.": "undecided",
+    "Device 2: the change of strain correlates very well.": "undecided",
     "Device 3: the change of strain correlates very well.": "undecided",
+    "Device 1 without shear: the change of strain still correlates very well.": "undecided",
     "Device 2: the strain correlates well.": "no",
     "Device 1: the strain correlates very poorly.": "undecided",
     "Device 3: the strain correlates negatively.": "undecided",

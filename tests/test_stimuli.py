@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import random
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -254,3 +255,30 @@ def test_builder_of_recordings_reads_in_the_folder(tmp_path: Path) -> None:
     given = {"recordings": {"tap": {"dispersion": "one", "phase": 90, "file": "tap.csv"}}}
     (condition,) = measured(given, 2, tmp_path)
     assert (condition.name, condition.dispersion, condition.phase_deg) == ("tap", "one", 90.0)
+
+
+def test_a_recording_may_begin_at_zero(tmp_path: Path) -> None:
+    found = read_recording(written(tmp_path, ["0,1,0,0", "0,2,0,0", *GOOD]), 2)
+    assert found.time.tolist() == [0.0, 0.5, 1.0]
+
+
+def test_a_snapshot_is_at_the_phase_with_its_decimals() -> None:
+    stimulus = {**PHASED, "direction": "normal", "half_cycle": "first", "phases": [22.4]}
+    (made,) = phased(stimulus, 2, ROOT)
+    assert made.normal[0] == pytest.approx(0.02 * np.cos(np.radians([0.0, 22.4])), rel=1e-9)
+
+
+def test_a_stroke_has_no_sign() -> None:
+    row, path = ActuatorRow((-2.0, 2.0), 2.0, 0.3), np.array([[-0.02, -0.01]])
+    lift = Condition("lift", "one", 0.0, np.array([1.0]), path, -path)
+    pull = Condition("pull", "one", 0.0, np.array([1.0]), 0.0 * path, path)
+    assert Device("d", "D", Control.DISPLACEMENT, row, (lift,)).strokes == (0.02, 0.02)
+    assert Device("d", "D", Control.DISPLACEMENT, row, (pull,)).strokes == (0.0, 0.02)
+
+
+@pytest.mark.parametrize("part", ["normal", "tangential", "time"])
+def test_stimuli_that_differ_in_any_part_are_not_solved_as_one(part: str) -> None:
+    path = np.array([[-0.02, -0.01]])
+    one = Condition("one", "one", 0.0, np.array([1.0]), path, path)
+    assert one.same_stimulus(replace(one, name="two"))
+    assert not one.same_stimulus(replace(one, **{part: 2.0 * getattr(one, part)}))

@@ -19,7 +19,9 @@ from fingerpad.errors import SceneError
 from fingerpad.scene.contact_law import Criterion
 from fingerpad.scene.scenefile import load_scene, read_values
 from fingerpad.scene.validation import (
+    LONGEST_NAME,
     MOST_REPORTED,
+    _meant_unit,
     check_config,
     check_device,
     known_devices,
@@ -650,3 +652,28 @@ def test_schemas_are_closed_and_described(name: str) -> None:
                 described += 1
     assert units > 10
     assert described > 15
+
+
+def test_a_preload_may_be_idle_where_the_criterion_is_varied(tmp_path: Path) -> None:
+    own = {"contact": {"criterion": quantity("depth", "1"), "depth": quantity(0.5, "mm")}}
+    document = edited(yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8")), own)
+    scene = check_device(write(tmp_path, "mine.yaml", document), SCHEMAS, CONFIG, {"contact.criterion": "touch"})
+    assert scene.model.contact.criterion == "touch"
+
+
+@pytest.mark.parametrize(("allowed", "unit", "value"), [("s", "ms", 5e-3), ("1", "%", 0.05)])
+def test_milliseconds_and_percent_are_converted(allowed: str, unit: str, value: float) -> None:
+    assert _meant_unit(allowed, unit, {"value": 5.0}) == f"{{value: {value}, unit: {allowed}}}"
+
+
+def test_as_many_mistakes_as_are_told_are_not_cut(tmp_path: Path) -> None:
+    document = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+    edits = {f"numerics.{key}.value": -1 for key in list(document["numerics"])[:MOST_REPORTED]}
+    lines = message_of(write(tmp_path, "config.yaml", edited(document, edits)), device=False).splitlines()
+    assert len(lines) == MOST_REPORTED
+
+
+def test_the_longest_name_is_one() -> None:
+    require_new_name("a" * LONGEST_NAME)
+    with pytest.raises(SceneError, match=f"at most {LONGEST_NAME}"):
+        require_new_name("a" * (LONGEST_NAME + 1))

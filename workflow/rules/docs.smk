@@ -1,6 +1,6 @@
 # Pages and pictures of docs/ that follow from scene files and from `all`: `snakemake docs`. Those that are filled from tables
 # are in pages.smk.
-# REQUIRED INPUTS: scene files, the code, docs/claims.md, results/figures/figure_5_correlation.png.
+# REQUIRED INPUTS: scene files, the code, docs/claims.md, docs/scorings.md, results/figures/figure_5_correlation.png.
 # OUTPUTS: docs/assumptions.md, docs/map.md; docs/figures/{figure}.png, also for the pages of pages.smk
 
 
@@ -9,6 +9,7 @@ rule docs:
         "docs/assumptions.md",
         "docs/map.md",
         "docs/claims.md",
+        "docs/scorings.md",
         "docs/figures/figure_5_correlation.png",
 
 

@@ -1,6 +1,6 @@
-# Pages of docs/ that say what was computed or measured. `snakemake docs` asks for claims.md alone; the others need every long
+# Pages of docs/ that say what was computed or measured. `snakemake docs` asks for SHORT_PAGES; the others need every long
 # target: `snakemake pages`.
-# REQUIRED INPUTS: results/claims.csv; results of honesty, accuracy, calculix, stress, benchmark, frequency and ensemble,
+# REQUIRED INPUTS: results/claims.csv; results of scorings, honesty, accuracy, calculix, stress, benchmark, frequency and ensemble,
 # results/scores.csv.
 # OUTPUTS: docs/{page}.md
 
@@ -26,18 +26,28 @@ PAGE_TABLES = {  # by page and by what it calls them
         "claims": "results/ensemble_claims.csv",
         "correlations": "results/ensemble_correlations.csv",
     },
+    "scorings": {
+        "scores": "results/scores.csv",
+        "others": "results/scorings.csv",
+        "correlations": "results/scoring_correlations.csv",
+        "claims": "results/scoring_claims.csv",
+        "response": "results/filter_response.csv",
+        "phases": "results/phases.csv",
+    },
     "skipping": {"switches": "results/benchmark/skipping.csv", "always": "results/benchmark/always.csv"},
 }
+SHORT_PAGES = ("claims", "scorings")  # seconds after `all`
 PAGE_FIGURES = {
     "accuracy": ["accuracy_closed_forms", "accuracy_closed_forms_finite", "benchmark"],
     "frequency": ["frequency"],
     "robustness": ["ensemble"],
+    "scorings": ["phases"],
 }
 
 
 rule pages:
     input:
-        expand("docs/{page}.md", page=[name for name in PAGE_TABLES if name != "claims"]),
+        expand("docs/{page}.md", page=[name for name in PAGE_TABLES if name not in SHORT_PAGES]),
 
 
 rule page:

@@ -11,6 +11,7 @@ from fingerpad.pages.claims import claims_values
 from fingerpad.pages.filling import filled
 from fingerpad.pages.frequency import frequency_values
 from fingerpad.pages.robustness import robustness_values
+from fingerpad.pages.scorings import scorings_values
 from fingerpad.pages.skipping import skipping_values
 
 VALUES = {
@@ -18,6 +19,7 @@ VALUES = {
     "claims": claims_values,
     "frequency": frequency_values,
     "robustness": robustness_values,
+    "scorings": scorings_values,
     "skipping": skipping_values,
 }
 

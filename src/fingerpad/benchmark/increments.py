@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import condense_scene, predicted_rows
-from ..readouts.accuracy import case_of, relative_error
+from ..readouts.accuracy import case_of, relative_errors
 from ..scene.scene import Scene
 
 
@@ -23,7 +22,7 @@ def increment_rows(
     ContactError.
     """
     condensed = condense_scene(scene, edge_intervals(scene))
-    errors = {case_of(row): error for row in stated if not math.isnan(error := relative_error(row))}
+    errors = relative_errors(stated)
     numerics = scene.model.numerics
     first: dict[tuple[str, ...], float] = {}
     for multiple in (1, *multiples):

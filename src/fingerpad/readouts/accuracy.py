@@ -9,7 +9,8 @@ Contact fronts converge with the first order, strains with the second, increment
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -98,6 +99,11 @@ def relative_error(row: Mapping[str, Any]) -> float:
     """
     known = has_error(row) and float(row["score"]) > 0.0
     return float(row["score_error"]) / float(row["score"]) if known else float("nan")
+
+
+def relative_errors(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, ...], float]:
+    """`relative_error` [1] of each case (`case_of`) in rows of the score table that has one."""
+    return {case_of(row): error for row in rows if not math.isnan(error := relative_error(row))}
 
 
 def has_error(row: Mapping[str, Any]) -> bool:

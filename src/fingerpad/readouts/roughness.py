@@ -43,10 +43,16 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
     2.0
     """
     # ASSUME: readout: the area under the curve is that of the rectified one (docs/model.md, 10)
+    points, values = over_span(grid, filtered, span)
+    return float(np.trapezoid(np.abs(values), points))
+
+
+def over_span(grid: FloatArray, values: FloatArray, span: tuple[float, float]) -> tuple[FloatArray, FloatArray]:
+    """Points (p,) [mm] of the grid (k,) within a span, and its ends; and the values (p,) there."""
     start, stop = np.clip(span, grid[0], grid[-1])
     inside = grid[(grid > start) & (grid < stop)]
     points = np.concatenate([[start], inside, [stop]])
-    return float(np.trapezoid(np.abs(np.interp(points, grid, filtered)), points))
+    return points, np.interp(points, grid, values)
 
 
 def roughness_scores(scene: Scene, readouts: FilteredReadouts) -> dict[Readout, float]:
@@ -59,7 +65,7 @@ def score_rows(
 ) -> list[dict[str, Any]]:
     """Rows of the score table for one condition and interface: one a read-out. note: what to beware of."""
     scores = roughness_scores(scene, readouts)
-    return [_row(scene, condition, interface, readout, score, note) for readout, score in scores.items()]
+    return [score_row(scene, condition, interface, readout, score, note) for readout, score in scores.items()]
 
 
 def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
@@ -85,10 +91,10 @@ def unsolved_rows(scene: Scene, note: str) -> list[dict[str, Any]]:
 
 def unscored_rows(scene: Scene, condition: Condition, interface: Interface, note: str) -> list[dict[str, Any]]:
     """Rows, with no score but a note, for one condition and interface: one a read-out."""
-    return [_row(scene, condition, interface, readout, None, note) for readout in Readout]
+    return [score_row(scene, condition, interface, readout, None, note) for readout in Readout]
 
 
-def _row(
+def score_row(
     scene: Scene, condition: Condition, interface: Interface, readout: Readout, score: float | None, note: str
 ) -> dict[str, Any]:
     """One row of the score table."""

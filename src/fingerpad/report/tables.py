@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
 from ..perception.wording import has_p, p_text, published_text, range_text, slope_name
-from ..readouts.accuracy import relative_error
+from ..readouts.accuracy import relative_error, relative_errors
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.readout import READOUT_NAME, Readout
@@ -61,8 +60,7 @@ def error_of(row: Row) -> float:
 
 def accuracy_summary(scores: Sequence[Row]) -> str:
     """Median and largest relative error of all scores, in words."""
-    errors = {(row["kinematics"], row["device"], row["condition"], row["interface"], row["readout"]):
-              error for row in scores if not math.isnan(error := relative_error(row))}  # fmt: skip
+    errors = relative_errors(scores)
     if not errors:
         return "No score has a known error."
     case = max(errors, key=lambda case: errors[case])

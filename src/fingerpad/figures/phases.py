@@ -1,0 +1,97 @@
+"""Scores between the phases at which devices are tried."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from ..scene.device import Device
+from ..scene.readout import Readout
+from ..scene.tissue_law import Kinematics
+from ..words import KINEMATICS_NAME, SCORE_SCALE, plain, score_label
+from .style import (
+    BLACK,
+    BLUE,
+    LINES,
+    MARKERS,
+    MIDDLE,
+    PINK,
+    SHADE,
+    THIN,
+    VERMILLION,
+    Series,
+    as_title,
+    draw_curve,
+    draw_errors,
+    legend_below,
+    letter,
+    new_figure,
+    rows_with,
+    styled,
+    subtitle,
+)
+
+ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 26.0  # mm
+COLOURS = (BLUE, VERMILLION, BLACK, PINK)  # of dispersions; neighbours differ in lightness as well
+TICKS = 45.0  # deg
+CAPTION = (
+    "With shear. Vertical bars: estimated discretisation errors. Grey lines: phases at which the device is tried. A"
+    " score orders the conditions of one device."
+)
+
+
+@styled
+def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
+    """Change-of-strain score against phase, one row per device, one column per kinematics.
+
+    devices: as they are tried, in the order of the rows. table: rows of `prediction.phases.phase_rows`.
+    """
+    change = table[table["readout"] == Readout.CHANGE_OF_STRAIN]
+    kinematics = list(change["kinematics"].unique())
+    dispersions = list(change["dispersion"].unique())
+    looks = {name: _look(name, number) for number, name in enumerate(dispersions)}
+    figure = new_figure(MIDDLE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
+    grid = figure.subplots(len(devices), len(kinematics), squeeze=False, sharex=True)
+    for row, device in zip(grid, devices, strict=True):
+        own = change[change["device"] == device.name]
+        for axes, each in zip(row, kinematics, strict=True):
+            _curves(axes, rows_with(own, each), looks, sorted({one.phase_deg for one in device.conditions}))
+            first = axes is row[0]
+            subtitle(axes, as_title(figure, device.title, len(kinematics)) if first else " ",
+                     KINEMATICS_NAME[Kinematics(each)])  # fmt: skip
+        row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0]), in_two_lines=True))
+    for axes in grid[-1]:
+        axes.set_xlabel("Phase difference (°)")
+    for axes, text in zip(grid.flat, "ABCDEFGH", strict=False):
+        letter(axes, text)
+    legend_below(figure, [_handle(look) for look in looks.values()], CAPTION)
+    return figure
+
+
+def _look(dispersion: str, number: int) -> Series:
+    """How a dispersion is drawn: its colour, mark and line."""
+    label = f"{plain(dispersion)} dispersion"
+    at = number % len(COLOURS)
+    return Series(label, label, COLOURS[at], MARKERS[at], LINES[at], "full")
+
+
+def _handle(look: Series) -> Line2D:
+    return Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line, label=look.label)
+
+
+def _curves(axes: Axes, rows: pd.DataFrame, looks: dict[str, Series], tried: Sequence[float]) -> None:
+    """One curve per dispersion, and lines at the phases that are tried."""
+    scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
+    for phase in tried:
+        axes.axvline(phase, color=SHADE, linewidth=2.0 * THIN, zorder=0)
+    for dispersion, own in rows.groupby("dispersion", sort=False):
+        phases, scores, errors = (own[column].to_numpy(float) for column in ("phase_deg", "score", "score_error"))
+        draw_errors(axes, phases, scale * scores, scale * errors, along="y")
+        draw_curve(axes, phases, scale * scores, looks[str(dispersion)])
+    axes.set_xticks(np.arange(0.0, rows["phase_deg"].max() + TICKS / 2.0, TICKS))
+    axes.set_ylim(bottom=0.0)

@@ -1,0 +1,26 @@
+"""Scores between the phases at which a device is tried: the same stimuli at phases in equal steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..scene.validation import check_device
+from .forecast import forecast
+
+PHASES = [15.0 * step for step in range(13)]  # deg: from 0 to 180; source: six steps between those that are shipped
+COLUMNS = ("kinematics", "device", "dispersion", "phase_deg", "readout", "score", "score_error", "unit", "note")
+
+
+def phase_rows(device: Path, schemas: Path, config: Path) -> Iterator[dict[str, Any]]:
+    """The columns COLUMNS of the score table of a device with shear at all PHASES, with each kinematics that it is
+    predicted with. device: a file with `stimulus.phases`. Raises SceneError if it has none.
+    """
+    scene = check_device(device, schemas, config, {"stimulus.phases": PHASES})
+    with_shear = replace(scene, device=replace(scene.device, frictionless=False))
+    for kinematics in scene.computed:
+        for row in forecast(with_shear.with_kinematics(kinematics)):
+            if row["score"] is not None:
+                yield {column: row[column] for column in COLUMNS}

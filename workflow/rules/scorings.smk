@@ -1,0 +1,83 @@
+# What scores owe to the filter, to the sign of a change, to rectifying, to the pre-indented state and to the drive alone: other
+# scores of what `all` has solved, and of the phases between. Not part of `all`: ask for them with `snakemake scorings`.
+# REQUIRED INPUTS: results/{kinematics}/{device}/{condition}/{interface}/filtered.npz, results/scores.csv, data/, scene files.
+# OUTPUTS: results/scorings.csv, results/scoring_{correlations,claims}.csv, results/filter_response.csv, results/phases.csv,
+# results/figures/phases.{png,pdf}
+
+PHASED = [name for name in DEVICES if "phases" in device_documents()[name]["stimulus"]]
+
+
+rule scorings:
+    input:
+        "results/scorings.csv",
+        "results/figures/phases.png",
+        "results/figures/phases.pdf",
+
+
+rule other_scores:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient(DEVICE_FILES),
+        recordings=ancient(ALL_RECORDINGS),
+        filtered=cases("results/{kinematics}/{device}/{condition}/{interface}/filtered.npz"),
+        scores="results/scores.csv",
+        ratings=DATA / "ratings.csv",
+        order=DATA / "stated_order.csv",
+        published=DATA / "published_r2.csv",
+    output:
+        scores="results/scorings.csv",
+        correlations="results/scoring_correlations.csv",
+        claims="results/scoring_claims.csv",
+        response="results/filter_response.csv",
+    log:
+        "results/logs/other_scores.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("scorings.py"),
+        conditions=KNOWN,
+        scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each]],
+    script:
+        "../scripts/scorings.py"
+
+
+rule phases:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient([file_of(name) for name in PHASED]),
+        schemas=ancient([SCHEMAS / f"{name}.schema.yaml" for name in ("config", "device")]),
+    output:
+        table="results/phases.csv",
+    log:
+        "results/logs/phases.log",
+    benchmark:
+        "results/benchmarks/phases.tsv"
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=2000,
+        runtime=20,
+    params:
+        code=code("phases.py"),
+        scenes=[scored(name, each) for each in KINEMATICS for name in PHASED],
+    script:
+        "../scripts/phases.py"
+
+
+rule figure_phases:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient([file_of(name) for name in PHASED]),
+        table="results/phases.csv",
+    output:
+        png="results/figures/phases.png",
+        pdf="results/figures/phases.pdf",
+    log:
+        "results/logs/figure_phases.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("figure_phases.py"),
+        titles=[SCENE[name].device.title for name in PHASED],
+    script:
+        "../scripts/figure_phases.py"
