@@ -46,7 +46,7 @@ def _told(claim: str, kind: str) -> str:
 
 
 def _statements(claims: pd.DataFrame) -> pd.DataFrame:
-    """A row a statement: in how many members it holds, and which turn it, by half-cycle."""
+    """One row per statement: in how many members it holds, and which change its verdict, by half-cycle."""
     rows = []
     for (claim, kind), own in claims.groupby(TOLD, sort=False):
         row: dict[str, object] = {"statement": _told(claim, kind)}
@@ -54,7 +54,7 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
             found = _different(own[own["half_cycle"] == half_cycle], "evidence").set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)
             row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
-            row[f"turned in {half_cycle}"] = ", ".join(found[found != usual].index)
+            row[f"changed in {half_cycle} by"] = ", ".join(found[found != usual].index)
         rows.append(row)
     return pd.DataFrame(rows)
 

@@ -42,7 +42,7 @@ def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, f
     >>> round(roughness_score(grid, -np.ones(401), (-1.0, 1.0)), 12)
     2.0
     """
-    # ASSUME: readout: the area under the curve is that of the rectified one (docs/model.md, 10)
+    # ASSUME: readout: the area under the curve is that of the rectified one (docs/scorings.md)
     points, values = over_span(grid, filtered, span)
     return float(np.trapezoid(np.abs(values), points))
 

@@ -63,7 +63,7 @@ def read_receptors(
     arc: (m,) [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. settling: times that pass
     before any is read. Where all values count as equal the change is zero.
     """
-    # ASSUME: readout: the change of strain is that from the pre-indented state
+    # ASSUME: readout: the change of strain is that from the pre-indented state, with its sign (docs/scorings.md)
     before, *strains = (measure(each) for each in (components[0], *components[1 + settling :]))
     changes = np.array([without_rounding(each - before, before) for each in strains])
     size = _size(changes, arc)

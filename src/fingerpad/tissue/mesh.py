@@ -324,6 +324,7 @@ def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
 def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tuple[np.ndarray, tuple[str, ...]]:
     """Layer index of elements by logical centre, and the layers' names (pad first)."""
     # ASSUME: finger: off the mid-line, too, layers lie in their order, and the last of each stack fills up to the bone
+    # ASSUME: finger.pad: interfaces between layers are smooth, without dermal papillae and intermediate ridges
     index = np.empty(s.shape, dtype=np.int64)
     first = 0
     for stack, inside in ((finger.pad, s < nail), (finger.dorsal, s > nail)):
