@@ -11,7 +11,8 @@ import pytest
 import yaml
 
 from fingerpad import errors
-from fingerpad.pages.codemap import dotted, imported, levels, page, summary, unit
+from fingerpad.digraph import levels
+from fingerpad.pages.codemap import dotted, imported, page, summary, unit
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "fingerpad"
@@ -103,7 +104,7 @@ def test_imports_have_no_circle_and_levels_rise() -> None:
     packages = {(unit(other), unit(name)) for other, name in modules if unit(other) != unit(name)}
     assert len(modules) > len(texts)
     for names, edges in ((texts, modules), (map(unit, texts), packages)):
-        level = levels(names, edges)
+        level = levels(edges, names)
         assert all(level[start] < level[stop] for start, stop in edges)
 
 

@@ -13,7 +13,7 @@ import pytest
 from fingerpad.scene.readout import GaborFilter
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
-from support import checksum, files_in, fingerprint, prescribed, reached_modules
+from support import checksum, files_in, fingerprint, reached_modules
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -177,5 +177,5 @@ def test_every_material_matters(scene: Scene) -> None:
 def test_path_holds_no_names(scene: Scene) -> None:
     first = scene.device.conditions[0]
     renamed = dataclasses.replace(first, dispersion="other")
-    assert fingerprint(prescribed(renamed)) == fingerprint(prescribed(first))
-    assert fingerprint(prescribed(scene.device.conditions[-1])) != fingerprint(prescribed(first))
+    assert fingerprint(renamed.prescribed) == fingerprint(first.prescribed)
+    assert fingerprint(scene.device.conditions[-1].prescribed) != fingerprint(first.prescribed)

@@ -15,8 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from fingerpad.scene.device import Condition
-
 PACKAGE = "fingerpad"
 LEFT_BEHIND = {"__pycache__", ".ipynb_checkpoints", f"{PACKAGE}.egg-info"}  # folders that Python and Jupyter make
 
@@ -85,11 +83,6 @@ def files_in(paths: Iterable[Path]) -> list[Path]:
 def fingerprint(*parts: Any) -> str:
     """The values (not the sources) of parts of a scene, as text: a job reruns when what it depends on changes."""
     return json.dumps([_plain(part) for part in parts], sort_keys=True)
-
-
-def prescribed(condition: Condition) -> tuple[Any, ...]:
-    """What a condition prescribes, without its names."""
-    return condition.time, condition.normal, condition.tangential, condition.settling
 
 
 def commit(base: Path) -> str:

@@ -46,23 +46,33 @@ def reduced(edges: Iterable[Edge]) -> list[Edge]:
     )
 
 
+def levels(edges: Iterable[Edge], nodes: Iterable[str] = ()) -> dict[str, int]:
+    """Level of each node: 0 if no edge ends in it, else one above the highest from which an edge comes. nodes: those
+    that may be without edges.
+
+    >>> levels([("a", "b"), ("b", "d"), ("c", "d")])
+    {'a': 0, 'b': 1, 'd': 2, 'c': 0}
+    """
+    before: dict[str, set[str]] = {node: set() for node in nodes}
+    for start, stop in edges:
+        before.setdefault(start, set())
+        before.setdefault(stop, set()).add(start)
+
+    @cache
+    def level(node: str) -> int:
+        return max((1 + level(other) for other in before[node]), default=0)
+
+    return {node: level(node) for node in before}
+
+
 def layers(edges: Iterable[Edge]) -> dict[str, int]:
     """Layer of each node, 0 at the top: as low as what follows allows, so that edges are short.
 
     >>> layers([("a", "b"), ("b", "d"), ("c", "d")])
     {'a': 0, 'b': 1, 'c': 1, 'd': 2}
     """
-    after: dict[str, list[str]] = {}
-    for start, stop in edges:
-        after.setdefault(start, []).append(stop)
-        after.setdefault(stop, [])
-
-    @cache
-    def height(node: str) -> int:
-        return max((1 + height(other) for other in after[node]), default=0)
-
-    heights = {node: height(node) for node in sorted(after)}
-    return {node: max(heights.values()) - found for node, found in heights.items()}
+    heights = levels((stop, start) for start, stop in edges)
+    return {node: max(heights.values()) - heights[node] for node in sorted(heights)}
 
 
 def placed(edges: Sequence[Edge]) -> tuple[dict[str, tuple[float, int]], list[list[tuple[float, int]]]]:

@@ -1,4 +1,4 @@
-"""An import that leaves out what its package would load on the chance of a use that there is none of here."""
+"""An import of a package without one of its optional, slow dependencies, of which there is no use here."""
 
 from __future__ import annotations
 

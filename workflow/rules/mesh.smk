@@ -30,7 +30,7 @@ rule mesh:
             scene_of(w).model.skips,
             scene_of(w).device.interfaces(),
             scene_of(w).device.actuators,
-            [support.prescribed(condition) for condition in scene_of(w).device.conditions],
+            [condition.prescribed for condition in scene_of(w).device.conditions],
         ),
     script:
         "../scripts/mesh.py"

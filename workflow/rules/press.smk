@@ -46,7 +46,7 @@ rule stimulate:
         ENVIRONMENT
     params:
         code=code("stimulate.py"),
-        scene=lambda w: support.fingerprint(*pressing_of(w), support.prescribed(condition_of(w))),
+        scene=lambda w: support.fingerprint(*pressing_of(w), condition_of(w).prescribed),
     script:
         "../scripts/stimulate.py"
 

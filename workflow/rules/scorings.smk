@@ -34,11 +34,11 @@ rule other_scores:
     conda:
         ENVIRONMENT
     params:
-        code=code("scorings.py"),
+        code=code("other_scores.py"),
         conditions=KNOWN,
         scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each]],
     script:
-        "../scripts/scorings.py"
+        "../scripts/other_scores.py"
 
 
 rule phases:

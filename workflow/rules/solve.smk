@@ -26,7 +26,7 @@ rule solve:
             scene_of(w).model.contact,
             scene_of(w).model.numerics,
             scene_of(w).model.skips,
-            support.prescribed(condition_of(w)),
+            condition_of(w).prescribed,
         ),
     script:
         "../scripts/solve.py"

@@ -28,7 +28,7 @@ def main(
     folder: Path,
     table: Path,
 ) -> None:
-    """Read scene and small kinematics' reference, climb every ladder, write a row a mesh. With finite kinematics the
+    """Read scene and small kinematics' reference, climb every ladder, write a row per mesh. With finite kinematics the
     reference is a mesh of `finest` [1] times the sizes. Without ccx its ladders are left out.
     """
     rows: list[dict[str, Any]] = []

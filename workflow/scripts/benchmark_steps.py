@@ -12,7 +12,7 @@ from fingerpad.store import write_rows
 
 
 def main(config: Path, devices: list[Path], finite: list[Path], repeats: dict[str, int], timings: Path) -> None:
-    """Read the scenes, those of `finite` with finite kinematics too, time them, write one row a step."""
+    """Read the scenes, those of `finite` with finite kinematics too, time them, write one row per step."""
     scenes = [load_scene(config, path) for path in devices]
     scenes += [load_scene(config, path, Kinematics.FINITE) for path in finite]
     write_rows(timings, [row for scene in scenes for row in step_rows(scene, repeats[scene.kinematics])])

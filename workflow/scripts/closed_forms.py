@@ -10,7 +10,7 @@ from fingerpad.store import write_rows
 
 
 def main(config: Path, device: Path, table: Path) -> None:
-    """Read the scene (its finger has the layers), compute all cases, write one row a quantity and mesh."""
+    """Read the scene (its finger has the layers), compute all cases, write one row per quantity and mesh."""
     scene = load_scene(config, device)
     write_rows(table, [asdict(row) for case in CASES.values() for row in case(scene)])
 

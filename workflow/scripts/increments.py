@@ -9,7 +9,7 @@ from fingerpad.store import read_rows, write_rows
 
 
 def main(config: Path, devices: list[Path], scores: Path, multiples: list[int], table: Path) -> None:
-    """Read scenes and scores, write one row a device, multiple and read-out."""
+    """Read scenes and scores, write one row per device, multiple and read-out."""
     stated, rows = read_rows(scores), []
     for path in devices:
         rows.extend(increment_rows(load_scene(config, path), multiples, stated))

@@ -9,7 +9,7 @@ from fingerpad.store import write_rows
 
 
 def main(devices: Sequence[Path], schemas: Path, config: Path, table: Path) -> None:
-    """Read the scenes, solve them at all phases, write a row a score."""
+    """Read the scenes, solve them at all phases, write a row per score."""
     write_rows(table, [row for path in devices for row in phase_rows(path, schemas, config)])
 
 

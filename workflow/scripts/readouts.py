@@ -23,7 +23,7 @@ def main(
     compared: Path,
 ) -> None:
     """Read devices, their meshes and maps, and solutions (conditions by device, interfaces by condition); condense for
-    the other side; write a row a score and a row a comparison.
+    the other side; write a row per score and a row per comparison.
     """
     waiting = iter(solutions)
     rows, compared_rows = [], []

@@ -22,7 +22,7 @@ def main(
     interface: str,
     score: Path,
 ) -> None:
-    """Read solution and filtered read-outs, integrate these, write one row a read-out."""
+    """Read solution and filtered read-outs, integrate these, write one row per read-out."""
     scene = load_scene(config, device, Kinematics(kinematics))
     tried, solved, read = scene.device.condition(condition), load(solution, Solution), load(filtered, FilteredReadouts)
     write_rows(score, noted_rows(scene, tried, Interface(interface), solved, read))

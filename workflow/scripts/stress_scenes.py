@@ -12,7 +12,7 @@ SOLVE = {Kinematics.SMALL: outcomes, Kinematics.FINITE: deformed_outcomes}
 
 
 def main(kinematics: str, first: int, stop: int, scenes: Path) -> None:
-    """Solve the scenes from first to before stop, write one row a scene."""
+    """Solve the scenes from first to before stop, write one row per scene."""
     write_rows(scenes, [asdict(outcome) for outcome in SOLVE[Kinematics(kinematics)](range(first, stop))])
 
 

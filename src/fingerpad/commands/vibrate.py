@@ -110,7 +110,7 @@ def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
-    """A table for each interface and read-out, one line a condition and one column a frequency; then the notes."""
+    """A table for each interface and read-out, one line per condition and one column per frequency; then the notes."""
     frequencies = (SLOWLY, *scene.device.frequencies)
     header = ["condition", *map(frequency_name, frequencies)]
     parts = [titled(scene)]

@@ -63,7 +63,7 @@ def lacking(missing: float, law: ContactLaw) -> str:
 
 
 def nearest(least: float, height: float, touch: float, law: ContactLaw) -> str:
-    """In words at which height least was missing."""
+    """In words by how much the criterion was missed at best, and at which height."""
     if not np.isfinite(least):
         return ", and all never touched at once"
     short = lacking(least, law).removesuffix(" short")

@@ -73,8 +73,8 @@ def overlapped(problem: ContactProblem, state: ContactState, allowed: float) -> 
 
 
 def handed_over(problem: ContactProblem, state: ContactState, allowed: float) -> np.ndarray:
-    """Index (n,) of the actuators that nodes are to be given to where some have come over another one than their own:
-    as in the state, but for these. Actuators stay in order along the skin.
+    """Index (n,) of each node's actuator: as in the state, but nodes that overlap another actuator are given to that
+    one. Actuators stay in order along the skin.
     """
     own, astray = state.given, overlapped(problem, state, allowed)
     if not astray.any():

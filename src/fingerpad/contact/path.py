@@ -64,8 +64,9 @@ def advance(
     solve: SolveIncrement[State, Carried],
     drifting: bool = False,
 ) -> tuple[State, Carried]:
-    """`follow` with any way to solve an increment, starting from what one has left to use again, if there is anything,
-    and giving the last of it back. Where the actuators stand there is nothing to solve, unless nodes are `drifting`.
+    """`follow` with a given way to solve an increment. carried: what an earlier increment has left to be used again, or
+    nothing; that of the last increment is returned. Where the actuators stand there is nothing to solve, unless nodes
+    are `drifting`.
 
     Raises as `follow`; on tissue that deforms much InvertedError or SnapError, if that is why.
     """

@@ -41,7 +41,7 @@ def ablation_figure(
     kinematics: Kinematics,
     turning: bool,
 ) -> Figure:
-    """Strain (A) and change-of-strain scores (B) of every condition with and without shear, one row a device.
+    """Strain (A) and change-of-strain scores (B) of every condition with and without shear, one row per device.
 
     scores, correlations: the tables of that name. titles: by device. turning: whether the contact normal turns where
     friction acts.

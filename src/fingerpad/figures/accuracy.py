@@ -33,7 +33,7 @@ LABEL_HEIGHT, MARGIN = 0.145, 0.06  # of a label of a legend, and around all, of
 
 @styled
 def accuracy_figure(rows: pd.DataFrame, kinematics: Kinematics) -> Figure:
-    """One panel a case with those kinematics, one curve a quantity. rows: the table of closed forms."""
+    """One panel per case with those kinematics, one curve per quantity. rows: the table of closed forms."""
     finite = kinematics is Kinematics.FINITE
     cases = [case for case in dict.fromkeys(rows["case"]) if case.startswith(FINITE_CASES) is finite]
     lines = -(-len(cases) // COLUMNS)

@@ -60,7 +60,7 @@ def correlation_figure(
     titles: Mapping[str, str],
     kinematics: Kinematics,
 ) -> Figure:
-    """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row a device.
+    """Strain score (A) and change-of-strain score (B) with shear against perceived roughness, one row per device.
 
     A device without ratings is shown with its conditions in the order of their scores, equal ones side by side.
 

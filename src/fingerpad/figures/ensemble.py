@@ -36,7 +36,7 @@ CAPTION = (
 
 @styled
 def ensemble_figure(claims: pd.DataFrame) -> Figure:
-    """A mark for every statement, member and half-cycle, a panel a kinematics.
+    """A mark for every statement, member and half-cycle, a panel per kinematics.
 
     claims: results/ensemble_claims.csv.
     """

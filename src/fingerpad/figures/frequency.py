@@ -41,7 +41,7 @@ CAPTION = (
 
 @styled
 def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
-    """Change-of-strain score against frequency, with shear and without, one row a device.
+    """Change-of-strain score against frequency, with shear and without, one row per device.
 
     table: results/frequency.csv.
     """
@@ -69,7 +69,7 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
 def _curves(
     axes: Axes, rows: pd.DataFrame, styles: Styles, frequencies: Sequence[float], asked: Sequence[float]
 ) -> None:
-    """One curve a condition, slow cycles to the left of a gap in the axis; marks at the frequencies asked for."""
+    """One curve per condition, slow cycles to the left of a gap in the axis; marks at the frequencies asked for."""
     slow = frequencies[0] / BELOW
     axes.set_xscale("log")
     axes.set_xlim(slow / np.sqrt(BELOW), frequencies[-1] * np.sqrt(BELOW))

@@ -41,7 +41,7 @@ CAPTION = (
 
 @styled
 def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mapping[str, str]) -> Figure:
-    """Force against indentation (A), strain (B) and change-of-strain scores (C) with both kinematics, one row a device.
+    """Force against indentation (A), strain (B) and change-of-strain scores (C) with both kinematics, a row per device.
 
     scores, curves: the tables scores.csv and indentation.csv. titles: by device.
     """

@@ -266,7 +266,7 @@ def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMe
 
 
 def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
-    """Pressure and shear of the nodes in contact, one line an actuator."""
+    """Pressure and shear of the nodes in contact, one line per actuator."""
     centre = np.asarray(row.positions) + condition.tangential[solution.reading.time]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear

@@ -1,4 +1,4 @@
-"""Strain and change of strain at the receptors, a row a device and dispersion (mirrors the paper's figure 4)."""
+"""Strain and change of strain at the receptors, a row per device and dispersion (mirrors the paper's figure 4)."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ LOOKS: dict[str, dict[str, Any]] = {
 
 @styled
 def stimuli_figure(devices: Sequence[Device]) -> Figure:
-    """Displacement of every actuator in every condition: a block of panels a device, a row a dispersion."""
+    """Displacement of every actuator in every condition: a block of panels per device, a row per dispersion."""
     rows = [(device, list(_rows(device))) for device in devices]
     heights = [len(own) * ROW_HEIGHT + TITLE_HEIGHT for _, own in rows]
     height = sum(heights) + LEGEND_HEIGHT

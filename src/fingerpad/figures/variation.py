@@ -84,7 +84,7 @@ def _curves(
     tables: Sequence[Rows],
     series: Mapping[tuple[str, str], Series],
 ) -> None:
-    """One curve a condition, broken where it has no score."""
+    """One curve per condition, broken where it has no score."""
     scale = SCORE_SCALE[readout][0]
     if all(row["score"] is None for rows in tables for row in rows):
         note_in(axes, "no prediction")

@@ -29,7 +29,7 @@ def _counted(kinematics: str, counts: Counter[str]) -> str:
 
 
 def _verdicts(claims: pd.DataFrame) -> pd.DataFrame:
-    """A row a statement, a column of verdicts for each kinematics; empty where there is none."""
+    """A row per statement, a column of verdicts for each kinematics; empty where there is none."""
     told = ["claim", "kind", "source"]
     wide = claims.pivot(index=told, columns="kinematics", values="holds").fillna("")
     kinematics = list(claims["kinematics"].unique())

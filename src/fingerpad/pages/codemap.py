@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Collection, Container, Iterable, Mapping, Sequence
-from functools import cache
+from collections.abc import Collection, Container, Mapping, Sequence
 from pathlib import PurePosixPath
 
-from ..digraph import reduced
+from ..digraph import levels, reduced
 from ..markdown import table
 
 RULE = re.compile(r"^ *rule (\w+):", re.MULTILINE)
@@ -44,7 +43,7 @@ def page(modules: Mapping[str, str], rules: Mapping[str, str], scripts: Mapping[
     shown = {name: f"`{name}/`" if name in packages else f"`{name}`" for name in map(unit, texts)}
     said = {name: summary(texts[name]) for name in shown}
     parts = [INTRODUCTION, PACKAGES, _ordered(("level", "package", "what", "imports"), shown, said, outer)]
-    level = levels(shown, outer)
+    level = levels(outer, shown)
     for package in sorted(packages, key=lambda package: (level[package], package)):
         inside = {name for name in texts if unit(name) == package and name != package}
         parts.append(f"### `{package}/`\n\n{said[package]}\n")
@@ -69,7 +68,7 @@ def _ordered(
     heads: Sequence[str], shown: Mapping[str, str], said: Mapping[str, str], edges: Collection[tuple[str, str]]
 ) -> str:
     """Table of names from the lowest level up: how each is shown, what is said of it, and what it imports."""
-    level = levels(shown, edges)
+    level = levels(edges, shown)
     imports: dict[str, list[str]] = {name: [] for name in shown}
     for other, name in reduced(edges):
         imports[name].append(shown[other])
@@ -111,13 +110,3 @@ def imported(text: str, name: str, known: Container[str]) -> set[str]:
 def summary(text: str) -> str:
     """First line of a module's docstring."""
     return (ast.get_docstring(ast.parse(text)) or "").partition("\n")[0]
-
-
-def levels(names: Iterable[str], edges: Collection[tuple[str, str]]) -> dict[str, int]:
-    """Level of each module: 0 imports none, n imports one of level n - 1."""
-
-    @cache
-    def level(name: str) -> int:
-        return max((1 + level(start) for start, stop in edges if stop == name), default=0)
-
-    return {name: level(name) for name in names}

@@ -75,7 +75,7 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
             raise _error(path, line, "rating", row["rating"], "a finite number, 0 or more")
         if (device, condition) in lines:
             first = lines[device, condition]
-            raise _error(path, line, "condition", condition, f"one row a condition; {device} has it on line {first}")
+            raise _error(path, line, "condition", condition, f"one row per condition; {device} has it on line {first}")
         first_kind, first = kinds.setdefault(device, (kind, line))
         if kind != first_kind:
             raise _error(path, line, "kind", kind, f"one kind a device; {device} has '{first_kind}' on line {first}")

@@ -1,7 +1,7 @@
 """Verdicts on comparisons of scores and of correlations: yes, no, or undecided.
 
-Undecided is what compares numbers that differ by less than their errors, or whose errors are not known; and what some
-ratings with the stated order would support and others not, where their order is all that is known of them.
+A comparison is undecided if the numbers differ by less than their errors, or if errors are not known; and, where only
+the order of ratings is known, if some ratings in that order would support it and others not.
 """
 
 from __future__ import annotations

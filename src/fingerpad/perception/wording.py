@@ -15,7 +15,9 @@ OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `sl
 
 
 def has_p(p: object, kind: object) -> bool:
-    """Whether a p is there and tests anything: the steps of ordinal surrogates, a `label`, are no measurement."""
+    """Whether there is a p that means something: the steps between ordinal surrogates were not measured. kind: a
+    `RatingKind.label`.
+    """
     return _is_there(p) and kind != RatingKind.SURROGATE.label
 
 

@@ -72,7 +72,7 @@ def variant_rows(
 
 
 def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, Any]]:
-    """How the conditions' scores under each variant agree with those as configured, a row a device, interface,
+    """How the conditions' scores under each variant agree with those as configured, a row per device, interface,
     read-out and variant.
 
     kendall_tau, r [1]: rank and linear correlation over the n conditions; both None where scores are constant. side: as

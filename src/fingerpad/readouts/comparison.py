@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 
-SAME = 1e-6  # of the larger [1] by which scores differ that count as one; source: those of mirrored stimuli, by 1e-8
+SAME = 1e-6  # relative difference [1] up to which scores count as one; source: those of mirrored stimuli differ by 1e-8
 
 
 class Relation(StrEnum):

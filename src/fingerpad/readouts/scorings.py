@@ -1,6 +1,4 @@
-"""Other scorings: what a score owes to the filter, to the sign of a change, to rectifying, to the pre-indented state;
-and scores that the drive alone gives, for which no finger is needed.
-"""
+"""Other scorings: another filter, sign or area, the pre-indented state alone, and the drive alone, without a finger."""
 
 from __future__ import annotations
 

@@ -11,10 +11,10 @@ from ..arrays import FloatArray
 from ..scene.readout import CONSTANT, Readout
 from ..tissue.compliance import VOIGT
 
-# of a change [1] by which another one differs from it at least; source: proportional ones that are nearly as large as
-# the peak's (`caveats.RIVAL`) differ by a fiftieth
+# Least relative difference [1] at which two changes count as different patterns; source: proportional ones that are
+# nearly as large as the peak's (`caveats.RIVAL`) differ by a fiftieth
 UNLIKE = 0.1
-# of the largest [1] by which changes differ that count as equally large; source: those at times that mirror, by 1e-11
+# Relative difference [1] up to which changes count as equally large; source: those at times that mirror differ by 1e-11
 TIED = 1e-6
 
 

@@ -159,14 +159,14 @@ class Condition:
         time, normal, tangential = (each[: read + 1] for each in (self.time, self.normal, self.tangential))
         return replace(self, time=time, normal=normal, tangential=tangential, settling=read)
 
+    @property
+    def prescribed(self) -> tuple[FloatArray, FloatArray, FloatArray, int]:
+        """What it prescribes, without its names."""
+        return self.time, self.normal, self.tangential, self.settling
+
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""
-        return (
-            self.settling == other.settling
-            and np.array_equal(self.time, other.time)
-            and np.array_equal(self.normal, other.normal)
-            and np.array_equal(self.tangential, other.tangential)
-        )
+        return all(map(np.array_equal, self.prescribed, other.prescribed))
 
 
 @dataclass(frozen=True)

@@ -37,21 +37,7 @@ class Numerics:
     max_cuts: int
 
     def __post_init__(self) -> None:
-        require_positive(
-            "numerics",
-            edge_size=self.edge_size,
-            edge_zone=self.edge_zone,
-            finite_edge_size=self.finite_edge_size,
-            finite_edge_zone=self.finite_edge_zone,
-            face_size=self.face_size,
-            growth=self.growth,
-            receptor_size=self.receptor_size,
-            largest_size=self.largest_size,
-            contact_margin=self.contact_margin,
-            indentation_increments=self.indentation_increments,
-            stimulus_increments=self.stimulus_increments,
-            newton_tolerance=self.newton_tolerance,
-        )
+        require_positive("numerics", **{name: each for name, each in vars(self).items() if name != "max_cuts"})
         require(self.max_cuts >= 0, f"numerics: max_cuts {self.max_cuts} < 0")
 
     def edges(self, kinematics: Kinematics) -> tuple[float, float]:

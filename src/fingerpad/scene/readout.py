@@ -61,13 +61,7 @@ class GaborFilter:
     spacing: float
 
     def __post_init__(self) -> None:
-        require_positive(
-            "filter",
-            wavelength_strain=self.wavelength_strain,
-            wavelength_change=self.wavelength_change,
-            sigma=self.sigma,
-            spacing=self.spacing,
-        )
+        require_positive("filter", **vars(self))
 
     def wavelength(self, readout: Readout) -> float:
         """Wavelength [mm] for a read-out."""

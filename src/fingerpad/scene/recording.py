@@ -31,7 +31,7 @@ class Recording:
 
 
 def read_recording(path: Path, count: int) -> Recording:
-    """Displacements of `count` actuators from a CSV with one row a time and actuator, in any order.
+    """Displacements of `count` actuators from a CSV with one row per time and actuator, in any order.
 
     Columns: time [s], from 0; actuator, 1 to count from left to right; normal, tangential [mm]. Every actuator has a
     row at every time. Raises SceneError, which names file, line, column, what was found and what is allowed.
@@ -43,7 +43,7 @@ def read_recording(path: Path, count: int) -> Recording:
         time = _within(path, line, "time", row["time"], (0.0, LATEST), "s")
         at = time, _actuator(path, line, row["actuator"], count)
         if at in lines:
-            allowed = f"one row a time and actuator; {row['time']} s has it on line {lines[at]}"
+            allowed = f"one row per time and actuator; {row['time']} s has it on line {lines[at]}"
             raise SceneError(told(path, line, "actuator", row["actuator"], allowed))
         lines[at] = line
         first.setdefault(time, (row["time"], line))

@@ -124,7 +124,7 @@ def _alternating(row: Mapping[str, Any], relative_to: str, count: int) -> FloatA
 
 def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:
     """Any path: per-actuator normal and tangential displacements at given times. Raises SceneError where a row has not
-    one number an actuator, and as Condition.
+    one number per actuator, and as Condition.
     """
     conditions = []
     for name, given in stimulus["histories"].items():
