@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
 from ..scene.scene import Scene
+
+Row = TypeVar("Row", bound=Mapping[str, Any])
 
 GAP = "  "
 
@@ -12,6 +17,17 @@ GAP = "  "
 def titled(scene: Scene) -> str:
     """The line above a device's table: which device, and with which kinematics."""
     return f"{scene.device.title} ({scene.device.name}), {scene.kinematics} strain"
+
+
+def in_order(rows: Iterable[Row]) -> list[Row]:
+    """Rows of the score table with interfaces and read-outs in the order in which figures show them.
+
+    >>> rows = [{"interface": i, "readout": "strain"} for i in ("frictionless", "shear")]
+    >>> [row["interface"] for row in in_order(rows)]
+    ['shear', 'frictionless']
+    """
+    places = {str(each): place for names in (Interface, Readout) for place, each in enumerate(names)}
+    return sorted(rows, key=lambda row: (places[row["interface"]], places[row["readout"]]))
 
 
 def aligned(lines: Sequence[Sequence[str]], right: Sequence[bool]) -> list[str]:

@@ -11,7 +11,7 @@ from ..readouts.roughness import KEY
 from ..scene.scene import Scene
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
-from .printing import aligned, titled
+from .printing import aligned, in_order, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
 SHARE = re.compile(r"\d+(?:\.\d+)?%")
@@ -21,7 +21,7 @@ RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the righ
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
     """Title, aligned table and caveats of one device, with these values in place of those in its files."""
     title = ", ".join([titled(scene), *([named(values)] if values else [])])
-    ordered = sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain"))
+    ordered = in_order(rows)
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
     told = [{**row, "note": note, "rank": _ranked(row, ordered)} for row, note in zip(ordered, notes, strict=True)]

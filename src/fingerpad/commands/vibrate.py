@@ -21,7 +21,7 @@ from ..store import csv_text
 from ..vibration.creep import condense_creep
 from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_name, frequency_rows
 from .options import add_scene_options, checked_scene
-from .printing import aligned, titled
+from .printing import aligned, in_order, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 3  # of the progress before any score: mesh, compliance, creep
@@ -114,10 +114,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     frequencies = (SLOWLY, *scene.device.frequencies)
     header = ["condition", *map(frequency_name, frequencies)]
     parts = [titled(scene)]
-    for (interface, readout), group in groupby(
-        sorted(rows, key=lambda row: (row["interface"] != "shear", row["readout"] != "strain")),
-        key=lambda row: (row["interface"], row["readout"]),
-    ):
+    for (interface, readout), group in groupby(in_order(rows), key=lambda row: (row["interface"], row["readout"])):
         own = list(group)
         cells = [
             [name, *("-" if row["score"] is None else f"{row['score']:.4g}" for row in condition)]

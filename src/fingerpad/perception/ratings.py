@@ -37,8 +37,8 @@ class RatingKind(StrEnum):
         return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
 
 
-class Relation(StrEnum):
-    """How the ratings of two conditions compare, as stated."""
+class StatedRelation(StrEnum):
+    """How the ratings of two conditions are stated to compare."""
 
     LESS = "<"
     EQUAL = "="
@@ -105,7 +105,7 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
             continue
         for column in ("lower", "higher"):
             _check_name(path, line, column, row[column], conditions_by_device[row["device"]])
-        _check_name(path, line, "relation", row["relation"], [*Relation])
+        _check_name(path, line, "relation", row["relation"], [*StatedRelation])
         rows.append(dict(row))
     table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
     for device, part in table.groupby("device", sort=False):
@@ -151,11 +151,11 @@ def order_matrix(conditions: Sequence[str], order: pd.DataFrame) -> NDArray[np.b
     at_most = np.eye(len(conditions), dtype=bool)
     for low, relation, high in stated:
         at_most[low, high] = True
-        at_most[high, low] |= relation == Relation.EQUAL
+        at_most[high, low] |= relation == StatedRelation.EQUAL
     for via in range(len(conditions)):
         at_most |= at_most[:, [via]] & at_most[[via], :]
     for low, relation, high in stated:
-        if relation == Relation.LESS and at_most[high, low]:
+        if relation == StatedRelation.LESS and at_most[high, low]:
             raise RatingError(
                 f"stated order contradicts itself: '{conditions[low]}' < '{conditions[high]}', and other rows"
                 f" say that '{conditions[high]}' is not above '{conditions[low]}'"

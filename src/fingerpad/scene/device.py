@@ -160,13 +160,13 @@ class Condition:
         return replace(self, time=time, normal=normal, tangential=tangential, settling=read)
 
     @property
-    def prescribed(self) -> tuple[FloatArray, FloatArray, FloatArray, int]:
+    def prescribed(self) -> tuple[FloatArray | int, ...]:
         """What it prescribes, without its names."""
         return self.time, self.normal, self.tangential, self.settling
 
     def same_stimulus(self, other: Condition) -> bool:
         """Whether both prescribe the same path, whatever they are called."""
-        return all(map(np.array_equal, self.prescribed, other.prescribed))
+        return all(np.array_equal(one, two) for one, two in zip(self.prescribed, other.prescribed, strict=True))
 
 
 @dataclass(frozen=True)
