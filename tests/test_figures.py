@@ -402,6 +402,18 @@ def test_phases_have_a_curve_per_dispersion_and_marks_where_the_device_is_tried(
     assert "10⁻³ mm²" in figure.axes[0].get_ylabel()
 
 
+def test_phases_without_a_prediction_say_so() -> None:
+    """Of a device that leaves finite kinematics out, beside one that does not."""
+    rows = [(kinematics, name, "low", 0.0, "change_of_strain", 1e-3, 1e-4, "mm2")
+            for kinematics, name in (("small", "phased"), ("small", "forced"), ("finite", "phased"))]  # fmt: skip
+    columns = ["kinematics", "device", "dispersion", "phase_deg", "readout", "score", "score_error", "unit"]
+    figure = phases_figure([PHASED, FORCED], pd.DataFrame(rows, columns=columns))
+    require_legible(figure)
+    assert [any("no prediction" in text.get_text() for text in axes.texts) for axes in figure.axes] == [False] * 3 + [
+        True
+    ]
+
+
 def test_variation_sets_what_is_no_number_side_by_side() -> None:
     values = ["full", "touch", [0, 1, 1, 0]]
     figure = variation_figure("contact.criterion", "1", values, [Scene(MODEL, PHASED)] * 3, variation_tables(PHASED, 0))

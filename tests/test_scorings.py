@@ -225,6 +225,9 @@ def test_scores_at_phases_that_are_tried_are_the_shipped_ones(tmp_path: Path) ->
     shipped = RECORDED.query("kinematics == 'small' and device == 'device2' and interface == 'shear'")
     both = table.merge(shipped, on=["readout", "dispersion", "phase_deg"], suffixes=("", "_shipped"))
     assert len(both) == 6
+    assert change.set_index("phase_deg")["motion_mm"].loc[[0.0, 90.0, 180.0]].tolist() == pytest.approx(
+        [0.02, 0.07, 0.12]
+    )
     assert ((both["score"] - both["score_shipped"]).abs() <= both["score_error_shipped"]).all()
 
 
@@ -240,6 +243,7 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
             "readout": "change_of_strain",
             "score": 1e-3 * score,
             "score_error": 1e-4,
+            "motion_mm": 0.02 + phase * 1e-4,
         }
         for name, scores in shapes.items()
         for phase, score in zip((0.0, 90.0, 180.0), scores, strict=True)
@@ -252,8 +256,8 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
     correlations, claims = scoring_tables(others, small, *literature())
     tables = {"scores": small, "others": others, "correlations": correlations, "claims": claims, "phases": phases}
     values = scorings_values(tables | {"response": pd.DataFrame(response_rows(scene("device1")))})
-    assert "| small | device1 | low | 2.000 | 1.500 at 90° | yes | yes |" in str(values["phases"])
-    assert "| small | device1 | high | 1.000 | 1.000 at 0° | no | no |" in str(values["phases"])
+    assert "| small | device1 | low | 2.000 | 1.500 at 90° | yes | 20.0 to 29.0 | yes |" in str(values["phases"])
+    assert "| small | device1 | high | 1.000 | 1.000 at 0° | no | 20.0 | no |" in str(values["phases"])
     assert values["indented"] == "+1.0 to +1.0 % with small kinematics"
     assert "| no finger: both motions | yes | yes | yes | yes | 0.981, rising | 1.000, rising |" in str(
         values["drives"]

@@ -19,7 +19,7 @@ SCORE_SCALE = {
     Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
 }  # factor [1] and its typeset inverse
 PERCENT = 100.0
-KILO = 1e3  # kPa in a MPa
+KILO = 1e3  # kPa in a MPa, µm in a mm
 MINUS = "\N{MINUS SIGN}"
 
 

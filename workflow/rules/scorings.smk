@@ -10,8 +10,7 @@ PHASED = [name for name in DEVICES if "phases" in device_documents()[name]["stim
 rule scorings:
     input:
         "results/scorings.csv",
-        "results/figures/phases.png",
-        "results/figures/phases.pdf",
+        ["results/figures/phases.png", "results/figures/phases.pdf"] if PHASED else [],
 
 
 rule other_scores:

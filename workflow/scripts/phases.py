@@ -3,13 +3,16 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from fingerpad.errors import SceneError
 from fingerpad.jobs import logged
 from fingerpad.prediction.phases import phase_rows
 from fingerpad.store import write_rows
 
 
 def main(devices: Sequence[Path], schemas: Path, config: Path, table: Path) -> None:
-    """Read the scenes, solve them at all phases, write a row per score."""
+    """Read the scenes, solve them at all phases, write a row per score. Raises SceneError if no device has phases."""
+    if not devices:
+        raise SceneError("no device names stimulus.phases; give some in a file in config/devices")
     write_rows(table, [row for path in devices for row in phase_rows(path, schemas, config)])
 
 

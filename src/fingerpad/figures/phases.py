@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from ..readouts.roughness import SCORE_UNIT
 from ..scene.device import Device
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
@@ -31,6 +32,7 @@ from .style import (
     legend_below,
     letter,
     new_figure,
+    note_in,
     rows_with,
     styled,
     subtitle,
@@ -64,7 +66,7 @@ def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
             first = axes is row[0]
             subtitle(axes, as_title(figure, device.title, len(kinematics)) if first else " ",
                      KINEMATICS_NAME[Kinematics(each)])  # fmt: skip
-        row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0]), in_two_lines=True))
+        row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, SCORE_UNIT, in_two_lines=True))
     for axes in grid[-1]:
         axes.set_xlabel("Phase difference (°)")
     for axes, text in zip(grid.flat, "ABCDEFGH", strict=False):
@@ -86,6 +88,9 @@ def _handle(look: Series) -> Line2D:
 
 def _curves(axes: Axes, rows: pd.DataFrame, looks: dict[str, Series], tried: Sequence[float]) -> None:
     """One curve per dispersion, and lines at the phases that are tried."""
+    if rows.empty:
+        note_in(axes, "no prediction")
+        return
     scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
     for phase in tried:
         axes.axvline(phase, color=SHADE, linewidth=2.0 * THIN, zorder=0)

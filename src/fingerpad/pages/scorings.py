@@ -11,7 +11,7 @@ from ..readouts.comparison import Relation, Score, relation
 from ..readouts.scorings import DRIVES, Scoring
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
-from ..words import PERCENT, SCORE_SCALE
+from ..words import KILO, PERCENT, SCORE_SCALE
 from .filling import table
 
 # What the paper states of the order of change-of-strain scores, by the start of the claim
@@ -104,7 +104,8 @@ def _response(response: pd.DataFrame) -> pd.DataFrame:
 
 def _phases(phases: pd.DataFrame) -> pd.DataFrame:
     """Per device and dispersion at which phase the change of strain is lowest, whether it is lower there than at the
-    first phase by more than both errors, and whether it rises in every step from there.
+    first phase by more than both errors, what both motions of the drive do on the way, and whether the change of strain
+    rises in every step from there.
     """
     scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
     rows = []
@@ -126,6 +127,9 @@ def _phases(phases: pd.DataFrame) -> pd.DataFrame:
                 "at 0°": f"{known[0].value:.3f}",
                 "lowest": f"{known[lowest].value:.3f} at {ordered['phase_deg'].iloc[lowest]:g}°",
                 "falls first": "yes" if falls else "within errors" if lowest else "no",
+                "drive, µm": " to ".join(
+                    f"{KILO * ordered['motion_mm'].iloc[at]:.1f}" for at in dict.fromkeys((0, lowest))
+                ),
                 "then rises throughout": "yes" if (steps > 0.0).all() else "no",
             }
         )
