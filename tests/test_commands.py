@@ -27,6 +27,8 @@ from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
 from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
+from fingerpad.commands.check import TOO_FAR
+from fingerpad.commands.check import described as told_of
 from fingerpad.commands.options import variations
 from fingerpad.commands.score_table import _pressed, as_table
 from fingerpad.contact.linear_solution import Indented
@@ -41,12 +43,12 @@ from fingerpad.prediction.caveats import (
     solution_caveats,
     stimulus_caveats,
 )
-from fingerpad.prediction.forecast import LEFT_OUT, forecast, steps
+from fingerpad.prediction.forecast import LEFT_OUT, SILENT, forecast, steps
 from fingerpad.prediction.orders import orders
 from fingerpad.prediction.scoring import Condensed, Meshed, read_out
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.contact_law import Criterion, Interface
-from fingerpad.scene.device import Condition
+from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.sources import Origin, quantities
@@ -430,7 +432,9 @@ def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_told() -> None:
     assert doubts == ["moves actuators by 2e-05 mm at most: are displacements in mm?"]
 
 
-@pytest.mark.parametrize(("phase", "doubted"), [(1.5708, True), (3.0, False), (22.5, False), (0.0, False)])
+@pytest.mark.parametrize(
+    ("phase", "doubted"), [(1.5708, True), (6.2, True), (6.3, False), (3.0, False), (22.5, False), (0.0, False)]
+)
 def test_phases_as_of_radians_are_doubted(phase: float, doubted: bool) -> None:
     told = stimulus_caveats(replace(scene("device2").device.conditions[0], phase_deg=phase))
     assert told == ([f"has a phase of {phase} degrees: are phases in degrees?"] if doubted else [])
@@ -1046,3 +1050,142 @@ def test_depth_and_force_of_pre_indentation_stand_with_their_units() -> None:
 def test_values_of_a_key_that_is_given_twice_are_all_taken() -> None:
     asked = Namespace(vary=["contact.friction=0.3", "contact.friction=0.6"])
     assert variations(asked) == [{"contact.friction": 0.3}, {"contact.friction": 0.6}]
+
+
+def test_scores_of_other_cases_are_not_close() -> None:
+    one = ROW | {"condition": "a", "score": 1.0, "score_error": 0.01}
+    near = one | {"condition": "b", "score": 1.005}
+    others = [near | {key: "other"} for key in ("kinematics", "device", "interface", "readout")]
+    assert score_caveats([one, *others]) == [[]] * 5
+
+
+def test_what_shipped_devices_do_is_no_caveat() -> None:
+    """As many cuts and searches as they take, and a fifth of what certificates allow."""
+    solution = solved("device2", "alternate_090", Interface.SHEAR)
+    certificate = replace(solution.certificate, penetration_share=0.2, tension_share=0.19)
+    usual = replace(solution, cuts=MANY_CUTS, searches=MANY_SEARCHES, certificate=certificate)
+    assert solution_caveats(scene("device2"), usual) == []
+
+
+def test_strained_receptors_are_doubted_with_small_strain_alone() -> None:
+    given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
+    strain = solution.reading.strain
+    large = replace(solution, reading=replace(solution.reading, strain=strain * 0.25 / strain.max()))
+    (told,) = solution_caveats(given, large)
+    assert told.startswith("receptors are strained by up to 25%")
+    assert solution_caveats(given.with_kinematics(Kinematics.FINITE), large) == []
+
+
+def test_orders_without_a_prediction_in_some_or_all_variants() -> None:
+    def table(**scores: float | None) -> list[dict[str, Any]]:
+        return [ROW | {"condition": name, "score": score, "score_error": 0.01} for name, score in scores.items()]
+
+    tables = {
+        "one": table(a=1.0, b=2.0, c=3.0),
+        "two": table(a=1.0, b=2.0, c=4.0),
+        "three": table(a=None, b=None, c=None),
+    }
+    assert list(orders(tables)) == [
+        "shear, strain, in 2 of 2: a < b, a < c, b < c",
+        "shear, strain, no prediction (three)",
+    ]
+    lost = [ROW | {"condition": "a", "score": None, "score_error": None}]
+    assert list(orders({"one": lost, "two": lost})) == []
+
+
+def test_why_there_is_nothing_without_friction_depends_on_control(monkeypatch: pytest.MonkeyPatch) -> None:
+    base = scene("device2")
+    monkeypatch.setattr("fingerpad.prediction.forecast.edge_intervals", lambda scene: None)
+    monkeypatch.setattr("fingerpad.prediction.forecast.solved_rows", lambda *given: ([], {}))
+    for control, why in ((Control.FORCE, SILENT), (Control.DISPLACEMENT, LEFT_OUT)):
+        rows = forecast(replace(base, device=replace(base.device, control=control, frictionless=False)), error=False)
+        assert rows
+        assert all(row["caveats"] == [why] for row in rows)
+
+
+def test_errors_are_solved_up_to_the_time_that_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first of two: where the row has moved farthest."""
+    base = scene("device2").coarsened(8.0)
+    there = np.full((1, 4), 0.02)
+    path = np.concatenate([there, 0.5 * there])
+    both = Condition("both", "a", 0.0, np.array([1.0, 2.0]), 0.0 * path, path)
+    solve, sizes = scoring.solve_scene, []
+
+    def solving(own: Scene, *rest: Any) -> Any:
+        sizes.append([each.time.size for each in own.device.conditions])
+        return solve(own, *rest)
+
+    monkeypatch.setattr(scoring, "solve_scene", solving)
+    forecast(replace(base, device=replace(base.device, conditions=(both,))))
+    assert sizes == [[2], [1], [1]]
+
+
+def test_deformable_actuators_are_so_with_finite_kinematics(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def press(*own: Any) -> None:
+        asked.append(own)
+        raise ContactError("enough")
+
+    monkeypatch.setattr(scoring, "press", press)
+    given = scene("device3").with_kinematics(Kinematics.FINITE)
+    meshed = Meshed(object(), object(), object())  # type: ignore[arg-type]
+    with pytest.raises(ContactError, match="enough"):
+        scoring.pressed_device(given, meshed, Interface.SHEAR)
+    assert asked == [(given, meshed.section, meshed.body, Interface.SHEAR)]
+
+
+def test_new_shares_recordings_that_are_there(checkout: Path) -> None:
+    devices = checkout / "config" / "devices"
+    main(["new", "mine", "--from", "device2"])
+    document = yaml.safe_load((devices / "mine.yaml").read_text(encoding="utf-8"))
+    (devices / "mine.yaml").write_text(yaml.safe_dump(document | yaml.safe_load(MEASURED)), encoding="utf-8")
+    rows = "".join(f"1,{k},0.01,0\n" for k in range(1, 5))
+    (devices / "tap.csv").write_text(f"time,actuator,normal,tangential\n{rows}", encoding="utf-8")
+    assert main(["new", "copied", "--from", "mine"]) == 0
+    assert main(["check", "config/devices/copied.yaml"]) == 0
+
+
+@pytest.mark.parametrize("name", ["my-device", "../mine"])
+def test_new_refuses_what_is_no_name(name: str, checkout: Path) -> None:
+    assert main(["new", name, "--from", "device2"]) == FAILED
+
+
+def test_robustness_varies_distinct_stimuli_with_the_kinematics_asked_for(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """90 and 270 degrees are one stimulus; kinematics alone is compared last."""
+    path = checkout / "config/devices/device2.yaml"
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    document["stimulus"]["phases"]["value"] = [0, 90, 270]
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    asked = []
+
+    def forecast_none(own: Scene, error: bool, *given: Any) -> list[dict[str, Any]]:
+        asked.append((own.kinematics, [each.name for each in own.device.conditions]))
+        return [ROW | {"condition": "a", "score": 1.0, "score_error": 0.1, "caveats": []}]
+
+    monkeypatch.setattr(varying, "forecast", forecast_none)
+    assert main(["robustness", "--kinematics", "finite", str(path)]) == 0
+    configured, *varied, last = asked
+    assert configured == (Kinematics.FINITE, ["alternate_000", "alternate_090"])
+    assert len(varied) > 1
+    assert all(each == configured for each in varied)
+    assert last == (Kinematics.SMALL, configured[1])
+
+
+def test_check_knows_depths_and_criteria() -> None:
+    given = scene("device2")
+    deep = replace(given.model.contact, criterion=Criterion.DEPTH, depth=1.01 * given.model.finger.pad_thickness)
+    assert TOO_FAR in told_of(replace(given, model=replace(given.model, contact=deep)))
+    touch = replace(given.model.contact, criterion=Criterion.TOUCH)
+    told = told_of(replace(given, model=replace(given.model, contact=touch)))
+    assert "; pressed until all actuators carry some skin\n" in told
+
+
+def test_check_measures_a_middle_pin_from_the_mid_line() -> None:
+    given, still = scene("device2"), np.zeros((1, 1))
+    condition = Condition("a", "a", 0.0, np.array([1.0]), still, still)
+    pin = Device("pin", "Pin", Control.DISPLACEMENT, ActuatorRow((0.0,), 4.0, 0.0), (condition,))
+    low, high = given.model.finger.skin_height(np.array([0.0, 2.0]))
+    assert f"outermost faces is {high - low:.2g} mm above" in told_of(Scene(given.model, pin))

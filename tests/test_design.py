@@ -14,6 +14,7 @@ from fingerpad.figures.design import DesignPicture
 from fingerpad.figures.style import BLUE, VERMILLION
 from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
 from fingerpad.prediction.forecast import forecast
+from fingerpad.readouts.accuracy import COARSENING
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
 from fingerpad.words import SCORE_SCALE
@@ -158,3 +159,9 @@ def test_axes_hold_what_is_drawn() -> None:
                 x, y = line.get_data()
                 shown = np.asarray(y)[(np.asarray(x) >= left) & (np.asarray(x) <= right)]
                 assert not np.any((shown < low) | (shown > high))
+
+
+def test_the_coarser_row_takes_fewer_increments() -> None:
+    fine, coarse = pressed(0.6)
+    assert not isinstance(coarse, str)
+    assert coarse.scene.model.numerics == fine.scene.model.numerics.coarsened(COARSENING)

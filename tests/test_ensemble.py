@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from fingerpad.ensemble.robustness import changed, orders_held, reasons, varied_
 from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.pages.robustness import robustness_values
+from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.prediction import scoring
 from fingerpad.scene.scenefile import read_yaml
@@ -261,3 +263,39 @@ def test_a_score_that_is_another_or_gone_has_changed() -> None:
     assert not changed(configured, table_of(a=1.0 + 1e-9, b=None))
     assert changed(configured, table_of(a=1.01, b=None))
     assert changed(configured, table_of(a=None, b=None))
+
+
+def test_implied_orders_are_left_out_where_a_member_is_lost() -> None:
+    configured = table_of(a=1.0, b=2.0, c=3.0)
+    told = orders_held(configured, {"like": configured, "none": table_of(a=1.0, b=2.0, c=None)})
+    assert [(each.low, each.high) for each in told] == [("a", "b"), ("b", "c")]
+
+
+def test_a_score_of_nothing_keeps_its_error() -> None:
+    configured = table_of(a=0.0, b=2.0)
+    configured[0]["score_error"] = 0.5
+    (found,) = orders_held(configured, {"near": table_of(a=1.6, b=2.0)})
+    assert found.open == ("near",)
+
+
+def test_members_leave_out_kinematics_that_a_device_does() -> None:
+    own = scene("device2")
+    small = replace(own, device=replace(own.device, kinematics=(Kinematics.SMALL,))).coarsened(8.0)
+    assert member_scores([small], Kinematics.FINITE, None, FIRST) == []
+
+
+def test_the_scenes_as_configured_have_their_own_errors() -> None:
+    """As a member of the ensemble, whose errors are relative ones of the score table."""
+    recorded = pd.read_csv(ROOT / "tests" / "expected" / "scores.csv")
+    members = recorded.drop(columns="score_error").assign(half_cycle=FIRST, varied=AS_CONFIGURED)
+    known = {name: list(own["condition"].unique()) for name, own in recorded.groupby("device")}
+    literature = (
+        read_ratings(ROOT / "data" / "ratings.csv", known),
+        read_stated_order(ROOT / "data" / "stated_order.csv", known),
+        read_published(ROOT / "data" / "published_r2.csv"),
+    )
+    _, correlations = ensemble_tables(members, recorded, *literature)
+    expected = correlation_table(recorded, *literature)
+    both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
+    assert len(both) == len(expected)
+    np.testing.assert_allclose(both["r_error"], both["r_error_expected"], rtol=1e-9)

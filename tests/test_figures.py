@@ -399,6 +399,10 @@ def test_phases_have_a_curve_per_dispersion_and_marks_where_the_device_is_tried(
         for curve in curves:
             np.testing.assert_allclose(curve.get_ydata(), [1.0, 2.0, 3.0, 4.0])
         np.testing.assert_allclose(error_bars(axes)[0][0], np.array([0.9, 1.9, 2.9, 3.9]))
+        assert axes.get_ylim()[0] == 0.0
+        np.testing.assert_array_equal(axes.get_xticks(), [0.0, 45.0, 90.0, 135.0, 180.0])
+    assert PHASED.title in figure.axes[0].get_title(loc="left")
+    assert PHASED.title not in figure.axes[1].get_title(loc="left")
     assert "10⁻³ mm²" in figure.axes[0].get_ylabel()
 
 

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from fingerpad.files import replacing, require_folder, write_text
-from fingerpad.store import read_rows, save_arrays, write_rows
+from fingerpad.scene.numerics import Numerics
+from fingerpad.store import load, read_rows, save, save_arrays, write_rows
+from scenes import scene
 
 
 def test_a_failed_write_leaves_what_was_there(tmp_path: Path) -> None:
@@ -93,3 +95,9 @@ def test_what_a_link_leads_to_is_written_and_the_link_stays(tmp_path: Path) -> N
         write_text(link, text)
         assert link.is_symlink()
         assert target.read_text() == text
+
+
+def test_numbers_come_back_as_they_were(tmp_path: Path) -> None:
+    numerics = scene("device2").model.numerics
+    save(tmp_path / "numerics.npz", numerics)
+    assert load(tmp_path / "numerics.npz", Numerics) == numerics

@@ -31,8 +31,10 @@ from fingerpad.readouts.scorings import (
 )
 from fingerpad.readouts.strain import FilteredReadouts, Resampling
 from fingerpad.scene.contact_law import Interface
-from fingerpad.scene.device import Condition
+from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
 from fingerpad.scene.readout import Readout
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics
 from scenes import scene
 
 ROOT = Path(__file__).parents[1]
@@ -135,7 +137,7 @@ def test_errors_follow_those_of_the_configured_score() -> None:
             assert row["score_error"] == pytest.approx(0.05 * row["score"])
 
 
-@pytest.mark.parametrize("period", [0.8, 1.15, 1.5, 2.5, 5.0])
+@pytest.mark.parametrize("period", [0.8, 1.15, 1.5, 2.5, 5.0, 12.0, 20.0])
 @pytest.mark.parametrize("wavelength", [1.15, 2.8])
 def test_response_is_what_the_filter_leaves_of_a_wave(period: float, wavelength: float) -> None:
     """Far from the ends of the grid; the sum over the grid is the integral to rounding, as the kernel is smooth and
@@ -208,7 +210,8 @@ def test_the_configured_scoring_is_among_the_tables() -> None:
     correlations, claims = scoring_tables(of_drives(), small, *literature())
     own = correlations[correlations["scoring"] == Scoring.CONFIGURED].drop(columns="scoring")
     pd.testing.assert_frame_equal(own, correlation_table(small, *literature()))
-    assert claims["scoring"].nunique() == 1 + len(DRIVES)
+    for table in (correlations, claims):
+        assert table["scoring"].unique().tolist() == [Scoring.CONFIGURED, *DRIVES]
 
 
 def test_scores_at_phases_that_are_tried_are_the_shipped_ones(tmp_path: Path) -> None:
@@ -232,8 +235,8 @@ def test_scores_at_phases_that_are_tried_are_the_shipped_ones(tmp_path: Path) ->
 
 
 def test_page_says_where_scores_fall_before_they_rise() -> None:
-    """Two curves: one that falls by more than its errors and then rises, one that rises and falls again."""
-    shapes = {"low": [2.0, 1.5, 3.0], "high": [1.0, 3.0, 2.0]}
+    """One falls by more than its errors and then rises, one rises and falls again, one falls within its errors."""
+    shapes = {"low": [2.0, 1.5, 3.0], "high": [1.0, 3.0, 2.0], "level": [1.1, 1.0, 3.0]}
     phases = pd.DataFrame(
         {
             "kinematics": "small",
@@ -258,6 +261,12 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
     values = scorings_values(tables | {"response": pd.DataFrame(response_rows(scene("device1")))})
     assert "| small | device1 | low | 2.000 | 1.500 at 90° | yes | 20.0 to 29.0 | yes |" in str(values["phases"])
     assert "| small | device1 | high | 1.000 | 1.000 at 0° | no | 20.0 | no |" in str(values["phases"])
+    assert "| level | 1.100 | 1.000 at 90° | within errors | 20.0 to 29.0 | yes |" in str(values["phases"])
+    assert "| no finger: relative motion | yes | yes | yes | no |" in str(values["drives"])
+    assert "| scoring | device 1 by phase | device 1 by dispersion | device 2 | device 3 |" in str(values["drives"])
+    assert "| device | length | mm | SA-1 filter | RA-1 filter |" in str(values["response"])
+    assert "| as configured | small | 0.570, falling |" in str(values["strain"])
+    assert "no finger" not in str(values["strain"])
     assert values["indented"] == "+1.0 to +1.0 % with small kinematics"
     assert "| no finger: both motions | yes | yes | yes | yes | 0.981, rising | 1.000, rising |" in str(
         values["drives"]
@@ -273,3 +282,40 @@ def test_relative_errors_are_those_that_are_known() -> None:
     errors = relative_errors(rows)
     assert len(errors) == RECORDED["score_error"].notna().sum()
     assert not any(math.isnan(error) for error in errors.values())
+
+
+def test_a_signed_area_ends_with_the_span() -> None:
+    """Of a change at its end, most of which the filter carries beyond it."""
+    own = scene("device2")
+    start, stop = scene_span(own)
+    read = read_as(np.abs(GRID), 1e-3 * np.exp(-((GRID - stop + 0.3) ** 2) / 0.1))
+    points = np.linspace(start, stop, 20001)
+    within = np.trapezoid(np.interp(points, GRID, read.filtered_change_of_strain), points)
+    found = other_scores(own, own.device.conditions[0], read)[Scoring.SIGNED, CHANGE]
+    assert found == pytest.approx(within, rel=1e-4)
+
+
+def test_a_single_pin_has_no_pitch() -> None:
+    pin = Device("single", "One pin", Control.DISPLACEMENT, ActuatorRow((0.0,), 1.0, 0.1), (moved([[0.02]], [[0.0]]),))
+    rows = response_rows(Scene(scene("device2").model, pin))
+    assert [(row["length"], row["period"]) for row in rows] == [("face width", 1.0)] * 2
+
+
+def test_what_is_no_area_of_a_filtered_curve_is_in_mm() -> None:
+    own = scene("device2")
+    read = read_as(np.exp(-(GRID**2)), 1e-3 * np.exp(-((GRID - 1.0) ** 2)))
+    rows = scoring_rows(own, own.device.conditions[1], Interface.SHEAR, read, {})
+    units = {row["scoring"]: row["unit"] for row in rows}
+    assert {name for name, unit in units.items() if unit == "mm"} == {Scoring.UNFILTERED, *DRIVES}
+
+
+def test_phases_are_predicted_with_each_kinematics_and_with_shear(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def forecast(own: Scene) -> list[dict[str, object]]:
+        asked.append((own.kinematics, own.device.interfaces()))
+        return []
+
+    monkeypatch.setattr("fingerpad.prediction.phases.forecast", forecast)
+    assert not list(phase_rows(ROOT / "config/devices/device2.yaml", SCHEMAS, ROOT / "config" / "config.yaml"))
+    assert asked == [(each, (Interface.SHEAR,)) for each in Kinematics]

@@ -16,7 +16,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 from fingerpad.errors import SceneError
-from fingerpad.scene.contact_law import Criterion
+from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.scenefile import load_scene, read_values
 from fingerpad.scene.validation import (
     LONGEST_NAME,
@@ -28,6 +28,7 @@ from fingerpad.scene.validation import (
     require_device,
     require_new_name,
 )
+from scenes import scene
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"
@@ -677,3 +678,13 @@ def test_the_longest_name_is_one() -> None:
     require_new_name("a" * LONGEST_NAME)
     with pytest.raises(SceneError, match=f"at most {LONGEST_NAME}"):
         require_new_name("a" * (LONGEST_NAME + 1))
+
+
+def test_laws_refuse_what_is_out_of_range_and_take_no_friction() -> None:
+    given = scene("device2").model
+    assert replace(given.contact, friction=0.0).coefficient(Interface.SHEAR) == 0.0
+    for wrong in (0.0, -1.0):
+        with pytest.raises(SceneError, match="force"):
+            replace(given.contact, force=wrong)
+    with pytest.raises(SceneError, match="ogden_exponent must be a number other than 0"):
+        replace(given.tissue, ogden_exponent=0.0)

@@ -150,3 +150,7 @@ def test_agreement_counts_orders_and_correlation() -> None:
     assert exchanged["r"] == pytest.approx(np.corrcoef(usual, others[Measure.STRAIN_ENERGY])[0, 1])
     assert found[Measure.MAXIMUM_SHEAR]["kendall_tau"] is None
     assert found[Measure.MAXIMUM_SHEAR]["r"] is None
+
+
+def test_factors_of_wavelengths_have_three_digits() -> None:
+    assert sorted({row["wavelength_factor"] for row in rows()}) == [0.5, 0.707, 1.0, 1.414, 2.0]
