@@ -31,9 +31,11 @@ from fingerpad.commands.check import TOO_FAR
 from fingerpad.commands.check import described as told_of
 from fingerpad.commands.options import variations
 from fingerpad.commands.score_table import _pressed, as_table
+from fingerpad.commands.vibrate import as_table as vibrations
+from fingerpad.commands.vibrate import asked as vibrated_at
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
-from fingerpad.errors import ContactError, MeshError, UsageError
+from fingerpad.errors import ContactError, MeshError, SceneError, UsageError
 from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import (
     MANY_CUTS,
@@ -55,7 +57,7 @@ from fingerpad.scene.sources import Origin, quantities
 from fingerpad.scene.template import DRIVES, device_text
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device, checked_document
-from fingerpad.scene.variation import variants
+from fingerpad.scene.variation import shared_out, variants
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from scenes import condensed, scene, solve, solved
 
@@ -1189,3 +1191,57 @@ def test_check_measures_a_middle_pin_from_the_mid_line() -> None:
     pin = Device("pin", "Pin", Control.DISPLACEMENT, ActuatorRow((0.0,), 4.0, 0.0), (condition,))
     low, high = given.model.finger.skin_height(np.array([0.0, 2.0]))
     assert f"outermost faces is {high - low:.2g} mm above" in told_of(Scene(given.model, pin))
+
+
+def test_frequencies_that_are_asked_for_take_the_place_of_the_files() -> None:
+    """Each once, from the lowest; a file without any needs them."""
+    given = scene("device2")
+    assert vibrated_at(given, None).device.frequencies == given.device.frequencies
+    assert vibrated_at(given, [60.0, 25.0, 60.0]).device.frequencies == (25.0, 60.0)
+    silent = replace(given, device=replace(given.device, frequencies=()))
+    assert vibrated_at(silent, [25.0]).device.frequencies == (25.0,)
+    with pytest.raises(UsageError, match=r"found no stimulus\.frequency_hz; give it, or --frequency HZ"):
+        vibrated_at(silent, None)
+
+
+def test_a_vibration_without_a_prediction_is_a_dash_and_its_note_is_told_once() -> None:
+    given = vibrated_at(scene("device2"), [25.0])
+    row = {"interface": "shear", "condition": "a", "unit": "mm2"}
+    rows = [
+        row | {"readout": readout, "frequency_hz": hertz, "score": score, "note": note}
+        for hertz, score, note in ((0.0, 0.0123, ""), (25.0, None, "no prediction: why"))
+        for readout in ("strain", "change_of_strain")
+    ]
+    cells = ["condition    slow  25 Hz", "a          0.0123      -", ""]
+    assert vibrations(given, rows).splitlines()[2:] == [
+        "shear, strain [mm2]",
+        *cells,
+        "shear, change_of_strain [mm2]",
+        *cells,
+        "a (shear): no prediction: why",
+    ]
+
+
+def test_a_single_file_holds_the_end_of_the_stimulus(coarse: Path) -> None:
+    """As the last state of the path does; the first differs."""
+    case = ["fields", "config/devices/device2.yaml", "--condition", "alternate_180", "--interface", "shear", "-o"]
+    for output in ("end.vtu", "path.pvd"):
+        assert main([*case, output]) == 0
+    end, last, first = (meshio.read(coarse / name).point_data for name in ("end.vtu", "path.vtu", "path/0000.vtu"))
+    assert (end["displacement_mm"] == last["displacement_mm"]).all()
+    assert (end["displacement_mm"] != first["displacement_mm"]).any()
+
+
+def test_a_path_whose_last_file_is_a_folder_is_refused(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (checkout / "path.vtu").mkdir()
+    case = ["--condition", "alternate_180", "--interface", "shear", "-o", "path.pvd"]
+    assert main(["fields", "config/devices/device2.yaml", *case]) == FAILED
+    assert "path.vtu: is a folder" in capsys.readouterr().err
+    assert not (checkout / "path").exists()
+
+
+def test_a_key_without_its_section_is_told_with_it() -> None:
+    """Rather than one that is spelt alike."""
+    documents = {Path("a.yaml"): {"pitch_": {"value": 1.0}, "actuators": {"pitch": {"value": 2.0}}}}
+    with pytest.raises(SceneError, match=r"pitch: found no such value in a\.yaml; .*; did you mean actuators\.pitch\?"):
+        shared_out({"pitch": 2.5}, documents)

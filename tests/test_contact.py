@@ -12,12 +12,13 @@ from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact.active_set import NotConvergedError
 from fingerpad.contact.criterion import front
+from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest
-from fingerpad.contact.ownership import given_to
+from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import patch_of
 from fingerpad.contact.path import advance, follow
 from fingerpad.contact.profile import profile
-from fingerpad.errors import ContactError, ConvergenceError
+from fingerpad.errors import ContactError, ConvergenceError, DepthError
 from fingerpad.scene.device import ActuatorRow
 
 SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
@@ -234,3 +235,46 @@ def test_skin_that_is_given_to_another_actuator_has_the_gap_over_that_one() -> N
         _, found = given_to(replace(problem, given=state.given), state, other.given)
         assert found.place == pytest.approx(other.place, abs=1e-14)
         assert found.gap == pytest.approx(other.gap, abs=1e-14)
+
+
+def two_pins(x: FloatArray) -> ContactProblem:
+    """Nodes at x (n,) under two pins; each node moves alone."""
+    return ContactProblem(
+        position=np.stack([x, np.zeros_like(x)], axis=1),
+        compliance=np.eye(2 * x.size),
+        row=ActuatorRow((0.0, 2.0), 1.0, 0.1),
+        body=None,
+        friction=0.5,
+        tolerance=1e-9,
+        max_cuts=10,
+    )
+
+
+def test_skin_that_is_given_to_another_actuator_does_not_touch_it_yet() -> None:
+    """And promises nothing over it; the other nodes stay as they are."""
+    problem, ones = two_pins(np.linspace(-0.5, 2.5, 13)), np.ones((13, 2))
+    state = replace(rest(problem, 0.0), status=np.full(13, Status.STICK), drift=ones, trend=ones)
+    moved = np.arange(13) == np.flatnonzero(state.given == 0)[-1]
+    _, found = given_to(problem, state, np.where(moved, 1, state.given))
+    assert ((found.status == Status.OPEN) == moved).all()
+    assert (found.drift == ~moved[:, None]).all()
+    assert (found.trend == ~moved[:, None]).all()
+
+
+def test_of_skin_that_went_sideways_that_beside_contact_stays() -> None:
+    """Two open nodes have come nearer to the right pin; the one next to a node that touches the left keeps its own."""
+    problem = two_pins(np.linspace(-0.5, 2.5, 13))
+    state = rest(problem, 0.0)
+    last = int(np.flatnonzero(state.given == 0)[-1])
+    place, status = state.place.copy(), np.full(13, Status.OPEN)
+    place[last - 1 : last + 1], status[last - 2] = (1.6, 1.8), Status.STICK
+    _, found = given_anew(problem, replace(state, place=place, status=status))
+    assert found.given[last - 2 : last + 1].tolist() == [0, 0, 1]
+
+
+@pytest.mark.parametrize("time", [0, 1, 2])
+def test_the_deepest_place_counts_whenever_it_is(time: int) -> None:
+    places = np.zeros((3, 2, 2))
+    places[time, 1, 1] = 5.1
+    with pytest.raises(DepthError, match=r"5\.1 mm deep, into 5 mm of tissue"):
+        require_tissue(two_pins(np.linspace(-0.5, 2.5, 13)), places, 5.0)

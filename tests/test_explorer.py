@@ -9,6 +9,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from fingerpad.errors import ContactError
 from fingerpad.explorer import EDGE_RADIUS, LIMITS, PINS, START, Explorer, explored_pad
+from fingerpad.figures.design import DesignPicture
 from fingerpad.prediction.design import Answer, answer
 from scenes import scene
 
@@ -77,3 +78,22 @@ def test_design_without_an_answer_is_a_message(explorer: Explorer, monkeypatch: 
     explorer.sliders["phase"].value = 30.0
     assert bytes(explorer.picture.value) == before
     assert "contact at x &lt; 1 mm" in explorer.message.value
+
+
+@pytest.mark.parametrize("direction", ["lateral", "normal"])
+def test_what_is_drawn_moves_as_the_controls_say_beside_what_was_drawn(
+    explorer: Explorer, monkeypatch: pytest.MonkeyPatch, direction: str
+) -> None:
+    moves, drawn = [], []
+
+    def answer_of(pressed: Any, *given: Any) -> Answer:
+        moves.append(given)
+        return answer(pressed, *given)
+
+    monkeypatch.setattr("fingerpad.explorer.answer", answer_of)
+    monkeypatch.setattr(DesignPicture, "show", lambda _, *given: drawn.append(given))
+    explorer.direction.value = direction
+    explorer.redraw()
+    explorer.redraw()
+    assert moves[-1] == (explorer.sliders["amplitude"].value, explorer.sliders["phase"].value, direction == "lateral")
+    assert drawn[-1][1] is drawn[-2][0]

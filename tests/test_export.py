@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -280,3 +281,22 @@ def test_steps_take_the_increments_that_are_asked_for() -> None:
     settings = replace(DECK, indentation_increments=10, stimulus_increments=4, rest_increments=2)
     first = [float(rows[0][0]) for _, _, rows in of_kind(parsed(scene("device2"), settings), "STATIC")]
     assert first == pytest.approx([1.0, 1 / 10, 1 / 2, 1 / 4, 1 / 2])
+
+
+def test_deck_is_indented_as_deep_as_with_the_friction_it_indents_with(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From pre-indentation on unless asked otherwise; the increments and slopes are those of --help."""
+    seen: list[Any] = []
+    monkeypatch.setattr("fingerpad.commands.export.mesh_device", lambda *_: None)
+    monkeypatch.setattr("fingerpad.commands.export.indented_height", lambda *given: seen.append(given[-1]) or 1.25)
+    monkeypatch.setattr("fingerpad.commands.export.input_deck", lambda *given: seen.append(given[-1]) or "")
+    for more in ([], ["--friction-from", "stimulus"]):
+        assert main([*export(tmp_path, CONDITION), *more]) == 0
+    mu = scene("device2").model.contact.friction
+    assert seen == [
+        Interface.SHEAR,
+        DeckSettings(1.25, mu, mu, 500.0, 100.0, 20, 4, 3),
+        Interface.FRICTIONLESS,
+        DeckSettings(1.25, 0.0, mu, 500.0, 100.0, 20, 4, 3),
+    ]

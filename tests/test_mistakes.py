@@ -20,6 +20,7 @@ import fingerpad.scene.scenefile
 from conftest import Project
 from fingerpad.cli import FAILED, main
 from fingerpad.contact.solution import Solution
+from fingerpad.csvrows import checked_rows
 from fingerpad.errors import FingerpadError, RatingError, ResultError, SceneError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.recording import COLUMNS, MOST_TIMES, read_recording
@@ -173,3 +174,10 @@ def test_names_in_shells_are_refused_by_the_command_itself() -> None:
     assert done.returncode == FAILED
     assert done.stderr.startswith("fingerpad: NAME: found $(touch ran); allowed: small letters")
     assert done.stdout == ""
+
+
+def test_the_line_of_a_row_counts_those_within_quotes(tmp_path: Path) -> None:
+    """A cell may hold lines of its own; the line that is named is the one on which its row ends."""
+    path = tmp_path / "own.csv"
+    path.write_text('name,source\na,"one\ntwo\nthree"\n\nb,four\n', encoding="utf-8")
+    assert [line for line, _ in checked_rows(path, ["name", "source"], RatingError)] == [4, 6]

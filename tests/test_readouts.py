@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from fingerpad.errors import SceneError
 from fingerpad.readouts.gabor import filtered_readouts, gabor_filtered
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.readouts.roughness import roughness_score
 from fingerpad.readouts.strain import maximum_principal, read_receptors
-from fingerpad.scene.readout import GaborFilter, Readout
+from fingerpad.scene.readout import GaborFilter, Readout, is_constant
 
 SIGMA = 1.12
 REACH = 6.0  # widths sigma [1] within which the kernel lies; source: docs/model.md
@@ -144,3 +146,16 @@ def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
         filtered = filtered_readouts(resampling, dict.fromkeys(Readout, strain), GaborFilter(2.8, 1.15, SIGMA, spacing))
         scores.append(roughness_score(filtered.arc, filtered.filtered(Readout.STRAIN), (-4.0, 4.0)))
     assert scores[0] == pytest.approx(scores[1], rel=5e-4)
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e6])
+def test_values_are_constant_up_to_a_share_of_the_largest(scale: float) -> None:
+    assert is_constant(scale * np.array([1.0, 1.0 + 1e-10]))
+    assert not is_constant(scale * np.array([1.0, 1.0 + 1e-8]))
+    assert is_constant(np.zeros(3))
+
+
+@pytest.mark.parametrize("name", ["wavelength_strain", "wavelength_change", "sigma", "spacing"])
+def test_a_filter_has_positive_sizes(name: str) -> None:
+    with pytest.raises(SceneError, match=name):
+        replace(GaborFilter(2.8, 1.15, 1.12, 0.02), **{name: 0.0})

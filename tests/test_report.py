@@ -462,3 +462,8 @@ def test_boxes_of_the_runs_rules_stand_apart_and_hold_their_names(tmp_path: Path
     assert not [1 for one, other in combinations(boxes, 2) if one.overlaps(other)]
     for inner, outer in [*zip(names, boxes, strict=True), *((box, axes.get_window_extent()) for box in boxes)]:
         assert outer.x0 <= inner.x0 and inner.x1 <= outer.x1 and outer.y0 <= inner.y0 and inner.y1 <= outer.y1
+
+
+def test_edges_do_not_cross_where_another_order_untangles_them() -> None:
+    places, _ = placed([("a", "d"), ("b", "c")])
+    assert (places["a"][0] < places["b"][0]) == (places["d"][0] < places["c"][0])

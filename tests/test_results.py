@@ -47,3 +47,13 @@ def test_scenes_are_those_that_were_computed(tmp_path: Path, monkeypatch: pytest
     shutil.copy(CONFIG / "devices" / "device3.yaml", tmp_path / "devices" / "own.yaml")
     monkeypatch.setenv("SCENES", str(tmp_path))
     assert {name: scene.device.name for name, scene in scenes().items()} == {"own": "own"}
+
+
+def test_of_nested_folders_with_results_the_nearest_is_taken(tmp_path: Path) -> None:
+    """A checkout within another's folder; a file of that name holds none."""
+    inner = tmp_path / "inner"
+    (tmp_path / "results").mkdir()
+    (inner / "results").mkdir(parents=True)
+    (inner / "deep").mkdir()
+    (inner / "deep" / "results").touch()
+    assert results_root(inner / "deep") == inner.resolve()

@@ -53,7 +53,7 @@ from fingerpad.tissue.compliance import MIRROR, CondensedSection
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
-from scenes import condensed, scene, solve, solved
+from scenes import condensed, scene, section, solve, solved
 
 ROUNDING = 1e-10  # of a share [1]: that of shares of 1e-6 of forces
 FINE = {"indentation_increments": 80, "stimulus_increments": 16}
@@ -775,3 +775,13 @@ def test_skin_belongs_to_the_actuator_that_it_is_pressed_to(interface: Interface
     before, after = pressed.state.given, slid.actuator
     touching = (pressed.state.status != 0) & (slid.status != 0)
     assert np.any((before != after)[touching]) == (interface is Interface.FRICTIONLESS)
+
+
+def test_skin_that_is_considered_is_the_pads_and_mirrors() -> None:
+    """Of a row that lies aside, too; the back of the finger, above the pins, is out of reach."""
+    base = scene("device2")
+    row = replace(base.device.actuators, positions=(-0.5, 2.0, 4.5, 7.0))
+    aside = replace(base, device=replace(base.device, actuators=row))
+    x, y = contact_tractions(section("device2"), aside).position.T
+    assert np.sort(x) == pytest.approx(np.sort(-x), abs=1e-9)
+    assert y.max() < base.model.finger.height / 2.0
