@@ -35,18 +35,6 @@ def test_no_rows_are_an_empty_table(tmp_path: Path) -> None:
     assert read_rows(tmp_path / "table.csv") == []
 
 
-def test_two_that_write_one_file_leave_one_of_theirs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As two processes that are at it at once."""
-    path = tmp_path / "table.csv"
-    with replacing(path) as first:
-        first.write_text("first")
-        monkeypatch.setattr(os, "getpid", lambda: -1)
-        write_text(path, "second")
-        assert path.read_text() == "second"
-    assert path.read_text() == "first"
-    assert list(tmp_path.iterdir()) == [path]
-
-
 def test_an_archive_holds_no_pickles(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="allow_pickle"):
         save_arrays(tmp_path / "solution.npz", {"a": np.array([{}], dtype=object)})

@@ -18,7 +18,7 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     require_folder(path)
     path = path.resolve()
-    part = path.with_name(f"{path.name}.{os.getpid()}{PART}")  # a process its own, should two write one file
+    part = path.with_name(path.name + PART)
     try:
         yield part
         part.replace(path)

@@ -44,6 +44,7 @@ rule phases:
     input:
         config=ancient(CONFIG),
         devices=ancient([file_of(name) for name in PHASED]),
+        recordings=ancient([path for name in PHASED for path in RECORDINGS[name]]),
         schemas=ancient([SCHEMAS / f"{name}.schema.yaml" for name in ("config", "device")]),
     output:
         table="results/phases.csv",
@@ -67,6 +68,7 @@ rule figure_phases:
     input:
         config=ancient(CONFIG),
         devices=ancient([file_of(name) for name in PHASED]),
+        recordings=ancient([path for name in PHASED for path in RECORDINGS[name]]),
         table="results/phases.csv",
     output:
         png="results/figures/phases.png",
