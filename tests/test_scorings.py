@@ -236,7 +236,7 @@ def test_scores_at_phases_that_are_tried_are_the_shipped_ones(tmp_path: Path) ->
 
 def test_page_says_where_scores_fall_before_they_rise() -> None:
     """One falls by more than its errors and then rises, one rises and falls again, one falls within its errors."""
-    shapes = {"low": [2.0, 1.5, 3.0], "high": [1.0, 3.0, 2.0], "level": [1.1, 1.0, 3.0]}
+    shapes = {"low": [2.0, 1.5, 3.0], "high": [1.0, 3.0, 2.0], "level": [1.1, 1.0, 3.0], "unknown": [2.0, 1.5, 3.0]}
     phases = pd.DataFrame(
         {
             "kinematics": "small",
@@ -245,7 +245,7 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
             "phase_deg": phase,
             "readout": "change_of_strain",
             "score": 1e-3 * score,
-            "score_error": 1e-4,
+            "score_error": math.nan if name == "unknown" else 1e-4,
             "motion_mm": 0.02 + phase * 1e-4,
         }
         for name, scores in shapes.items()
@@ -261,6 +261,7 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
     values = scorings_values(tables | {"response": pd.DataFrame(response_rows(scene("device1")))})
     assert "| small | device1 | low | 2.000 | 1.500 at 90° | yes | 20.0 to 29.0 | yes |" in str(values["phases"])
     assert "| small | device1 | high | 1.000 | 1.000 at 0° | no | 20.0 | no |" in str(values["phases"])
+    assert "| unknown | 2.000 | 1.500 at 90° | within errors |" in str(values["phases"])
     assert "| level | 1.100 | 1.000 at 90° | within errors | 20.0 to 29.0 | yes |" in str(values["phases"])
     assert "| no finger: relative motion | yes | yes | yes | no |" in str(values["drives"])
     assert "| scoring | device 1 by phase | device 1 by dispersion | device 2 | device 3 |" in str(values["drives"])

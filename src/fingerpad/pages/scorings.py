@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 
 import pandas as pd
 
 from ..perception.wording import published_text, slope_name
+from ..readouts.accuracy import CASE
 from ..readouts.comparison import Relation, Score, relation
 from ..readouts.scorings import DRIVES, Scoring
 from ..scene.contact_law import Interface
@@ -81,9 +83,8 @@ def _published(correlations: pd.DataFrame) -> str:
 
 def _indented(scores: pd.DataFrame, others: pd.DataFrame) -> str:
     """By how much stimuli move the strain score of the pre-indented state: least and most, by kinematics."""
-    case = ["kinematics", "device", "condition", "interface", "readout"]
-    alone = others[others["scoring"] == Scoring.INDENTED][[*case, "score"]]
-    both = alone.merge(scores[[*case, "score"]], on=case, suffixes=("_alone", ""))
+    alone = others[others["scoring"] == Scoring.INDENTED][[*CASE, "score"]]
+    both = alone.merge(scores[[*CASE, "score"]], on=list(CASE), suffixes=("_alone", ""))
     moved = PERCENT * (both["score"] / both["score_alone"] - 1.0)
     ranges = moved.groupby(both["kinematics"], sort=False).agg(["min", "max"])
     return " and ".join(
@@ -111,7 +112,7 @@ def _phases(phases: pd.DataFrame) -> pd.DataFrame:
     rows = []
     change = phases[phases["readout"] == Readout.CHANGE_OF_STRAIN]
     for (kinematics, device, dispersion), own in change.groupby(["kinematics", "device", "dispersion"], sort=False):
-        ordered = own.sort_values("phase_deg")
+        ordered = own.sort_values("phase_deg").fillna({"score_error": math.inf})
         known = [
             Score(scale * value, scale * error)
             for value, error in zip(ordered["score"], ordered["score_error"], strict=True)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..readouts.scorings import common_motion, relative_motion
+from ..readouts.scorings import both_motions
 from ..scene.validation import check_device
 from .forecast import forecast
 
@@ -25,6 +25,5 @@ def phase_rows(device: Path, schemas: Path, config: Path) -> Iterator[dict[str, 
     for kinematics in scene.computed:
         for row in forecast(with_shear.with_kinematics(kinematics)):
             if row["score"] is not None:
-                condition = scene.device.condition(row["condition"])
-                motion = relative_motion(condition) + common_motion(condition)
+                motion = both_motions(scene.device.condition(row["condition"]))
                 yield {column: row[column] for column in COLUMNS} | {"motion_mm": motion}

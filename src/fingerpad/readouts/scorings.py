@@ -47,6 +47,11 @@ def common_motion(condition: Condition) -> float:
     return float(np.linalg.norm(condition.moves.mean(axis=1), axis=1).max())
 
 
+def both_motions(condition: Condition) -> float:
+    """Relative and common motion together [mm]."""
+    return relative_motion(condition) + common_motion(condition)
+
+
 def other_scores(scene: Scene, condition: Condition, read: FilteredReadouts) -> dict[tuple[Scoring, Readout], float]:
     """Scores of one condition [mm2, or as UNITS says], by scoring and by the read-outs for which it says something else
     than the configured one.
@@ -60,8 +65,6 @@ def other_scores(scene: Scene, condition: Condition, read: FilteredReadouts) -> 
     def through(values: FloatArray, readout: Readout) -> FloatArray:
         return gabor_filtered(read.arc, values, gabor.wavelength(readout), gabor.sigma)
 
-    relative, common = relative_motion(condition), common_motion(condition)
-    drives = dict(zip(DRIVES, (relative, common, relative + common), strict=True))
     return {
         **{(Scoring.UNFILTERED, each): area(read.unfiltered(each)) for each in Readout},
         (Scoring.EXCHANGED, Readout.STRAIN): area(through(strain, Readout.CHANGE_OF_STRAIN)),
@@ -69,7 +72,9 @@ def other_scores(scene: Scene, condition: Condition, read: FilteredReadouts) -> 
         (Scoring.MAGNITUDE, Readout.CHANGE_OF_STRAIN): area(through(np.abs(change), Readout.CHANGE_OF_STRAIN)),
         **{(Scoring.SIGNED, each): _signed(read.arc, read.filtered(each), span) for each in Readout},
         (Scoring.INDENTED, Readout.STRAIN): area(through(strain - change, Readout.STRAIN)),
-        **{(each, Readout.CHANGE_OF_STRAIN): value for each, value in drives.items()},
+        (Scoring.RELATIVE, Readout.CHANGE_OF_STRAIN): relative_motion(condition),
+        (Scoring.COMMON, Readout.CHANGE_OF_STRAIN): common_motion(condition),
+        (Scoring.MOTION, Readout.CHANGE_OF_STRAIN): both_motions(condition),
     }
 
 
