@@ -30,7 +30,7 @@ from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.commands.check import TOO_FAR
 from fingerpad.commands.check import described as told_of
 from fingerpad.commands.options import variations
-from fingerpad.commands.score_table import _pressed, as_table
+from fingerpad.commands.score_table import _contact, as_table
 from fingerpad.commands.vibrate import as_table as vibrations
 from fingerpad.commands.vibrate import asked as vibrated_at
 from fingerpad.contact.linear_solution import Indented
@@ -69,7 +69,8 @@ MEASURED = re.sub("^#", "", DRIVES[DRIVES.index("#stimulus") : DRIVES.rindex("# 
 SHIPPED = ("device1", "device2", "device3")
 
 
-BEHIND = ("rank", "indentation_mm", "force_N_per_mm", "caveats")  # columns of predictions behind those of scores.csv
+# columns of predictions behind those of scores.csv
+BEHIND = ("rank", "indentation_mm", "force_N_per_mm", "sliding_share", "caveats")
 
 
 @pytest.fixture
@@ -390,6 +391,7 @@ ROW = {
     "note": "",
     "indentation_mm": None,
     "force_N_per_mm": None,
+    "sliding_share": None,
     "dispersion": "a",
 }
 
@@ -1045,8 +1047,11 @@ main(["new", "mine", "--from", "device1"])
 
 
 def test_depth_and_force_of_pre_indentation_stand_with_their_units() -> None:
-    row = {"interface": "shear", "indentation_mm": 1.25, "force_N_per_mm": 0.5}
-    assert _pressed([row, row]) == ["pre-indentation: 1.25 mm and 0.5 N/mm (shear)"]
+    row = {"interface": "shear", "indentation_mm": 1.25, "force_N_per_mm": 0.5, "sliding_share": 0.25, "condition": "a"}
+    assert _contact([row, row, row | {"condition": "b", "sliding_share": None}]) == [
+        "pre-indentation: 1.25 mm and 0.5 N/mm (shear)",
+        "sliding, share of the pressing force (shear): 25% (a)",
+    ]
 
 
 def test_values_of_a_key_that_is_given_twice_are_all_taken() -> None:

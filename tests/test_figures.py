@@ -847,7 +847,7 @@ def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -
         ends = corner[:, side[0]].T + np.array([0.1 * time, 1.5])
         assert all(np.allclose(line.get_xydata()[:2], ends) for line in axes.lines)
         pins = [patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon)]
-        assert [pin[:, 1].max() for pin in pins] == pytest.approx([found.indentation] * 3)
+        assert [pin[:, 1].max() for pin in pins] == pytest.approx([found.height] * 3)
         middle = [(pin[:, 0].min() + pin[:, 0].max()) / 2.0 for pin in pins]
         assert middle == pytest.approx(list(PINS.positions + condition.tangential[0]))
     for axes in panels[4:6]:

@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from ..figures.section import section_figure
-from ..figures.style import save_as
 from ..prediction.caveats import DEEP, stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
@@ -63,6 +61,10 @@ def run(options: argparse.Namespace) -> None:
     scene = checked_scene(options.device, options)
     print(f"{options.device}: valid\n{described(scene)}")
     if picture is not None:
+        # what draws takes as long to load as all else
+        from ..figures.section import section_figure  # noqa: PLC0415
+        from ..figures.style import save_as  # noqa: PLC0415
+
         with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
             section = mesh_section(scene, nominal_edges(scene.device.actuators))
             bar.update()

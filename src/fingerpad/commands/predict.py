@@ -14,8 +14,6 @@ from tqdm import tqdm
 from ..checkout import model_for
 from ..csvrows import listed
 from ..errors import ContactError, UsageError
-from ..figures.style import save_as
-from ..figures.variation import variation_figure
 from ..prediction.forecast import forecast, steps
 from ..prediction.orders import orders
 from ..scene.scenefile import read_yaml
@@ -109,6 +107,10 @@ def run(options: argparse.Namespace) -> None:
     if all(row["score"] is None for row in rows):
         raise ContactError(f"nothing could be scored: {rows[0]['note']}")
     if picture:
+        # what draws takes as long to load as all else
+        from ..figures.style import save_as  # noqa: PLC0415
+        from ..figures.variation import variation_figure  # noqa: PLC0415
+
         files = options.devices[0], model_for(options.devices[0], options.config)
         unit, drawn = unit_of(key, {file: read_yaml(file) for file in files}), [values[key] for values in varied]
         save_as(variation_figure(key, unit, drawn, devices[0], predictions), picture)

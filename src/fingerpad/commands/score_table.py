@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ..prediction.caveats import rank_range
-from ..readouts.roughness import KEY
+from ..rounding import rounded
+from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
@@ -25,10 +27,10 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
     told = [{**row, "note": note, "rank": _ranked(row, ordered)} for row, note in zip(ordered, notes, strict=True)]
-    cells = [[_shown(column, row[column]) for column in COLUMNS] for row in told]
+    cells = [[str(value if value is not None else "") for value in map(_as_told(row).get, COLUMNS)] for row in told]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
-    lines = [title, *_pressed(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
+    lines = [title, *_contact(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
     every = [condition.name for condition in scene.device.conditions]
     lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in _told(ordered)]
     return "\n".join(lines)
@@ -52,14 +54,23 @@ def _share(caveat: str) -> float:
     return float(next(iter(SHARE.findall(caveat)), "0%").removesuffix("%"))
 
 
-def _pressed(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """How high above the pad's lowest point, and how hard, the device was pressed at each interface, if it was."""
+def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """How high above the pad's lowest point, and how hard, the device was pressed at each interface, if it was; and
+    how much of the contact slides where there is friction.
+    """
     preloads = dict.fromkeys(
         f"{row['indentation_mm']:.3g} mm and {row['force_N_per_mm']:.3g} N/mm ({row['interface']})"
         for row in rows
         if row["indentation_mm"] is not None
     )
-    return [f"pre-indentation: {', '.join(preloads)}"] if preloads else []
+    shares = {
+        row["condition"]: row["sliding_share"]
+        for row in rows
+        if row["interface"] == Interface.SHEAR and row["sliding_share"] is not None
+    }
+    sliding = ", ".join(f"{share:.0%} ({condition})" for condition, share in shares.items())
+    told = {"pre-indentation": ", ".join(preloads), "sliding, share of the pressing force (shear)": sliding}
+    return [f"{what}: {text}" for what, text in told.items() if text]
 
 
 def named(values: Mapping[str, Any]) -> str:
@@ -89,9 +100,10 @@ def _ranked(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
     return f"{first}-{last}" if last > first else str(row["rank"])
 
 
-def _shown(column: str, value: Any) -> str:
-    if value is None:
-        return ""
-    if column in KEY or not isinstance(value, float):
-        return str(value)
-    return f"{value:.1e}" if column == "score_error" else f"{value:.5g}"
+def _as_told(row: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The row with its score and its error as far as the error tells, if there are both."""
+    score, error = row["score"], row["score_error"]
+    if score is None:
+        return row
+    told, within = rounded(score, math.nan if error is None else error)
+    return {**row, "score": told, "score_error": within if error is not None else None}

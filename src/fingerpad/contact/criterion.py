@@ -36,7 +36,8 @@ def _covered(problem: ContactProblem, state: ContactState) -> float:
     """How far [mm] from their centres skin covers the faces at least, on either side."""
     centres, own = np.asarray(problem.row.positions), state.given
     x, closed = state.place + centres[own], state.status != OPEN
-    height = state.gap - profile(problem.row, state.place)[0]
+    # what touches, also a neighbour, is on its face, not higher by rounding
+    height = np.where(closed, 0.0, state.gap) - profile(problem.row, state.place)[0]
     if problem.images > 1:  # beyond the mid-line lies the mirror image
         beyond = np.flatnonzero(problem.position[:, 0] > 0.0)[::-1]
         own = np.concatenate([np.where(centres[own] == 0.0, own, NOBODY)[beyond], own])
@@ -62,12 +63,14 @@ def lacking(missing: float, law: ContactLaw) -> str:
     return f"{missing:.3g} mm short" if np.isfinite(missing) else "an actuator touches no skin"
 
 
-def nearest(least: float, height: float, touch: float, law: ContactLaw) -> str:
-    """In words by how much the criterion was missed at best, and at which height."""
-    if not np.isfinite(least):
-        return ", and all never touched at once"
-    short = lacking(least, law).removesuffix(" short")
-    return f", at best {short} at {height - touch:.3g} mm"
+def missed(missing: float, way: float, least: tuple[float, float], law: ContactLaw) -> str:
+    """In words by how much the criterion was missed at the end of a way [mm] from first touch, and, if that was
+    elsewhere, at best: what was missing there, and the way [mm].
+    """
+    said = f"{lacking(missing, law)} at {way:.3g} mm"
+    if not np.isfinite(least[0]):
+        return f"{said}, and all never touched at once"
+    return said if least[1] >= way else f"{said}, at best {lacking(least[0], law)}, at {least[1]:.3g} mm"
 
 
 def front(place: FloatArray, height: FloatArray, touched: np.ndarray) -> float:

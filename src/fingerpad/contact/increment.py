@@ -85,7 +85,7 @@ def solve_increment(
     reached, used = _solved_as_given(problem, start, actuator, patch)
     for _ in range(HANDED_OVER):
         given = handed_over(problem, reached, problem.tolerance * largest_of(actuator))
-        if given is reached.given:
+        if np.array_equal(given, reached.given):
             break
         problem, start = given_to(problem, start, given)
         reached, used = _solved_as_given(problem, start, actuator, used)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import CriterionError
 from ..scene.contact_law import ContactLaw, Criterion
-from .criterion import END_TOLERANCE, lacking, missing_of, nearest, wanted
+from .criterion import END_TOLERANCE, missed, missing_of, wanted
 from .formulation import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .path import Carried, SolveIncrement, advance
@@ -51,23 +51,26 @@ def raise_until(
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
     way = {Criterion.DEPTH: law.depth, Criterion.FORCE: max(rise, SHALLOW * limit)}.get(law.criterion, rise)
     stride = max(way / increments, END_STEP)
-    missing, step = missing_of(problem, state, law, touch), stride
-    least = missing, touch  # that was missing, and at which height
+    missing = missing_of(problem, state, law, touch)
+    step = min(stride, missing) if law.criterion in (Criterion.TOUCH, Criterion.DEPTH) else stride  # missing is a way
+    least = missing, 0.0  # that was missing, and after which way
     beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
     weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
     while missing > END_TOLERANCE:
-        height = float(state.actuator[0, 1]) + step
-        if height - touch > limit:
+        here = float(state.actuator[0, 1])
+        height = min(here + step, touch + limit)
+        step = height - here
+        if step <= 0.0:
             raise CriterionError(
                 f"pre-indentation did not reach {wanted(law)} within {limit:g} mm from first touch:"
-                f" {lacking(missing, law)} at {height - step - touch:.3g} mm{nearest(*least, touch, law)}",
+                f" {missed(missing, here - touch, least, law)}",
                 touched=bool(np.isfinite(least[0])),
             )
         target = state.actuator.copy()
         target[:, 1] = height
         advanced, carried = advance(problem, state, target, 1, carried, solve)
         left = missing_of(problem, advanced, law, touch)
-        least = min(least, (left, height))
+        least = min(least, (left, height - touch))
         if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
             weight = weight / 2.0 if beyond else 1.0
             beyond = height, left  # too far: again from the same state

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,15 +13,16 @@ from ..readouts.strain import Reading, read_receptors
 from ..tissue.compliance import CondensedSection
 from .certificate import Certificate
 from .depth import depth
-from .formulation import ContactProblem, ContactState, shearing_and_pressing
+from .formulation import ContactProblem, ContactState, Status, shearing_and_pressing, touching_height
 
 
 @dataclass(frozen=True)
 class Solution:
     """A solved condition.
 
-    indentation: height of the faces above the lowest point of the undeformed pad [mm]. depth: largest height of an
-    actuator above that at which it first touches undeformed skin [mm], at any time. position: (n, 2) of the contact
+    height: of the faces above the lowest point of the undeformed pad after pre-indentation [mm]. indentation: how far
+    they rose from first touch on until then [mm]. depth: largest height of an actuator above that at which it first
+    touches undeformed skin [mm], at any time. position: (n, 2) of the contact
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation; indented_actuator: (n,) index of
     the actuator that each may touch there. force: (n_times, n, 2) [N/mm] at the stimulus's times. contact: (1 +
     n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are `forces` but where the normal turns.
@@ -30,6 +32,7 @@ class Solution:
     of the whole path. certificate.
     """
 
+    height: float
     indentation: float
     depth: float
     position: FloatArray
@@ -51,6 +54,15 @@ class Solution:
     certificate: Certificate
 
     @property
+    def sliding_share(self) -> float:
+        """Share [1] of the pressing force that sliding skin bears at the time that is read: all of it without
+        friction; not a number where nothing touches.
+        """
+        pressing = self.contact[1 + self.reading.time, :, 1]
+        slides = (self.status == Status.SLIP_FORWARD) | (self.status == Status.SLIP_BACKWARD)
+        return float(pressing[slides].sum() / total) if (total := pressing.sum()) > 0.0 else math.nan
+
+    @property
     def forces(self) -> FloatArray:
         """Forces (1 + n_times, n, 2) [N/mm] after pre-indentation and at the stimulus's times."""
         return np.concatenate([self.indented_force[None], self.force])
@@ -70,8 +82,10 @@ def solution(
     reading = read_receptors(strains, section.arc, settling=settling)
     before, last, shown = states[0], states[-1], states[1 + reading.time]
     contact = shearing_and_pressing(problem, states)
+    height = float(before.actuator[0, 1])
     return Solution(
-        indentation=float(before.actuator[0, 1]),
+        height=height,
+        indentation=height - touching_height(problem),
         depth=depth(problem, np.array([state.actuator for state in states])),
         position=section.position,
         indented_force=before.force,

@@ -18,6 +18,7 @@ from ..errors import SceneError
 from ..files import write_text
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
+from ..scene.validation import is_number
 from ..scene.variation import Document, no_such_value, quantities_of, with_value
 
 AS_CONFIGURED = "as configured"
@@ -50,7 +51,7 @@ class Alternative:
         """What takes the place of a value. Raises SceneError if a factor is to multiply what is no number."""
         if self.times is None:
             return self.value
-        if not _is_number(value):
+        if not is_number(value):
             raise SceneError(f"ensemble: {self.key}: found {value!r}; allowed: a number, as `times` multiplies it")
         return float(f"{value * self.times:.12g}")
 
@@ -91,7 +92,7 @@ def read_ensemble(path: Path) -> list[Alternative]:
             ):
                 raise SceneError(f"{where}: found {entry!r:.60}; allowed: the keys key, values or times, and source")
             choices = entry.get("values", entry.get("times"))
-            if not isinstance(choices, list) or ("times" in entry and not all(map(_is_number, choices))):
+            if not isinstance(choices, list) or ("times" in entry and not all(map(is_number, choices))):
                 raise SceneError(f"{where}: found {choices!r:.60}; allowed: a list, of numbers under times")
             key, source = str(entry["key"]), str(entry["source"])
             for choice in choices:
@@ -177,7 +178,3 @@ def write_scenes(
         write_text(path, yaml.safe_dump(document, sort_keys=False))
     first, *rest = files
     return first, rest
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -15,17 +14,13 @@ from matplotlib.patches import Patch
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import INTERFACE_NAME, KINEMATICS_NAME, SCORE_SCALE, score_label
-from .ablation import BAR, name_conditions
-from .style import BLUE, ORANGE, WIDE, as_title, draw_errors, legend_below, letter, new_figure, rows_with, styled
+from ..words import INTERFACE_NAME, KINEMATICS_NAME
+from .bars import LOOKS, draw_pairs
+from .style import BLUE, ORANGE, WIDE, as_title, legend_below, letter, new_figure, rows_with, styled
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 16.0  # mm
 WIDTHS = (0.75, 1.0, 1.0)  # of the columns, relative
 COLOUR = {Kinematics.SMALL: BLUE, Kinematics.FINITE: ORANGE}
-LOOK: dict[Kinematics, dict[str, Any]] = {
-    Kinematics.SMALL: {"facecolor": BLUE, "edgecolor": BLUE},
-    Kinematics.FINITE: {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
-}
 LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
 TITLES = 4.0  # columns as narrow as a title has to be [1]
 MANY = 6  # conditions beyond which their phases stand without degrees
@@ -55,11 +50,14 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
         row[0].set_title(as_title(figure, named, TITLES), loc="left")
         own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
         for axes, readout in zip(row[1:], Readout, strict=True):
-            _bars(axes, readout, own[own["readout"] == readout])
+            pair = [rows_with(own[own["readout"] == readout], kinematics) for kinematics in Kinematics]
+            draw_pairs(axes, readout, pair, is_short=own["condition"].nunique() > MANY)
     grid[-1][0].set_xlabel("Indentation from first touch (mm)")
     for axes, text in zip(grid[0], "ABC", strict=True):
         letter(axes, text)
-    handles: list[Any] = [Patch(label=KINEMATICS_NAME[each], **LOOK[each]) for each in Kinematics]
+    handles: list[Any] = [
+        Patch(label=KINEMATICS_NAME[each], **look) for each, look in zip(Kinematics, LOOKS, strict=True)
+    ]
     handles += [
         Line2D([], [], color="black", linestyle=LINE[each], label=f"force {INTERFACE_NAME[each]}") for each in Interface
     ]
@@ -85,18 +83,3 @@ def _curves(axes: Axes, curves: pd.DataFrame) -> None:
     axes.set_ylabel("Force (N/mm)")
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
-
-
-def _bars(axes: Axes, readout: Readout, scores: pd.DataFrame) -> None:
-    """Scores of one device and read-out, a pair for each condition."""
-    factor = SCORE_SCALE[readout][0]
-    conditions = scores.drop_duplicates("condition")
-    places = np.arange(len(conditions))
-    for kinematics, side in zip(Kinematics, (-0.5, 0.5), strict=True):
-        own = rows_with(scores, kinematics).set_index("condition").reindex(conditions["condition"])
-        heights = factor * own["score"].to_numpy(float)
-        axes.bar(places + side * BAR, heights, BAR, **LOOK[kinematics])
-        draw_errors(axes, places + side * BAR, heights, factor * own["score_error"].to_numpy(float), along="y")
-    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0]), in_two_lines=True))
-    axes.set_xlim(-2.0 * BAR, len(places) - 1.0 + 2.0 * BAR)
-    name_conditions(axes, conditions, len(places) > MANY)

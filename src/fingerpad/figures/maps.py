@@ -81,7 +81,7 @@ def strain_map_figure(
     """
     device = scene.device
     conditions = device.by_dispersion[dispersion]
-    window = _window(scene, max(solution.indentation for solution in solutions.values()))
+    window = _window(scene, max(solution.height for solution in solutions.values()))
     shown = _in_view(fields, window)
     panels = _new_panels(window, len(conditions))
     distinct = [condition.name for condition in device.distinct_conditions]
@@ -90,7 +90,7 @@ def strain_map_figure(
         for axes, condition, loading in zip(row, conditions, loadings, strict=True):
             drawn = _draw_map(axes, shown, mapped, loading)
             solution = solutions[condition.name]
-            rise = np.array([0.0, solution.indentation])
+            rise = np.array([0.0, solution.height])
             draw_actuators(axes, device.actuators, condition.moves[solution.reading.time] + rise, 2.0 * BELOW)
             axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
             axes.text(0.0, window[1][1] - ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -23,7 +24,7 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank`, `indentation_mm` and `force_N_per_mm` of
-    pre-indentation, and `caveats` (a list of sentences) behind.
+    pre-indentation, `sliding_share` (`Solution.sliding_share`), and `caveats` (a list of sentences) behind.
 
     What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
     coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
@@ -39,16 +40,20 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
     caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
-        row | {"rank": rank} | _preload(read.get((row["condition"], row["interface"]))) | {"caveats": own + close}
+        row | {"rank": rank} | _contact(read.get((row["condition"], row["interface"]))) | {"caveats": own + close}
         for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)
     ]
 
 
-def _preload(read: ReadSolution | None) -> dict[str, float | None]:
-    """Columns that say how a device was pressed, if it was."""
+def _contact(read: ReadSolution | None) -> dict[str, float | None]:
+    """Columns that say how a device was pressed, and how much slid, if it was."""
+    if read is None:
+        return dict.fromkeys(("indentation_mm", "force_N_per_mm", "sliding_share"))
+    sliding = read.solution.sliding_share
     return {
-        "indentation_mm": None if read is None else read.solution.indentation,
-        "force_N_per_mm": None if read is None else float(read.solution.pressing[0].sum()),
+        "indentation_mm": read.solution.indentation,
+        "force_N_per_mm": float(read.solution.pressing[0].sum()),
+        "sliding_share": None if math.isnan(sliding) else sliding,
     }
 
 

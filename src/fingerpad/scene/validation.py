@@ -178,8 +178,8 @@ def checked_document(
         document = with_value(document, key, value, "varied")
     files = {schema_path: read_yaml(schema_path)}
     schema = _plain(files[schema_path], document, files, schema_path)
-    checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: _is_number(value)).redefine(
-        "integer", lambda _, value: _is_number(value) and isinstance(value, int)
+    checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: is_number(value)).redefine(
+        "integer", lambda _, value: is_number(value) and isinstance(value, int)
     )
     errors = validators.extend(Draft202012Validator, type_checker=checker)(schema).iter_errors(document)
     _report(_named(path, values), (problem for error in errors for problem in _explain(error, schema, document)))
@@ -241,7 +241,7 @@ def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
         yield _problem(2, "readout.layer_above.value", above, allowed, meant=_closest(above, inner), about=about)
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: Any) -> bool:
     """Whether it is a finite number; JSON Schema alone lets NaN and infinity through."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
@@ -354,7 +354,7 @@ def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
         with suppress(ValueError):
             value = float(found.removesuffix(str(unit)).replace(",", "."))
             return shown(value) if math.isfinite(value) else ""
-    if unit != "mm" or not _is_number(found):
+    if unit != "mm" or not is_number(found):
         return ""
     lowest, highest = float(schema.get("minimum", 0.0)), float(schema.get("maximum", math.inf))
     meant = _scaled(found, FACTORS["mm", "um" if found > highest else "m"])
@@ -375,7 +375,7 @@ def _meant_type(kind: str, found: Any) -> str:
         return shown(int(found))
     if kind == "boolean" and isinstance(found, str):
         return {"yes": "true", "on": "true", "no": "false", "off": "false"}.get(found.lower(), "")
-    return f"[{shown(found)}]" if kind == "array" and _is_number(found) else ""
+    return f"[{shown(found)}]" if kind == "array" and is_number(found) else ""
 
 
 def _decimal_comma(found: Mapping[Any, Any], allowed: Schema) -> str:
@@ -397,7 +397,7 @@ def _scaled(value: Any, factor: float) -> Any:
     if isinstance(value, list):
         scaled = [_scaled(entry, factor) for entry in value]
         return None if None in scaled else scaled
-    if not (_is_number(value) and _is_number(factor)):
+    if not (is_number(value) and is_number(factor)):
         return None
     digits = len(Decimal(str(value)).normalize().as_tuple().digits)
     return float(f"{value * factor:.{digits}g}")

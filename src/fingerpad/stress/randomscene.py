@@ -29,20 +29,26 @@ GROUP = 50  # scenes that share a finger [1]
 # Ranges; those that span decades are drawn by their logarithms
 WIDTH = (8.0, 40.0)  # of the finger [mm]
 FLATNESS = (0.6, 1.0)  # height of the finger over its width [1]
+BONE = (0.3, 0.6)  # width of the bone over the finger's [1]
+NAIL = 0.5  # the same of the nail [1]
 PAD_LAYERS = (2, 5)  # layers of the pad [1]
 THICKNESS = (0.01, 0.5)  # of all layers but the last [mm]
 DEPTH = (0.1, 0.3)  # of the last layer on either side over the finger's width [1]
 MODULUS = (1e-3, 1e3)  # [MPa]: a contrast of 1e6
 POISSON = (0.0, 0.4999)  # [1]
+LIMIT_SHARE = 0.2  # of layers that have the largest Poisson's ratio, and of rows that touch [1]
 SPAN = (0.05, 0.6)  # of the row over the finger's width [1]
 ACTUATORS = (1, 64)  # [1]
 PITCH = 0.1  # smallest [mm]
 FILLED = (0.3, 1.0)  # width of an actuator over pitch [1]; 1 is touching
 BODY = (0.02, 0.5)  # thickness of a deformable actuator over its width [1]
 BODY_ELEMENTS = 8  # of a deformable actuator along its smallest division [1]
+BODIED = 0.3  # share of rows that are deformable [1]
 ELEMENTS = (12, 30)  # of skin along the row [1]
+RECEPTOR_ELEMENTS, LARGEST_ELEMENTS = 30.0, 10.0  # along the finger's width [1]
 CLOSENESS = 1e-3  # smallest element on the skin over the largest [1], for one actuator; times their number squared
 FRICTION = (0.01, 10.0)  # [1], beside 0
+FRICTIONLESS = 0.1  # share of scenes without friction [1]
 DEEP = (1e-3, 1.0)  # pre-indentation to a depth, over the pad's thickness [1]
 PRESSED = (1e-4, 1.0)  # force of a row over its length [MPa], over the modulus of the softest layer [1]
 AMPLITUDE = (1e-6, 2.0)  # of a stimulus [mm]
@@ -52,7 +58,9 @@ ROWS = (1, 8)  # of a stimulus's history [1]
 CYCLES = 10  # most in a stimulus [1]
 ROWS_A_CYCLE = 6  # [1]
 STILL = VibrationRule(Relaxation((), (), ()), 1e-9, 1.0, 8)  # nothing vibrates
-TOLERANCE, MAX_CUTS, CONTACT_MARGIN = 1e-9, 10, 0.5  # of the shipped model (config/config.yaml)
+# of the shipped model (config/config.yaml)
+TOLERANCE, MAX_CUTS, CONTACT_MARGIN = 1e-9, 10, 0.5
+GABOR = GaborFilter(2.8, 1.15, 1.12, 0.02)
 # with finite kinematics
 LAWS = (Law.HENCKY, Law.NEO_HOOKEAN, Law.OGDEN)
 OGDEN_EXPONENT = (1.0, 12.0)  # [1]
@@ -79,7 +87,7 @@ def random_scene(number: int) -> Scene:
     span = inner.positions[-1] - inner.positions[0] + inner.width
     # half of the rows are what the mesh was made for
     row = _row(rng, span) if rng.random() < 0.5 else _finished(rng, inner)
-    friction = 0.0 if rng.random() < 0.1 else _decades(rng, FRICTION)
+    friction = 0.0 if rng.random() < FRICTIONLESS else _decades(rng, FRICTION)
     law = _law(rng, friction, group, span)
     numerics = replace(
         group.model.numerics,
@@ -138,6 +146,7 @@ def random_group(number: int) -> Scene:
 
 
 def _group(rng: np.random.Generator, number: int) -> Scene:
+    """A scene drawn for a group. Raises SceneError if there is no such finger."""
     width = _decades(rng, WIDTH)
     height = width * rng.uniform(*FLATNESS)
     count = _whole(rng, PAD_LAYERS)
@@ -147,8 +156,8 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     finger = Finger(
         width=width,
         height=height,
-        bone_width=width * rng.uniform(0.3, 0.6),
-        nail_width=width * 0.5,
+        bone_width=width * rng.uniform(*BONE),
+        nail_width=width * NAIL,
         pad=pad,
         dorsal=dorsal,
     )
@@ -163,8 +172,8 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
         finite_edge_zone=spacing * CLOSENESS,
         face_size=spacing,
         growth=1.0,
-        receptor_size=width / 30.0,
-        largest_size=width / 10.0,
+        receptor_size=width / RECEPTOR_ELEMENTS,
+        largest_size=width / LARGEST_ELEMENTS,
         contact_margin=CONTACT_MARGIN,
         indentation_increments=1,
         stimulus_increments=1,
@@ -176,7 +185,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
         finger=finger,
         tissue=TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
         contact=ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH, depth=1.0, force=1.0),
-        gabor=GaborFilter(2.8, 1.15, 1.12, 0.02),
+        gabor=GABOR,
         readout=ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
         vibration=STILL,
         numerics=numerics,
@@ -202,7 +211,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
 
 
 def _layer(rng: np.random.Generator, name: str, thickness: tuple[float, float]) -> Layer:
-    poisson = POISSON[1] if rng.random() < 0.2 else rng.uniform(*POISSON)
+    poisson = POISSON[1] if rng.random() < LIMIT_SHARE else rng.uniform(*POISSON)
     return Layer(name, _decades(rng, thickness), Material(_decades(rng, MODULUS), poisson))
 
 
@@ -210,7 +219,7 @@ def _row(rng: np.random.Generator, span: float) -> ActuatorRow:
     """A row of equal actuators over the span [mm]."""
     most = int(np.clip(span / PITCH, *ACTUATORS))
     count = min(int(_decades(rng, (ACTUATORS[0], ACTUATORS[1] + 1.0))), most)
-    filled = FILLED[1] if rng.random() < 0.2 else rng.uniform(*FILLED)
+    filled = FILLED[1] if rng.random() < LIMIT_SHARE else rng.uniform(*FILLED)
     pitch = span / (count - 1 + filled)
     row = ActuatorRow(tuple((i - (count - 1) / 2.0) * pitch for i in range(count)), filled * pitch, 0.0)
     return _finished(rng, row)
@@ -220,7 +229,7 @@ def _finished(rng: np.random.Generator, row: ActuatorRow) -> ActuatorRow:
     """The row with edges, from sharp to a cylinder's, and bodies, redrawn."""
     edge = float(rng.choice([0.0, row.width / 2.0, row.width / 2.0 * rng.random()]))
     body = None
-    if rng.random() < 0.3:
+    if rng.random() < BODIED:
         material = Material(_decades(rng, MODULUS), rng.uniform(*POISSON))
         body = Body(material, row.width * rng.uniform(*BODY))
     return replace(row, edge_radius=edge, body=body)
