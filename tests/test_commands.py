@@ -663,7 +663,7 @@ def test_predict_prints_an_aligned_table(
     for name in ("interface", "unit", "note"):
         column = header.index(name)
         assert all(row[column - 1 : column] in ("", " ") for row in rows[:2])
-    assert rows[0].split() == ["a", "shear", "strain", "0.12346", "1.0e-04", "mm2", "1"]
+    assert rows[0].split() == ["a", "shear", "strain", "0.12346", "0.00010", "mm2", "1"]
     assert rows[1].split() == ["bb", "shear", "strain", "mm2", "no", "prediction"]
     assert rows[2:] == ["caveat: a (shear, strain): doubtful", "caveat: a (shear, strain): odd"]
 
@@ -794,7 +794,7 @@ def test_predict_draws_scores_against_what_is_varied(
     checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     drawn: list[Any] = []
-    monkeypatch.setattr(predicting, "variation_figure", lambda *given: drawn.append(given) or Figure())
+    monkeypatch.setattr("fingerpad.figures.variation.variation_figure", lambda *given: drawn.append(given) or Figure())
     vary = ["--vary", "actuators.pitch=2.0,2.5", "--vary", "contact.friction=0.3", "-o", "pitch.png"]
     assert main(["predict", *vary, "config/devices/device2.yaml"]) == 0
     ((key, unit, values, scenes, tables),) = drawn

@@ -705,6 +705,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
     none = np.zeros(0)
     force = np.stack([0.0 * traction, traction], axis=1)
     return Solution(
+        height=1.5,
         indentation=1.5,
         depth=1.5,
         position=contact.position,
