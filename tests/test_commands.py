@@ -616,7 +616,7 @@ def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
 
 
 def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
-    """It goes no deeper than its first node needs, and what it drags along is as small."""
+    """It goes no deeper than its first node needs, and what it drags along is as small; that is said."""
     base = scene("device2")
     still = np.zeros((1, 1))
     beside = Condition("beside", "test", 0.0, np.array([1.0]), still, still + 0.02)
@@ -626,7 +626,8 @@ def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
     rows = forecast(given, error=False)
     assert all(0.0 < row["force_N_per_mm"] < 2e-4 and row["indentation_mm"] < 3e-3 for row in rows)
     assert all(0.0 <= row["score"] < 1e-3 for row in rows)
-    assert [row["caveats"] for row in rows] == [[]] * 4
+    assert [len(row["caveats"]) for row in rows] == [1] * 4
+    assert all("ends at first touch" in row["caveats"][0] for row in rows)
 
 
 def test_all_stimuli_of_a_device_set_out_from_one_force() -> None:

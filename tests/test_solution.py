@@ -40,6 +40,7 @@ from fingerpad.contact.problem import contact_problem, named_stimulus
 from fingerpad.contact.profile import profile
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError
+from fingerpad.prediction.caveats import solution_caveats
 from fingerpad.prediction.edges import mesh_device
 from fingerpad.readouts.gabor import filtered_readouts
 from fingerpad.readouts.resampling import resampling_to_grid
@@ -374,9 +375,11 @@ def test_actuators_that_all_touch_at_once_are_pressed_no_further(increments: int
     base, still = row_of(2, 3.0, 2.0, [0.0] * 2)
     base = base.with_numerics(replace(base.model.numerics, indentation_increments=increments))
     found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
-    solution = solve_condition(ending(base, Criterion.TOUCH), found, None, still, Interface.SHEAR)
+    touching = ending(base, Criterion.TOUCH)
+    solution = solve_condition(touching, found, None, still, Interface.SHEAR)
     assert np.all(solution.pressing[0] > 0.0)
     assert solution.indentation == pytest.approx(NEARLY, rel=1e-6)
+    assert any("ends at first touch" in caveat for caveat in solution_caveats(touching, solution))
 
 
 def test_a_criterion_that_is_met_just_within_the_limit_is_met() -> None:

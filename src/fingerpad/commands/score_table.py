@@ -26,8 +26,11 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     ordered = in_order(rows)
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
-    told = [{**row, "note": note, "rank": _ranked(row, ordered)} for row, note in zip(ordered, notes, strict=True)]
-    cells = [[str(value if value is not None else "") for value in map(_as_told(row).get, COLUMNS)] for row in told]
+    told = [
+        {**row, **_score(row), "note": note, "rank": _ranked(row, ordered)}
+        for row, note in zip(ordered, notes, strict=True)
+    ]
+    cells = [[str(row[column]) for column in COLUMNS] for row in told]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
     lines = [title, *_contact(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
@@ -55,8 +58,8 @@ def _share(caveat: str) -> float:
 
 
 def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """How high above the pad's lowest point, and how hard, the device was pressed at each interface, if it was; and
-    how much of the contact slides where there is friction.
+    """How deep and how hard the device was pressed at each interface, if it was, and how much slides in each condition
+    where there is friction.
     """
     preloads = dict.fromkeys(
         f"{row['indentation_mm']:.3g} mm and {row['force_N_per_mm']:.3g} N/mm ({row['interface']})"
@@ -100,10 +103,8 @@ def _ranked(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
     return f"{first}-{last}" if last > first else str(row["rank"])
 
 
-def _as_told(row: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The row with its score and its error as far as the error tells, if there are both."""
+def _score(row: Mapping[str, Any]) -> dict[str, str]:
+    """The score and its error as far as the error tells; nothing in place of what is not there."""
     score, error = row["score"], row["score_error"]
-    if score is None:
-        return row
-    told, within = rounded(score, math.nan if error is None else error)
-    return {**row, "score": told, "score_error": within if error is not None else None}
+    told, within = rounded(score, math.nan if error is None else error) if score is not None else ("", "")
+    return {"score": told, "score_error": within if error is not None else ""}
