@@ -58,14 +58,14 @@ def raise_until(
     weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
     while missing > END_TOLERANCE:
         here = float(state.actuator[0, 1])
-        height = min(here + step, touch + limit)
-        step = height - here
-        if step <= 0.0:
+        if touch + limit - here <= LEAST_STEP:
             raise CriterionError(
                 f"pre-indentation did not reach {wanted(law)} within {limit:g} mm from first touch:"
                 f" {missed(missing, here - touch, least, law)}",
                 touched=bool(np.isfinite(least[0])),
             )
+        step = min(step, touch + limit - here)
+        height = here + step
         target = state.actuator.copy()
         target[:, 1] = height
         advanced, carried = advance(problem, state, target, 1, carried, solve)
