@@ -159,7 +159,7 @@ def test_the_page_does_what_it_says(changeable: Project, tmp_path: Path) -> None
     assert (correlations["n"] == 3).all()
     assert set(correlations["rating_kind"]) == {"measured"}
     figures = {path.name for path in (reader.folder / "results" / "figures").iterdir()}
-    assert {"map_mydevice_alternate.png", "map_measured_measured.pdf"} <= figures
+    assert {"map_small_mydevice-alternate.png", "map_small_measured-measured.pdf"} <= figures
     assert (reader.folder / "mydevice.png").stat().st_size > 0
     assert "swipe" in printed["fingerpad predict config/devices/measured.yaml\n"]
     (sprung,) = (said for text, said in printed.items() if "sprung.yaml" in text and "predict" in text)

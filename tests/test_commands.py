@@ -844,7 +844,8 @@ def test_robustness_says_which_assumptions_orders_hang_on(
     assert main(command) == 0
     said = capsys.readouterr().out
     assert said.startswith(
-        "Device 2: lateral pins (device2), small strain: 2 assumptions varied, one at a time\n\nshear, strain\n"
+        "Device 2: lateral pins (device2), small strain: 2 assumptions varied, one at a time\n"
+        "0 of 3 orders hold wherever there is a prediction\n\nshear, strain\n"
         "  alternate_000 < alternate_090 holds in 0 of 1; turned with contact.friction 0.3;"
         " no prediction with stimulus.half_cycle second\n"
     )
@@ -859,6 +860,35 @@ def test_robustness_says_which_assumptions_orders_hang_on(
         "stimulus.half_cycle second", "kinematics finite",
     ]  # fmt: skip
     assert {row["score_error"] for row in rows if row["varied"] == "as configured"} == {"0.1"}
+
+
+def test_robustness_leaves_out_what_has_no_condition_in_common(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def forecast_one(scene: Scene, error: bool, *given: Any) -> list[dict[str, Any]]:
+        return [ROW | {"condition": condition.name, "score": float(place), "score_error": 0.1, "caveats": []}
+                for place, condition in enumerate(scene.device.conditions)]  # fmt: skip
+
+    monkeypatch.setattr(varying, "forecast", forecast_one)
+    assumptions = checkout / "assumptions.yaml"
+    assumptions.write_text(
+        "devices:\n- {key: stimulus.phases, values: [[30, 60]], source: 'assumption: others'}\n", encoding="utf-8"
+    )
+    path = checkout / "config/devices/device2.yaml"
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    document["stimulus"]["phases"]["source"] = "assumption: some"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    assert main(["robustness", str(path), "--assumptions", str(assumptions)]) == 0
+    assert "\nleft out: stimulus.phases [30, 60]: " in capsys.readouterr().out
+
+
+def test_robustness_of_one_stimulus_is_refused_at_once(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = checkout / "config/devices/device2.yaml"
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    document["stimulus"]["phases"]["value"] = [90, 270]  # one stimulus
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    assert main(["robustness", str(path)]) == FAILED
+    assert "device2: found one stimulus; allowed: two or more" in capsys.readouterr().err
 
 
 def test_robustness_of_a_device_that_cannot_be_solved_is_an_error(
@@ -1055,6 +1085,16 @@ def test_depth_and_force_of_pre_indentation_stand_with_their_units() -> None:
     ]
 
 
+def test_what_a_decimal_comma_leaves_is_refused() -> None:
+    for text in ("0,05", "0.3, 05", "[0,05]"):
+        with pytest.raises(UsageError, match=r"found '05' in .*; allowed: numbers with a point, as 0\.05"):
+            variations(Namespace(vary=[f"contact.friction={text}"]))
+    assert variations(Namespace(vary=["contact.friction=0.05,1.005"])) == [
+        {"contact.friction": 0.05},
+        {"contact.friction": 1.005},
+    ]
+
+
 def test_values_of_a_key_that_is_given_twice_are_all_taken() -> None:
     asked = Namespace(vary=["contact.friction=0.3", "contact.friction=0.6"])
     assert variations(asked) == [{"contact.friction": 0.3}, {"contact.friction": 0.6}]
@@ -1094,11 +1134,11 @@ def test_orders_without_a_prediction_in_some_or_all_variants() -> None:
         "three": table(a=None, b=None, c=None),
     }
     assert list(orders(tables)) == [
-        "shear, strain, in 2 of 2: a < b, a < c, b < c",
+        "shear, strain, in 2 of 2: a < b, b < c",
         "shear, strain, no prediction (three)",
     ]
     lost = [ROW | {"condition": "a", "score": None, "score_error": None}]
-    assert list(orders({"one": lost, "two": lost})) == []
+    assert list(orders({"one": lost, "two": lost})) == ["one condition: there is nothing to order"]
 
 
 def test_why_there_is_nothing_without_friction_depends_on_control(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -123,6 +123,7 @@ def test_a_file_that_is_no_text_is_named(tmp_path: Path) -> None:
         ("device1,shear,strain,1.5,1,x,y", "a number from 0 to 1"),
         ("device1,shear,strain,high,1,x,y", "a number from 0 to 1"),
         ("device1,shear,strain,0.5,rising,x,y", "1, -1, or nothing"),
+        ("device1,shear,strain,0.5,1,x,y\ndevice1,shear,strain,0.7,1,x,y", "line 3.* one row per device, .* on line 2"),
     ],
 )
 def test_bad_published_values_are_named(tmp_path: Path, row: str, part: str) -> None:

@@ -69,7 +69,7 @@ def test_both_kinematics_stand_side_by_side(finite_run: Project) -> None:
 def test_fields_and_maps_of_finite_kinematics(finite_run: Project, project: Project, both_scenes: Path) -> None:
     """On demand: what a force alone does not give is solved anew, and is drawn and written as with small ones."""
     folder = "results/finite/device2/alternate_180/shear"
-    targets = (f"{folder}/fields.vtu", "results/figures/map_device2_alternate_finite.png")
+    targets = (f"{folder}/fields.vtu", "results/figures/map_finite_device2-alternate.png")
     run = project.snakemake(*targets, "--directory", finite_run.folder, "--config", f"scenes={both_scenes}")
     assert run.status == 0, run.text
     fields = meshio.read(finite_run.folder / folder / "fields.vtu").point_data
@@ -109,8 +109,8 @@ def test_figures_are_complete_and_byte_stable(finished: Project) -> None:
     figures = finished.folder / "results" / "figures"
     stems = {path.stem for path in figures.iterdir()}
     wanted = {"figure_3_workflow", *BOTH}
-    maps = {f"map_device1_{dispersion}" for dispersion in ("low", "medium", "high")}
-    assert wanted | maps | {"section", "stimuli", "map_device2_alternate", "map_device3_alternate"} == stems
+    maps = {f"map_small_device1-{dispersion}" for dispersion in ("low", "medium", "high")}
+    assert wanted | maps | {"section", "stimuli", "map_small_device2-alternate", "map_small_device3-alternate"} == stems
     assert {path.suffix for path in figures.iterdir()} == {".png", ".pdf"}
     before = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in figures.iterdir()}
     run = finished.snakemake("--force", "results/figures/figure_5_correlation.png")

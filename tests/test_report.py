@@ -42,7 +42,7 @@ TEMPLATE = ROOT / "workflow" / "report" / "report.html"
 PIXEL = base64.b64decode(
     "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
 )
-FIGURES = ["map_device3_alternate", "figure_6_shear", "section", "figure_3_workflow", "figure_4_receptors"]
+FIGURES = ["map_small_device3-alternate", "figure_6_shear", "section", "figure_3_workflow", "figure_4_receptors"]
 FIGURES += ["figure_5_correlation", "ablation_shear"]
 TRICK = "<script>alert('no')</script>"  # what a table may say is text, never markup
 
@@ -134,7 +134,8 @@ def built(results: Results, folder: Path, claims: Sequence[Mapping[str, str]] = 
         TEMPLATE.read_text(encoding="utf-8"),
         results,
         claims,
-        {path.stem: quantities(read_yaml(path)) for path in (CONFIG, *DEVICES)},
+        quantities(read_yaml(CONFIG)),
+        {path.stem: quantities(read_yaml(path)) for path in DEVICES},
         pictures_of([folder / f"{stem}.png" for stem in FIGURES], results),
         Picture("rules", Words("Rules", "Boxes.", "n = 2 rules."), data_uri(folder / "section.png")),
         provenance(ROOT / "pyproject.toml", "0123abc", [CONFIG, *DEVICES]),
@@ -257,7 +258,7 @@ def test_each_rule_of_the_graph_counts_once() -> None:
 
 def test_figures_come_in_reading_order(results: Results) -> None:
     assert list(words(FIGURES, results))[:2] == ["section", "figure_3_workflow"]
-    assert list(words(FIGURES, results))[-1] == "map_device3_alternate"
+    assert list(words(FIGURES, results))[-1] == "map_small_device3-alternate"
 
 
 def test_captions_explain_the_range_where_there_is_one(results: Results) -> None:
@@ -273,7 +274,9 @@ def test_a_map_names_the_conditions_of_its_dispersion_alone(results: Results) ->
     first, *rest = last.device.conditions
     device = dataclasses.replace(last.device, conditions=(dataclasses.replace(first, dispersion="low"), *rest))
     two = dataclasses.replace(results, scenes=(*others, dataclasses.replace(last, device=device)))
-    low, other = (said.caption for said in words(["map_device3_low", "map_device3_alternate"], two).values())
+    low, other = (
+        said.caption for said in words(["map_small_device3-low", "map_small_device3-alternate"], two).values()
+    )
     assert first.name in low and first.name not in other
     assert all(one.name in other and one.name not in low for one in rest)
 
@@ -321,7 +324,9 @@ def test_captions_take_numbers_from_the_rows_that_their_figures_show(results: Re
         first, is_change = row["device"] == "device2", row["readout"] == change
         assert (told in said["figure_3_workflow"].caption) is (is_small and is_shear and first)
         assert (told in said["kinematics"].caption) is (is_shear and is_change)
-        assert (told in said["map_device3_alternate"].caption) is (is_small and is_shear and is_change and not first)
+        assert (told in said["map_small_device3-alternate"].caption) is (
+            is_small and is_shear and is_change and not first
+        )
     after_finite = said["kinematics"].caption.split("finite strain")[1].split(";")[0]
     assert score_with_error(next(row for row in finite if row["readout"] == change)) in after_finite
     gabor = results.scenes[0].model.gabor
@@ -343,8 +348,8 @@ def test_accuracy_is_in_per_cent_of_each_score(results: Results) -> None:
 
 
 def test_figure_without_a_caption_is_an_error(results: Results) -> None:
-    with pytest.raises(KeyError, match="map_device3_high"):
-        words(["section", "map_device3_high"], results)
+    with pytest.raises(KeyError, match="map_small_device3-high"):
+        words(["section", "map_small_device3-high"], results)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import fingerpad.vibration.cycling
 from fingerpad.contact.certificate import certify
 from fingerpad.contact.linear_solution import Indented, indent_device
 from fingerpad.contact.path import follow
-from fingerpad.errors import CycleError, DepthError, ReachError, SceneError
+from fingerpad.errors import CondensationError, CycleError, DepthError, ReachError, SceneError
 from fingerpad.prediction.edges import mesh_device
 from fingerpad.prediction.scoring import condense_mesh
 from fingerpad.readouts.roughness import scene_span
@@ -29,6 +29,7 @@ from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import Vibration, displacement, vibrate
 from fingerpad.vibration.frequency import certified_vibration, condense_vibrating_at, cyclic_readouts, frequency_rows
+from fingerpad.vibration.frequency_variants import variant_rows as relaxation_rows
 from fingerpad.vibration.inertia import condense_vibrating, inertia_effect, slipping, stuck
 from fingerpad.vibration.viscoelasticity import retardation_times, stiffening
 from scenes import scene
@@ -360,8 +361,8 @@ def test_what_rests_has_neither_score_nor_inertia() -> None:
     given = coarse()
     asked = Scene(given.model, replace(given.device, frequencies=(80.0,), cycles=(normal(0.0),)))
     condensed = condense_mesh(given, mesh(("device2", False)))
-    vibrating = [condense_vibrating_at(mesh(("device2", False)), asked, 80.0)]
-    rows = frequency_rows(asked, condensed, creeping(), vibrating, Interface.FRICTIONLESS)
+    speeds = [None, condense_vibrating_at(mesh(("device2", False)), asked, 80.0)]
+    rows = frequency_rows(asked, condensed, creeping(), speeds, Interface.FRICTIONLESS)
     assert [row["inertia"] for row in rows] == [0.0] * 4
     # a billionth of the others' 3e-3
     assert all(abs(row["score"]) < 1e-12 for row in rows if row["readout"] == Readout.CHANGE_OF_STRAIN)
@@ -374,8 +375,8 @@ def test_table_says_where_inertia_forbids_a_prediction() -> None:
     condensed = condense_mesh(given, mesh(("device2", False)))
     for model, predicted in ((given.model, True), (careful, False)):
         asked = Scene(model, device)
-        vibrating = [condense_vibrating_at(mesh(("device2", False)), asked, 5.0)]
-        rows = frequency_rows(asked, condensed, creeping(), vibrating, Interface.SHEAR)
+        speeds = [None, condense_vibrating_at(mesh(("device2", False)), asked, 5.0)]
+        rows = frequency_rows(asked, condensed, creeping(), speeds, Interface.SHEAR)
         assert [row["frequency_hz"] for row in rows] == [0.0, 0.0, 5.0, 5.0]
         assert all(row["score"] > 0.0 for row in rows[:2])  # slow cycles have no inertia
         assert all((row["score"] is not None) is predicted for row in rows[2:])
@@ -391,7 +392,7 @@ def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> Non
     condensed = condense_mesh(given, mesh(("device2", False)))
     strained = replace(condensed, section=replace(condensed.section, strain=3.0 * condensed.section.strain))
     plain, told = (
-        frequency_rows(Scene(each, device), over, creeping(), [], Interface.SHEAR)[0]["note"]
+        frequency_rows(Scene(each, device), over, creeping(), [None], Interface.SHEAR)[0]["note"]
         for each, over in ((given.model, condensed), (model, strained))
     )
     assert plain == ""
@@ -405,10 +406,32 @@ def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
     device = replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1])
     lost = replace(given.model, numerics=replace(given.model.numerics, newton_tolerance=1e-30))
     condensed = condense_mesh(given, mesh(("device2", False)))
-    rows = frequency_rows(Scene(lost, device), condensed, creeping(), [], Interface.SHEAR)
+    rows = frequency_rows(Scene(lost, device), condensed, creeping(), [None], Interface.SHEAR)
     assert [row["readout"] for row in rows] == list(Readout)
     assert all(row["score"] is None for row in rows)
     assert all(row["note"].startswith("no prediction: device=device2, interface=shear, pre-ind") for row in rows)
+    assert all(row["inertia"] is None for row in rows)  # nobody knows it
+
+
+def test_other_assumptions_on_relaxation_keep_to_the_limit_of_inertia() -> None:
+    given = coarse()
+    device = replace(given.device, cycles=given.device.cycles[:1])
+    careful = replace(given.model, vibration=replace(given.model.vibration, inertia_limit=1e-6))
+    section = mesh(("device2", False))
+    condensed = condense_mesh(given, section)
+    for model, predicted in ((given.model, True), (careful, False)):
+        rows = relaxation_rows(Scene(model, device), section, condensed, 5.0)
+        assert len({row["assumption"] for row in rows}) == len(rows) / len(Readout) == 5
+        assert all((row["score"] is not None) is predicted for row in rows)
+        assert predicted or all("inertia" in row["note"] for row in rows)
+
+
+def test_tissue_that_next_to_never_relaxes_is_a_named_error() -> None:
+    given = coarse()
+    hardly = replace(given.model.vibration.relaxation, shares=(1e-17,) * len(given.model.vibration.relaxation.times))
+    model = replace(given.model, vibration=replace(given.model.vibration, relaxation=hardly))
+    with pytest.raises(CondensationError, match="creep: "):
+        condense_creep(mesh(("device2", False)), Scene(model, given.device))
 
 
 def test_cycles_without_an_actuator_at_its_peak_are_refused() -> None:

@@ -24,7 +24,7 @@ FIGURES = [
         *(["kinematics"] if Kinematics.FINITE in KINEMATICS else []),
         "section",
         "stimuli",
-        *(f"map_{name}_{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]),
+        *(f"map_small_{name}-{dispersion}" for name in DEVICES for dispersion in DISPERSIONS[name]),
     )
     for suffix in ("png", "pdf")
 ]
@@ -33,8 +33,8 @@ FIGURES = [
 rule finite_maps:
     input:
         expand(
-            "results/figures/{map}_finite.{suffix}",
-            map=[f"map_{name}_{each}" for name in DEVICES_WITH[Kinematics.FINITE] for each in DISPERSIONS[name]],
+            "results/figures/map_finite_{map}.{suffix}",
+            map=[f"{name}-{each}" for name in DEVICES_WITH[Kinematics.FINITE] for each in DISPERSIONS[name]],
             suffix=["png", "pdf"],
         ),
 
@@ -211,25 +211,23 @@ rule figure_map:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        fields=lambda w: f"results/{mode_of(w)}/{w.device}/fields.npz",
+        fields=lambda w: f"results/{w.kinematics}/{w.device}/fields.npz",
         solutions=lambda w: [
-            f"results/{mode_of(w)}/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
+            f"results/{w.kinematics}/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
             for condition in scene_of(w).device.conditions
             if condition.dispersion == w.dispersion
         ],
     output:
-        png="results/figures/map_{device}_{dispersion}{mode}.png",
-        pdf="results/figures/map_{device}_{dispersion}{mode}.pdf",
+        png="results/figures/map_{kinematics}_{device}-{dispersion}.png",
+        pdf="results/figures/map_{kinematics}_{device}-{dispersion}.pdf",
     log:
-        "results/logs/figures/map_{device}_{dispersion}{mode}.log",
+        "results/logs/figures/map_{kinematics}_{device}-{dispersion}.log",
     wildcard_constraints:
-        device="|".join(DEVICES),
         dispersion="|".join(sorted({dispersion for names in DISPERSIONS.values() for dispersion in names})),
     conda:
         ENVIRONMENT
     params:
         code=code("figure_map.py"),
-        kinematics=mode_of,
         scene=lambda w: support.fingerprint(scene_of(w).device),
     script:
         "../scripts/figure_map.py"

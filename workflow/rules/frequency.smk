@@ -67,9 +67,7 @@ rule frequency_variants:
     params:
         code=code("frequency_variants.py"),
         scene=scored_of,
-        vibration=lambda w: support.fingerprint(
-            scene_of(w).model.vibration.relaxation, scene_of(w).model.vibration.steps, scene_of(w).device.cycles
-        ),
+        vibration=lambda w: support.fingerprint(scene_of(w).model.vibration, scene_of(w).device.cycles),
         frequency=VARIED_AT,
     script:
         "../scripts/frequency_variants.py"

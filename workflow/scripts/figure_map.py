@@ -39,7 +39,7 @@ if __name__ == "__main__":
     job = snakemake  # noqa: F821
     with logged(job.log):
         main(
-            job.params.kinematics,
+            job.wildcards.kinematics,
             Path(job.input.config),
             Path(job.input.device),
             Path(job.input.fields),

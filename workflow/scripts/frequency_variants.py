@@ -2,11 +2,9 @@
 
 from pathlib import Path
 
-from fingerpad.contact.linear_solution import indent_device
 from fingerpad.jobs import logged
 from fingerpad.prediction.scoring import Condensed
 from fingerpad.readouts.strain import Resampling
-from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
@@ -24,13 +22,12 @@ def main(
     frequency: float,
     table: Path,
 ) -> None:
-    """Read mesh and compliance, press, vibrate under each assumption, write the scores."""
+    """Read mesh and compliance, vibrate under each assumption, write the rows."""
     scene = load_scene(config, device)
     shared = Condensed(
         load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
     )
-    indented = indent_device(scene, shared.section, shared.body, Interface.SHEAR)
-    write_rows(table, variant_rows(scene, load_section(mesh), shared, indented, frequency))
+    write_rows(table, variant_rows(scene, load_section(mesh), shared, frequency))
 
 
 if __name__ == "__main__":

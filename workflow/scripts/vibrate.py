@@ -22,13 +22,13 @@ def main(
         load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
     )
     creep = condense_creep(section, scene)
-    vibrating = [condense_vibrating_at(section, scene, each) for each in scene.device.frequencies]
+    speeds = [None, *(condense_vibrating_at(section, scene, each) for each in scene.device.frequencies)]
     write_rows(
         scores,
         [
             row
             for interface in scene.device.interfaces()
-            for row in frequency_rows(scene, shared, creep, vibrating, interface)
+            for row in frequency_rows(scene, shared, creep, speeds, interface)
         ],
     )
 

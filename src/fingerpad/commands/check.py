@@ -87,11 +87,12 @@ def described(scene: Scene) -> str:
     rise, pad = _rise(scene), scene.model.finger.pad_thickness
     law = scene.model.contact
     wide = law.criterion is Criterion.FULL and rise > WIDE * pad
+    indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
     farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
     warned = {
         TOO_WIDE: wide,
         TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
-        TOO_FAR: (law.depth if law.criterion is Criterion.DEPTH else rise) + normal > pad,
+        TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
     doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]

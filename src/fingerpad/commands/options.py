@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from difflib import get_close_matches
@@ -23,6 +24,7 @@ from ..scene.validation import check_device
 from ..scene.variation import NO_VALUES, variants
 
 PICTURES = (".png", ".pdf", ".svg")
+CUT_NUMBER = re.compile(r"(?<![\w.])0\d+")  # what a decimal comma leaves of a number
 VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6, with a list in brackets"
 
 
@@ -118,6 +120,8 @@ def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
     vary: dict[str, list[Any]] = {}
     for entry in options.vary:
         key, _, text = entry.partition("=")
+        if cut := CUT_NUMBER.search(text):
+            raise UsageError(f"--vary: found '{cut[0]}' in '{entry}'; allowed: numbers with a point, as 0.{cut[0]}")
         values = read_values(text)
         if not (key.strip() and values):
             raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")

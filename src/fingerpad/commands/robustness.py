@@ -13,14 +13,16 @@ from tqdm import tqdm
 from ..checkout import find_checkout, model_for
 from ..ensemble.alternatives import AS_CONFIGURED, read_ensemble
 from ..ensemble.robustness import Order, changed, orders_held, reasons, varied_values
-from ..errors import ContactError, SceneError
+from ..errors import ContactError, SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..store import csv_text
+from ..words import several
 from .options import add_kinematics, add_scene_options, checked_scene
-from .printing import titled
+from .printing import in_order, titled
+from .score_table import caveat_lines
 
 DESCRIPTION = """\
 Tell which assumptions the orders of a device's scores hang on. What config/ensemble.yaml lists is varied, one at a
@@ -55,22 +57,31 @@ def add(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """Solve the device as configured, with errors, and once for each assumption; print what becomes of the orders.
 
-    Raises ContactError if nothing can be scored as configured.
+    Raises ContactError if nothing can be scored as configured, UsageError where there is nothing to order.
     """
     scene = _distinct(checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics)))
+    if len(scene.device.conditions) < 2:
+        raise UsageError(f"{scene.device.name}: found one stimulus; allowed: two or more, so that scores have an order")
     varied, refused = _varied(scene, options)
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
         configured = forecast(scene, True, bar.update)
         if all(row["score"] is None for row in configured):
             raise ContactError(f"nothing could be scored: {configured[0]['note']}")
-        tables = {name: forecast(each, False, bar.update) for name, each in varied.items()}
-    if options.csv:
-        named = {AS_CONFIGURED: configured, **tables}
-        rows = [{"varied": name} | row for name, own in named.items() for row in own]
-        print(csv_text([{**row, "caveats": "; ".join(row["caveats"])} for row in rows]), end="")
-    else:
+        if options.csv:
+            bar.write(_as_csv(AS_CONFIGURED, configured, header=True), end="")
+        tables = {}
+        for name, each in varied.items():
+            tables[name] = forecast(each, False, bar.update)
+            if options.csv:
+                bar.write(_as_csv(name, tables[name], header=False), end="")
+    if not options.csv:
         print("\n".join(_told(scene, configured, tables, refused)))
+
+
+def _as_csv(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
+    """Rows of the score table with the name of what is varied, as CSV."""
+    return csv_text([{"varied": name, **row, "caveats": "; ".join(row["caveats"])} for row in rows], header=header)
 
 
 def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene], dict[str, str]]:
@@ -85,10 +96,9 @@ def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene]
     for name, values in varied_values(config, device, alternatives).items():
         try:
             other = checked_scene(options.device, options, values)
+            found[name] = _only(other.with_kinematics(scene.kinematics), scene)
         except SceneError as error:  # as a pattern of four actuators is no alternative for three
             refused[name] = str(error)
-        else:
-            found[name] = _only(other.with_kinematics(scene.kinematics), scene)
     for kinematics in scene.device.kinematics:
         if kinematics is not scene.kinematics:
             found[f"kinematics {kinematics}"] = scene.with_kinematics(kinematics)
@@ -112,17 +122,23 @@ def _told(
     tables: Mapping[str, Sequence[Mapping[str, Any]]],
     refused: Mapping[str, str],
 ) -> Iterator[str]:
-    """Lines that say what becomes of the orders, then what could not be varied or changes nothing."""
+    """Lines that say what becomes of the orders, then what to know of the scores as configured, and what could not be
+    varied or changes nothing.
+    """
     idle = [name for name, rows in tables.items() if not changed(configured, rows)]
     members = {name: rows for name, rows in tables.items() if name not in idle}
-    yield f"{titled(scene)}: {len(members)} assumptions varied, one at a time"
     found = orders_held(configured, members)
-    if not found:
+    yield f"{titled(scene)}: {len(members)} assumptions varied, one at a time"
+    if found:
+        certain = sum(len(each.holds) == each.scored for each in found)
+        yield f"{certain} of {several(len(found), 'order')} hold wherever there is a prediction"
+    else:
         yield "no two scores differ by more than their errors"
     for (interface, readout), orders in groupby(found, key=lambda each: (each.interface, each.readout)):
         yield f"\n{interface}, {readout}"
         yield from map(_as_line, orders)
     yield ""
+    yield from caveat_lines(scene, in_order(configured))
     if idle:
         yield f"without effect: {', '.join(idle)}"
     for name, rows in members.items():

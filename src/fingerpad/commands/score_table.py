@@ -21,7 +21,9 @@ RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the righ
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[str, Any] = NO_VALUES) -> str:
-    """Title, aligned table and caveats of one device, with these values in place of those in its files."""
+    """Title, aligned table (unless nothing has a score) and caveats of one device, with these values in place of those
+    in its files.
+    """
     title = ", ".join([titled(scene), *([named(values)] if values else [])])
     ordered = in_order(rows)
     # why there is none is a caveat, as are the notes of scores
@@ -33,10 +35,16 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     cells = [[str(row[column]) for column in COLUMNS] for row in told]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
     chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
-    lines = [title, *_contact(ordered), *aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])]
+    lines = [title, *_contact(ordered)]
+    if any(row["score"] is not None for row in rows):
+        lines += aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])
+    return "\n".join([*lines, *caveat_lines(scene, ordered)])
+
+
+def caveat_lines(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """What to know before believing the scores of one device, each once, with those that it is about."""
     every = [condition.name for condition in scene.device.conditions]
-    lines += [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in _told(ordered)]
-    return "\n".join(lines)
+    return [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in _told(rows)]
 
 
 def _told(rows: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, list[Mapping[str, Any]]]]:

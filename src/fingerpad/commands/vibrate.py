@@ -19,7 +19,7 @@ from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from ..store import csv_text
 from ..vibration.creep import condense_creep
-from ..vibration.frequency import SLOWLY, condense_vibrating_at, frequency_name, frequency_rows
+from ..vibration.frequency import SLOWLY, Vibrating, condense_vibrating_at, frequency_name, frequency_rows
 from .options import add_scene_options, checked_scene
 from .printing import aligned, in_order, titled
 
@@ -75,14 +75,14 @@ def run(options: argparse.Namespace) -> None:
         bar.update()
         creep = condense_creep(section, scene)
         bar.update()
-        vibrating = []
+        speeds: list[Vibrating | None] = [None]
         for frequency in device.frequencies:
-            vibrating.append(condense_vibrating_at(section, scene, frequency))
+            speeds.append(condense_vibrating_at(section, scene, frequency))
             bar.update()
         rows = [
             row
             for interface in device.interfaces()
-            for row in frequency_rows(scene, condensed, creep, vibrating, interface, bar.update)
+            for row in frequency_rows(scene, condensed, creep, speeds, interface, bar.update)
         ]
     if options.json:
         print(json.dumps(rows, indent=2))

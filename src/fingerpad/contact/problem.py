@@ -18,8 +18,8 @@ from .formulation import ContactProblem
 FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
 
 WHERE = "(in the device file, or in config/config.yaml for every device)"
-NARROWER = f"; a narrower row needs less indentation, and so may contact.criterion: depth or force {WHERE}"
-TOUCH = f"; a narrower row needs less indentation, and so may contact.criterion: touch, depth or force {WHERE}"
+NARROWER = f"; contact.criterion: depth or force {WHERE} may need less indentation, as a narrower row does"
+TOUCH = f"; contact.criterion: touch, depth or force {WHERE} may need less indentation, as a narrower row does"
 LESS = {Criterion.DEPTH: "; try less contact.depth", Criterion.FORCE: "; try less contact.force"}
 SMALL_ALONE = "; `kinematics: {value: small, ...}` in the device file skips finite strain (docs/troubleshooting.md)"
 SHEAR_ALONE = "; `interfaces: {value: shear, ...}` in the device file skips the frictionless case"

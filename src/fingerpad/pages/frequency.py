@@ -121,9 +121,8 @@ def _tau(one: pd.Series, other: pd.Series) -> float:
 
 def _varied(variants: pd.DataFrame) -> pd.DataFrame:
     """Per device and assumption how far scores of the change of strain move, and whether their order stays."""
-    scores = variants.pivot_table(
-        str(Readout.CHANGE_OF_STRAIN), ["device", "condition"], "assumption", sort=False, dropna=False
-    )
+    change = variants[variants["readout"] == Readout.CHANGE_OF_STRAIN]
+    scores = change.pivot_table("score", ["device", "condition"], "assumption", sort=False, dropna=False)
     shipped, *others = variants["assumption"].drop_duplicates()
     rows = []
     for device, own in scores.groupby(level="device", sort=False):

@@ -123,6 +123,7 @@ def read_published(path: Path) -> pd.DataFrame:
     Raises RatingError as `read_ratings` does.
     """
     rows: list[dict[str, Any]] = []
+    lines: dict[tuple[str, ...], int] = {}
     for line, row in _read_rows(path, PUBLISHED_COLUMNS):
         _check_name(path, line, "interface", row["interface"], [*Interface])
         _check_name(path, line, "readout", row["readout"], [*Readout])
@@ -131,6 +132,11 @@ def read_published(path: Path) -> pd.DataFrame:
             raise _error(path, line, "r2", row["r2"], "a number from 0 to 1, or nothing")
         if row["slope"] not in SLOPES:
             raise _error(path, line, "slope", row["slope"], "1, -1, or nothing")
+        case = row["device"], row["interface"], row["readout"]
+        if case in lines:
+            allowed = f"one row per device, interface and readout; {' '.join(case)} is on line {lines[case]}"
+            raise _error(path, line, "device", row["device"], allowed)
+        lines[case] = line
         rows.append({**row, "r2": r2, "slope": SLOPES[row["slope"]]})
     return pd.DataFrame(rows, columns=list(PUBLISHED_COLUMNS))
 

@@ -32,11 +32,15 @@ def resolved_pairs(rows: Sequence[Row]) -> list[Pair]:
 def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
     """In which variants which scores are larger, a line for each interface, read-out and set of variants.
 
-    tables: rows of the score table of each variant, by its name. What others imply is left out where it holds in all.
+    tables: rows of the score table of each variant, by its name. What others imply is left out where it holds in
+    all that have a prediction.
     """
     scores = {tuple(row["score"] for row in rows) for rows in tables.values()}
     if len(scores) == 1 and any(score is not None for score in scores.pop()):
         yield "these values change no score"
+    if len({row["condition"] for rows in tables.values() for row in rows}) == 1:
+        yield "one condition: there is nothing to order"
+        return
     for interface in Interface:
         for readout in Readout:
             own = {
@@ -55,7 +59,7 @@ def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
             sets = sorted({tuple(names) for names in holding.values()}, key=lambda names: -len(names))
             for names in sets:
                 pairs = [pair for pair, held in holding.items() if tuple(held) == names]
-                pairs = without_implied(pairs) if len(names) == len(tables) else pairs
+                pairs = without_implied(pairs) if len(names) == len(scored) else pairs
                 where = "" if len(names) == len(scored) else f" ({'; '.join(names)})"
                 said = ", ".join(f"{low} < {high}" for low, high in pairs)
                 yield f"{interface}, {readout}, in {len(names)} of {len(scored)}{where}: {said}"

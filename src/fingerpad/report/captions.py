@@ -58,7 +58,7 @@ def words(stems: Collection[str], results: Results) -> dict[str, Words]:
     writers["kinematics"] = partial(_kinematics, results)
     for scene in results.scenes:
         for condition in scene.device.conditions:
-            stem = f"map_{scene.device.name}_{condition.dispersion}"
+            stem = f"map_{Kinematics.SMALL}_{scene.device.name}-{condition.dispersion}"
             writers[stem] = partial(_map, small, device=scene.device, dispersion=condition.dispersion)
     if unknown := set(stems) - set(writers):
         raise KeyError(f"no caption for {', '.join(sorted(unknown))}")

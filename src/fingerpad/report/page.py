@@ -50,15 +50,17 @@ def report(
     template: str,
     results: Results,
     claims: Sequence[Row],
-    quantities: Mapping[str, Sequence[Quantity]],
+    of_model: Sequence[Quantity],
+    of_devices: Mapping[str, Sequence[Quantity]],
     pictures: Sequence[Picture],
     graph: Picture,
     made: Provenance,
 ) -> str:
     """The page. Same arguments, same text.
 
-    template: Jinja's, in which all text is escaped. claims: rows of claims.csv. quantities: of scene files by name, of
-    which the assumptions are listed. graph: of the rules that the run consists of.
+    template: Jinja's, in which all text is escaped. claims: rows of claims.csv. of_model, of_devices: quantities of
+    config.yaml and of each device's scene file, of which the assumptions are listed. graph: of the rules that the run
+    consists of.
     """
     titles = {scene.device.name: scene.device.title for scene in results.scenes}
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
@@ -72,9 +74,10 @@ def report(
         surrogates=any(row["rating_kind"] == RatingKind.SURROGATE.label for row in results.correlations),
         claims=claims,
         verdicts={KINEMATICS_NAME[Kinematics(each)]: counts for each, counts in verdict_counts(claims).items()},
-        assumptions={
-            name: [each for each in listed if each.origin is Origin.ASSUMPTION] for name, listed in quantities.items()
-        },
+        assumptions=[
+            (heading, [each for each in listed if each.origin is Origin.ASSUMPTION])
+            for heading, listed in (("The model", of_model), *((titles[name], of_devices[name]) for name in titles))
+        ],
         pictures=pictures,
         graph=graph,
         made=made,

@@ -47,7 +47,10 @@ def condense_creep(section: SectionMesh, scene: Scene) -> Creep:
     rates = np.array([0.0, *between, np.inf])
     shares = np.array([np.ones(rates.size), *(answer(rates, time) for time in times)]).T
     found = [condense_section(section, stiffened(scene, rate)) for rate in rates]
-    inverse = np.linalg.inv(shares)
+    try:
+        inverse = np.linalg.inv(shares)
+    except np.linalg.LinAlgError as error:
+        raise CondensationError("creep: a share of the relaxation is too small to be told from none") from error
     compliance, strain = (
         np.tensordot(inverse, np.array(maps), 1)
         for maps in ([each.compliance for each in found], [each.strain for each in found])
@@ -55,9 +58,11 @@ def condense_creep(section: SectionMesh, scene: Scene) -> Creep:
     rate = np.array([1.0 / times[times.size // 2]])
     there = condense_section(section, stiffened(scene, float(rate[0])))
     share = np.array([1.0, *(answer(rate, time)[0] for time in times)])
-    misfit = max(
-        float(np.abs(np.tensordot(share, maps, 1) - exact).max() / np.abs(exact).max())
-        for maps, exact in ((compliance, there.compliance), (strain, there.strain))
+    misfit = np.max(
+        [
+            np.abs(np.tensordot(share, maps, 1) - exact).max() / np.abs(exact).max()
+            for maps, exact in ((compliance, there.compliance), (strain, there.strain))
+        ]
     )
     if not misfit <= MISFIT_LIMIT:
         raise CondensationError(f"creep: maps are off by {misfit:.1e} > {MISFIT_LIMIT:.0e}")

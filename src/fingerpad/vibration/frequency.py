@@ -17,7 +17,7 @@ from ..contact.certificate import certify
 from ..contact.depth import depth, require_tissue
 from ..contact.linear_solution import Indented, indent_device
 from ..contact.problem import named
-from ..errors import ContactError, InertiaError
+from ..errors import ContactError, InertiaError, UnsolvedError
 from ..prediction.caveats import scene_caveats, state_caveats
 from ..prediction.scoring import Condensed
 from ..readouts.gabor import filtered_readouts
@@ -29,6 +29,7 @@ from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import SectionMesh
+from ..words import PERCENT
 from .creep import Creep
 from .cycling import Vibration, vibrate
 from .inertia import condense_vibrating, highest_frequency, inertia_effect, slipping, stuck
@@ -56,12 +57,12 @@ class Vibrating:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1]; note: why there is none, or
-    what to beware of.
+    """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1], None where it is not known;
+    note: why there is no prediction, or what to beware of.
     """
 
     scores: dict[Readout, float]
-    inertia: float
+    inertia: float | None
     note: str
 
 
@@ -75,29 +76,28 @@ def frequency_rows(
     scene: Scene,
     condensed: Condensed,
     creep: Creep,
-    vibrating: Sequence[Vibrating],
+    speeds: Sequence[Vibrating | None],
     interface: Interface,
     step: Callable[[], object] = lambda: None,
 ) -> list[dict[str, Any]]:
-    """Rows of the frequency table for one interface, slow cycles first. step: called after each row pair.
+    """Rows of the frequency table for one interface. speeds: None for slow cycles. step: called after each row pair.
 
-    Where inertia matters, or a path cannot be followed, there is a note instead of a score. Raises MeshError if an
-    actuator is nearest to no skin node.
+    Where inertia matters, or a path cannot be followed, there is a note instead of a score.
     """
-    indented = _indented(scene, condensed, interface)
+    indented, shares_equal = _indented(scene, condensed, interface), scene.model.skips.equal_stimuli
     rows = []
-    found: dict[tuple[bytes, bytes, float], Outcome] = {}
+    found: dict[tuple[object, float], Outcome] = {}
     for cycle in scene.device.cycles:
-        for at in (None, *vibrating):
+        stimulus = (cycle.normal.tobytes(), cycle.tangential.tobytes()) if shares_equal else cycle.name
+        for at in speeds:
             frequency = at.frequency if at else SLOWLY
-            stimulus = cycle.normal.tobytes(), cycle.tangential.tobytes(), frequency
-            if stimulus not in found:
-                found[stimulus] = (
+            if (stimulus, frequency) not in found:
+                found[stimulus, frequency] = (
                     indented
                     if isinstance(indented, Outcome)
                     else _outcome(scene, condensed, creep, indented, cycle, at)
                 )
-            rows += [_row(scene, cycle, frequency, interface, each, found[stimulus]) for each in Readout]
+            rows += [_row(scene, cycle, frequency, interface, each, found[stimulus, frequency]) for each in Readout]
             step()
     return rows
 
@@ -106,8 +106,8 @@ def _indented(scene: Scene, condensed: Condensed, interface: Interface) -> Inden
     """The device pressed onto the finger, or what becomes of all conditions if it cannot be."""
     try:
         return indent_device(scene, condensed.section, condensed.body, interface)
-    except ContactError as error:
-        return Outcome({}, 0.0, f"{NO_PREDICTION}: {error}")
+    except UnsolvedError as error:
+        return Outcome({}, None, f"{NO_PREDICTION}: {error}")
 
 
 def _outcome(
@@ -119,9 +119,9 @@ def _outcome(
     at: Vibrating | None,
 ) -> Outcome:
     """What becomes of a condition at a frequency, slowly if there is none."""
-    frequency, effect = at.frequency if at else SLOWLY, 0.0
-    sticks = indented.problem.friction > 0.0
-    at = at if np.any(cycle.normal) or np.any(cycle.tangential) else None  # what rests has no inertia
+    frequency, sticks = at.frequency if at else SLOWLY, indented.problem.friction > 0.0
+    at = at if np.any(cycle.normal) or np.any(cycle.tangential) else None
+    effect = None if at else 0.0  # what rests, or moves slowly, has no inertia
     try:
         if at and sticks:
             effect = inertia_effect(scene, stuck(indented, cycle), at.still, at.moving)
@@ -174,9 +174,9 @@ def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:
 
 def _require_no_inertia(scene: Scene, frequency: float, effect: float) -> None:
     limit = scene.model.vibration.inertia_limit
-    if effect > limit:
+    if not effect <= limit:
         raise InertiaError(
-            f"inertia changes receptor strain by {effect:.1%} > {limit:.0%} at {frequency:g} Hz;"
+            f"inertia changes receptor strain by {PERCENT * effect:.3g} > {PERCENT * limit:g} % at {frequency:g} Hz;"
             f" try about {highest_frequency(frequency, effect, limit):.2g} Hz, or less"
         )
 

@@ -5,15 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from ..contact.linear_solution import Indented
-from ..errors import ContactError
 from ..prediction.scoring import Condensed
-from ..readouts.roughness import NO_PREDICTION
-from ..scene.readout import Readout
+from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from ..tissue.mesh import SectionMesh
 from .creep import condense_creep
-from .frequency import certified_vibration, vibration_scores
+from .frequency import condense_vibrating_at, frequency_rows
 
 
 def relaxation_variants(scene: Scene) -> dict[str, Scene]:
@@ -37,31 +34,18 @@ def relaxation_variants(scene: Scene) -> dict[str, Scene]:
     }
 
 
-def variant_rows(
-    scene: Scene, section: SectionMesh, condensed: Condensed, indented: Indented, frequency: float
-) -> list[dict[str, Any]]:
-    """Scores of all conditions at a frequency [Hz] under other assumptions on how tissue relaxes, one row each; a note
-    where a path cannot be followed. Raises what `condense_creep` raises.
+def variant_rows(scene: Scene, section: SectionMesh, condensed: Condensed, frequency: float) -> list[dict[str, Any]]:
+    """Rows of the frequency table for shear at a frequency [Hz] under other assumptions on how tissue relaxes, each
+    with its `assumption`. Raises what `condense_creep` and `condense_vibrating_at` raise.
     """
-    rows = []
-    for name, variant in relaxation_variants(scene).items():
-        creep = condense_creep(section, variant)
-        for cycle in scene.device.cycles:
-            scores: dict[Readout, float] = {}
-            note = ""
-            try:
-                vibration = certified_vibration(variant, condensed, creep, indented, cycle, frequency)
-                scores = vibration_scores(variant, condensed, vibration)
-            except ContactError as error:
-                note = f"{NO_PREDICTION}: {error}"
-            rows.append(
-                {
-                    "device": scene.device.name,
-                    "condition": cycle.name,
-                    "frequency_hz": frequency,
-                    "assumption": name,
-                    **{str(each): scores.get(each) for each in Readout},
-                    "note": note,
-                }
-            )
-    return rows
+    return [
+        {"assumption": name, **row}
+        for name, variant in relaxation_variants(scene).items()
+        for row in frequency_rows(
+            variant,
+            condensed,
+            condense_creep(section, variant),
+            [condense_vibrating_at(section, variant, frequency)],
+            Interface.SHEAR,
+        )
+    ]

@@ -88,7 +88,7 @@ def inertia_effect(scene: Scene, driven: Driven, still: CondensedSection, moving
     inside = (still.arc > start) & (still.arc < stop)
     first, second = (_strain(each, driven).reshape(-1, VOIGT)[inside] for each in (still, moving))
     strained, changed = (_norm(each, still.arc[inside]) for each in (first, second - first))
-    return changed / strained if strained > 0.0 else 0.0
+    return 0.0 if strained == 0.0 else changed / strained
 
 
 def _norm(strain: ComplexArray, arc: FloatArray) -> float:
