@@ -46,9 +46,9 @@ include: "workflow/rules/stress.smk"
 include: "workflow/rules/pages.smk"
 
 
-for custom in sorted((BASE / "workflow" / "rules" / "custom").glob("[!.]*.smk")):
+for custom in CUSTOM_RULES:
 
-    include: custom  # rules of a device that needs its own (docs/extending.md)
+    include: custom
 
 
 rule all:

@@ -245,6 +245,29 @@ def test_page_says_what_the_tables_say(html: str) -> None:
                 assert quantity.key in text
 
 
+def test_assumptions_of_the_model_stand_beside_those_of_a_device_called_config(
+    results: Results, tmp_path: Path
+) -> None:
+    *others, last = results.scenes
+    renamed = dataclasses.replace(last, device=dataclasses.replace(last.device, name="config"))
+    rows = [tuple(row | {"device": "config"} if row["device"] == "device3" else row for row in table)
+            for table in (results.scores, results.correlations)]  # fmt: skip
+    page = report(
+        TEMPLATE.read_text(encoding="utf-8"),
+        dataclasses.replace(results, scenes=(*others, renamed), scores=rows[0], correlations=rows[1]),
+        CLAIMS,
+        quantities(read_yaml(CONFIG)),
+        {"device2": quantities(read_yaml(DEVICES[0])), "config": quantities(read_yaml(DEVICES[1]))},
+        [],
+        Picture("rules", Words("Rules", "Boxes.", "n = 2 rules."), ""),
+        provenance(ROOT / "pyproject.toml", "0123abc", [CONFIG, *DEVICES]),
+    )
+    headings = re.findall("<h3>(.*?)</h3>", page)
+    assert [name for name in headings if name in ("The model", *(scene.device.title for scene in results.scenes))] == [
+        "The model", *(scene.device.title for scene in results.scenes)
+    ]  # fmt: skip
+
+
 def test_every_caption_carries_its_count(results: Results) -> None:
     for said in words(FIGURES, results).values():
         assert re.search(r"n = \d|\d conditions", said.caption), said

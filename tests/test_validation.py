@@ -415,7 +415,7 @@ TEXTS = {  # what the file holds, and what the message must say
     "a list": (b"- finger\n", ["a mapping of keys", "found the list ['finger']"]),
     "a number": (b"3\n", ["found the int 3"]),
     "an open bracket": (b"finger: [1,\n", ["not valid YAML", "line 2"]),
-    "a tab": (b"finger:\n\twidth: 3\n", ["not valid YAML", "line 2, column 1", "'\\t'"]),
+    "a tab": (b"finger:\n\twidth: 3\n", ["not valid YAML", "line 2, column 1", "'\\t'", "indent with spaces"]),
     "a key twice": (b"finger: 1\ncontact: 2\nfinger: 3\n", ["line 3", "'finger' twice", "line 1", "allowed once"]),
     "an inner key twice": (b"finger: {width: 1, 'width': 2}\n", ["line 1, column 20", "'width' twice"]),
     "two documents": (b"a: 1\n---\nb: 2\n", ["not valid YAML", "another document"]),

@@ -318,6 +318,9 @@ def test_long_jobs_do_not_rerun_for_comments_and_sources(long: Project) -> None:
     assert NOTHING in long.snakemake("-n", *LONG).text
 
 
+INERTIAL = {"vibrate", "frequency_variants"}  # rules that refuse where inertia matters
+
+
 @pytest.mark.parametrize(
     ("key", "value", "other", "expected", "spared"),
     [
@@ -329,7 +332,7 @@ def test_long_jobs_do_not_rerun_for_comments_and_sources(long: Project) -> None:
             {"mesh", "condense", "condense_body", "solve", "press", "stimulate", "filter", "fields", "closed_forms"},
             id="span_margin",
         ),
-        pytest.param("inertia_limit", "0.1", "0.2", {"vibrate"}, LONG_RULES - {"vibrate"}, id="inertia_limit"),
+        pytest.param("inertia_limit", "0.1", "0.2", INERTIAL, LONG_RULES - INERTIAL, id="inertia_limit"),
         pytest.param(
             "newton_tolerance",
             "1.0e-9",
@@ -692,6 +695,23 @@ def test_a_device_with_shear_alone_has_no_jobs_without(project: Project, tmp_pat
     assert not any("/frictionless/" in output for output in made)
     rules = {job.rule for job in run.jobs}
     assert "figure_workflow" in rules and "figure_shear" not in rules
+
+
+def test_maps_of_names_that_run_together_have_files_of_their_own(
+    project: Project, both_scenes: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(both_scenes, tmp_path, dirs_exist_ok=True)
+    base = (tmp_path / "devices/device2.yaml").read_text(encoding="utf-8")
+    named = {"pins": "wide_alternate", "pins_wide": "alternate", "finite_pins": "wide_finite"}
+    for name, dispersion in named.items():
+        text = base.replace("    alternate: {value", f"    {dispersion}: {{value")
+        (tmp_path / f"devices/{name}.yaml").write_text(text, encoding="utf-8")
+    run = project.snakemake("-n", "all", "finite_maps", "--config", f"scenes={tmp_path}")
+    assert run.status == 0, run.text
+    drawn = {output: job.device for job in run.jobs if job.rule == "figure_map" for output in job.outputs}
+    for kinematics in ("small", "finite"):
+        for name, dispersion in named.items():
+            assert drawn[f"results/figures/map_{kinematics}_{name}-{dispersion}.png"] == name
 
 
 def test_a_folder_without_devices_is_named(project: Project, tmp_path: Path) -> None:

@@ -20,7 +20,9 @@ if unknown := [name for name in config if name not in SETTINGS]:
 
 SCENES = Path(str(config.get("scenes", BASE / "config")))
 CONFIG = SCENES / "config.yaml"
-RULE_FILES = sorted((BASE / "workflow" / "rules").rglob("[!.]*.smk"))  # with those in rules/custom
+RULES = BASE / "workflow" / "rules"
+CUSTOM_RULES = sorted((RULES / "custom").glob("[!.]*.smk"))  # of devices that need their own (docs/extending.md)
+RULE_FILES = [*sorted(RULES.glob("[!.]*.smk")), *CUSTOM_RULES]
 SCHEMAS = BASE / "workflow" / "schemas"
 DATA = BASE / "data"
 SHIPPED_DEVICES = BASE / "config" / "devices"

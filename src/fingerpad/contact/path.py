@@ -136,7 +136,10 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
         return InvertedError, f"{failure.inverted}; try less indentation, less movement"
     if failure.turned:
         return UniquenessError, "the states of contact have no unique solution there; try less friction, less movement"
-    return ConvergenceError, "try larger numerics.indentation_increments and numerics.stimulus_increments"
+    return (
+        ConvergenceError,
+        "try larger numerics.indentation_increments and numerics.stimulus_increments, or vibration.steps",
+    )
 
 
 def _located(actuator: FloatArray) -> str:

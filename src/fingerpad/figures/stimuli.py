@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from ..arrays import FloatArray
 from ..scene.device import Condition, Device
-from ..words import MINUS, counted
+from ..words import KILO, MINUS, counted
 from .style import (
     BLUE,
     GREY,
@@ -31,7 +31,6 @@ from .style import (
 
 COLUMNS = 3  # panels beside each other
 ROW_HEIGHT, TITLE_HEIGHT, LEGEND_HEIGHT = 20.0, 6.0, 16.0  # mm
-MICRO = 1e3  # micrometres in a mm
 TICKS = 2  # intervals along the axis of displacements, at most
 DECIMALS = 1  # of a value in micrometres
 VALUE_GAP = 1.5  # between the line and a value [pt]
@@ -93,14 +92,14 @@ def _rows(device: Device) -> Iterator[Sequence[Condition]]:
 
 def _farthest(condition: Condition) -> dict[str, FloatArray]:
     """Displacements (n_actuators,) [µm] by direction at the time at which an actuator has moved farthest."""
-    moves = MICRO * condition.moves
+    moves = KILO * condition.moves
     lateral, normal = moves[np.abs(moves).max(axis=(1, 2)).argmax()].T
     return {NORMAL: normal, LATERAL: lateral}
 
 
 def _draw(axes: Axes, device: Device, condition: Condition) -> None:
     """A bar an actuator, or two where the device moves in both directions."""
-    stroke, count = MICRO * device.stroke, len(device.actuators.positions)
+    stroke, count = KILO * device.stroke, len(device.actuators.positions)
     number = np.arange(1, count + 1)
     directions = [kind for kind, farthest in zip(LABELS, device.strokes, strict=True) if farthest > 0.0]
     for place, kind in enumerate(directions):

@@ -16,6 +16,7 @@ from typing import Any
 import yaml
 
 from ..errors import SceneError
+from ..requirements import require
 from .bodies import BODIES
 from .contact_law import ContactLaw, Criterion, TurningNormal
 from .device import ActuatorRow, Body, Control, Device
@@ -35,6 +36,7 @@ NUMBERS = {
 }
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
 KINEMATICS = {"both": tuple(Kinematics), "small": (Kinematics.SMALL,)}  # what files call them
+TABS = "; indent with spaces"
 QUOTES = "; text with a colon or a comma needs quotes"  # what is wrong most often where a flow mapping is not one
 REMEMBERED = 16  # texts of files [1]; source: config, two schemas and some devices
 LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema allows takes as much
@@ -109,7 +111,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
         where = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         begun = error.context_mark
         context = f" ({error.context} that began in line {begun.line + 1})" if begun else ""
-        hint = QUOTES if "flow mapping" in str(error.context) else ""
+        hint = QUOTES if "flow mapping" in str(error.context) else TABS if r"\t" in str(error.problem) else ""
         raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}{context}{hint}") from error
     except RecursionError as error:
         raise SceneError(f"{path}: is nested too deeply; allowed: the few levels of the shipped files") from error
@@ -214,7 +216,12 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     Raises SceneError.
     """
     plain = _values(document)
-    row, stimulus = plain["actuators"], plain["stimulus"]
+    row, stimulus, control = plain["actuators"], plain["stimulus"], Control(plain["control"])
+    require(
+        not (control is Control.FORCE and plain.get("interfaces") == "both"),
+        f"{path.stem}: found interfaces: both with control: force; allowed: shear, or leave it out: displacements of"
+        " controlled forces are unknown without friction",
+    )
     count = row["count"]
     positions = tuple((i - (count - 1) / 2.0) * row["pitch"] for i in range(count))
     actuators = ActuatorRow(positions, row["width"], row["edge_radius"], _body(row["body"]))
@@ -224,7 +231,7 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
     return Device(
         name=path.stem,
         title=plain["title"],
-        control=Control(plain["control"]),
+        control=control,
         actuators=actuators,
         conditions=tuple(conditions),
         cycles=cycles,

@@ -297,14 +297,14 @@ def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
     curved[0] *= sign
     mesh = replace(mesh, doflocs=np.hstack([points, curved]))
 
-    arc = np.concatenate([half_points[0, half_of], middle[0]])
-    s = np.sign(mesh.doflocs[0]) * arc
+    along = np.concatenate([half_points[0, half_of], middle[0]])
+    s = np.sign(mesh.doflocs[0]) * along
     zeta = np.concatenate([half_points[1, half_of], middle[1]])
     nail = (np.pi - outline.angle_of_arc(finger.nail_width / 2.0)) * outline.semi_axes[0]
 
-    layer, names = _layers(finger, arc[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
+    layer, names = _layers(finger, along[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
     depth = round(scene.model.receptor_depth, ROUNDED)
-    on_pad = arc <= nail + LINE_SLACK
+    on_pad = along <= nail + LINE_SLACK
     facet_nodes = points.shape[1] + np.arange(ends.shape[1])
     level = np.all(zeta[ends] == depth, axis=0) & on_pad[facet_nodes]
     receptor_facets = np.flatnonzero(level)
