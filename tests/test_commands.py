@@ -830,7 +830,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
         scores = [1.0, 2.0, 3.0] if friction > 0.5 else [3.0, 2.0, 1.0]
         return [ROW | {"condition": condition.name, "kinematics": str(scene.kinematics),
                        "score": score if first else None, "score_error": 0.1 if error else None,
-                       "note": "" if first else "no prediction: too far", "caveats": []}
+                       "note": "deep" if first else "no prediction: too far", "caveats": ["deep", "close"]}
                 for condition, score in zip(scene.device.conditions, scores, strict=True)]  # fmt: skip
 
     monkeypatch.setattr(varying, "forecast", forecast_one)
@@ -849,6 +849,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
         "  alternate_000 < alternate_090 holds in 0 of 1; turned with contact.friction 0.3;"
         " no prediction with stimulus.half_cycle second\n"
     )
+    assert "\ncaveat: all conditions (shear, strain): deep\n" in said and "close" not in said
     assert "\nwithout effect: contact.friction 0.9, actuators.pitch times 1.1, kinematics finite\n" in said
     assert "\nstimulus.half_cycle second: no prediction: too far\n" in said
     assert "\nleft out: actuators.pitch times 0.1: config/devices/device2.yaml" in said

@@ -138,7 +138,11 @@ def _told(
         yield f"\n{interface}, {readout}"
         yield from map(_as_line, orders)
     yield ""
-    yield from caveat_lines(scene, in_order(configured))
+    # which scores lie close the orders say
+    noted = [
+        {**row, "caveats": [row["note"]]} for row in in_order(configured) if row["score"] is not None and row["note"]
+    ]
+    yield from caveat_lines(scene, noted)
     if idle:
         yield f"without effect: {', '.join(idle)}"
     for name, rows in members.items():

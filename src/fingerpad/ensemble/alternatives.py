@@ -19,7 +19,7 @@ from ..files import write_text
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
 from ..scene.validation import is_number
-from ..scene.variation import Document, no_such_value, quantities_of, with_value
+from ..scene.variation import Document, by_number, no_such_value, quantities_of, with_value
 
 AS_CONFIGURED = "as configured"
 FIRST, SECOND = "first", "second"
@@ -134,11 +134,10 @@ def member_scenes(
 
 def _varied(document: Document, alternative: Alternative) -> Document:
     """The document with the alternative in place of its own value. Raises SceneError if it has none."""
-    known = dict(quantities_of(document))
-    if alternative.key not in known:
-        raise no_such_value(alternative.key, "config.yaml", list(known))
-    value = alternative.instead_of(known[alternative.key]["value"])
-    return with_value(document, alternative.key, value, f"varied: {alternative.source}")
+    known, key = dict(quantities_of(document)), by_number(alternative.key, [document])
+    if key not in known:
+        raise no_such_value(key, "config.yaml", list(known))
+    return with_value(document, key, alternative.instead_of(known[key]["value"]), f"varied: {alternative.source}")
 
 
 def assuming(devices: Mapping[str, Document], key: str) -> list[str]:

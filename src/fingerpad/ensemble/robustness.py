@@ -10,7 +10,7 @@ from ..prediction.orders import Pair, Row, resolved_pairs, without_implied
 from ..readouts.comparison import SAME
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
-from ..scene.variation import Document, no_such_value, quantities_of
+from ..scene.variation import Document, by_number, no_such_value, quantities_of
 from .alternatives import HALF_CYCLE, HALF_CYCLES, Alternative, is_assumed
 
 OTHER_HALF = "assumption: the other half of the stimulus' cycle"
@@ -50,10 +50,11 @@ def varied_values(config: Document, device: Document, alternatives: Sequence[Alt
     halves = [Alternative("devices", HALF_CYCLE, each, None, OTHER_HALF) for each in HALF_CYCLES]
     found = {}
     for each in (*alternatives, *halves):
-        if each.part == "model" and each.key not in of_model:
-            raise no_such_value(each.key, "config.yaml", list(of_model))
-        quantity = (own if each.part == "devices" else of_model | own).get(each.key)
-        if quantity is None or (each.key in own and not is_assumed(quantity)):
+        key = by_number(each.key, [config])
+        if each.part == "model" and key not in of_model:
+            raise no_such_value(key, "config.yaml", list(of_model))
+        quantity = (own if each.part == "devices" else of_model | own).get(key)
+        if quantity is None or (key in own and not is_assumed(quantity)):
             continue
         value = each.instead_of(quantity["value"])
         if value != quantity["value"]:

@@ -97,7 +97,7 @@ def unit_of(key: str, documents: Mapping[Path, Document]) -> str:
 
 def _located(asked: str, documents: Mapping[Path, Document]) -> tuple[Path, str]:
     """The first of the files that has a quantity at a key, and the key by numbers. Raises SceneError if none has."""
-    key = _by_number(asked, documents.values())
+    key = by_number(asked, documents.values())
     known = {path: dict(quantities_of(document)) for path, document in documents.items()}
     for path, quantities in known.items():
         if key in quantities:
@@ -105,10 +105,10 @@ def _located(asked: str, documents: Mapping[Path, Document]) -> tuple[Path, str]
     raise no_such_value(key, " and ".join(map(str, known)), [each for keys in known.values() for each in keys])
 
 
-def _by_number(key: str, documents: Iterable[Document]) -> str:
+def by_number(key: str, documents: Iterable[Document]) -> str:
     """A key in which a list's entry that is called by its name, as a layer may be, is called by its number.
 
-    >>> _by_number("pad.dermis.modulus", [{"pad": [{"name": "epidermis"}, {"name": "dermis", "modulus": 1.0}]}])
+    >>> by_number("pad.dermis.modulus", [{"pad": [{"name": "epidermis"}, {"name": "dermis", "modulus": 1.0}]}])
     'pad[1].modulus'
     """
     for document in documents:
