@@ -395,7 +395,8 @@ def test_phases_have_a_curve_per_dispersion_and_marks_where_the_device_is_tried(
         tried = sorted({float(line.get_xdata()[0]) for line in axes.lines if len(line.get_xdata()) == 2})
         assert tried == sorted({condition.phase_deg for condition in PHASED.conditions})
         curves = [line for line in axes.lines if len(line.get_xdata()) == 4]
-        assert len({(line.get_color(), str(line.get_marker())) for line in curves}) == len(curves) == 2
+        assert len({(line.get_linestyle(), line.get_fillstyle()) for line in curves}) == len(curves) == 2
+        assert len({line.get_color() for line in curves}) == 1  # colours are phases in all other figures
         for curve in curves:
             np.testing.assert_allclose(curve.get_ydata(), [1.0, 2.0, 3.0, 4.0])
         np.testing.assert_allclose(error_bars(axes)[0][0], np.array([0.9, 1.9, 2.9, 3.9]))
@@ -408,8 +409,8 @@ def test_phases_have_a_curve_per_dispersion_and_marks_where_the_device_is_tried(
 
 def test_phases_without_a_prediction_say_so() -> None:
     """Of a device that leaves finite kinematics out, beside one that does not."""
-    rows = [(kinematics, name, "low", 0.0, "change_of_strain", 1e-3, 1e-4, "mm2")
-            for kinematics, name in (("small", "phased"), ("small", "forced"), ("finite", "phased"))]  # fmt: skip
+    rows = [(kinematics, device.name, device.conditions[0].dispersion, 0.0, "change_of_strain", 1e-3, 1e-4, "mm2")
+            for kinematics, device in (("small", PHASED), ("small", FORCED), ("finite", PHASED))]  # fmt: skip
     columns = ["kinematics", "device", "dispersion", "phase_deg", "readout", "score", "score_error", "unit"]
     figure = phases_figure([PHASED, FORCED], pd.DataFrame(rows, columns=columns))
     require_legible(figure)
@@ -742,7 +743,7 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     solution = make_solution(contact, device.actuators, np.tile(pressed, len(device.actuators.positions)))
     shown = [c.name for c in device.conditions if c.dispersion == dispersion]
     scene = Scene(MODEL, device)
-    figure = strain_map_figure(scene, dispersion, fields, dict.fromkeys(shown, solution))
+    figure = strain_map_figure(scene, dispersion, fields, {c.name: solution for c in distinct})
     require_legible(figure)
     for above, beneath in zip(figure.axes[: len(shown)], figure.axes[2 * min(len(shown), 3) :], strict=False):
         if beneath.get_xlabel():
@@ -838,7 +839,7 @@ def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -
     found = make_solution(make_contact(PINS), PINS, np.tile(np.linspace(0.01, 0.03, 25), 3))
     found = replace(found, shear=-0.5 * found.pressure)
     shown = device.by_dispersion["high"]
-    figure = strain_map_figure(Scene(MODEL, device), "high", fields, dict.fromkeys([c.name for c in shown], found))
+    figure = strain_map_figure(Scene(MODEL, device), "high", fields, dict.fromkeys([c.name for c in low], found))
     panels = figure.axes
     for axes, condition, time, percent in zip(
         panels[:4], [*shown, *shown], [2.0, 1.0, 2.0, 1.0], [4.0, 2.0, -2.0, -1.0], strict=True
@@ -860,6 +861,11 @@ def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -
     strain, change = (axes.get_ylim() for axes in panels[6:])
     assert strain[0] == 0.0 and 4.0 <= strain[1] <= 5.0  # rounded up to 5 %
     assert -change[0] == change[1] and 2.0 <= change[1] <= 2.5  # rounded up to 0.5 %
+
+    more = replace(found, reading=replace(found.reading, change_of_strain=np.array([0.01, -0.0333])))
+    solutions = {low[0].name: found, low[1].name: more}
+    far = strain_map_figure(Scene(MODEL, device), "high", fields, solutions).axes[-1].get_ylim()
+    assert far == pytest.approx((-3.5, 3.5))  # all that receptors have, though less than a tenth of the area has it
 
 
 def test_colours_of_maps_end_by_area_not_by_the_number_of_elements(section: SectionMesh) -> None:

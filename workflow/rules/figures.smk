@@ -213,9 +213,8 @@ rule figure_map:
         recordings=ancient(recordings_of),
         fields=lambda w: f"results/{w.kinematics}/{w.device}/fields.npz",
         solutions=lambda w: [
-            f"results/{w.kinematics}/{w.device}/{scene_of(w).device.first_with_stimulus_of(condition.name).name}/shear/solution.npz"
-            for condition in scene_of(w).device.conditions
-            if condition.dispersion == w.dispersion
+            f"results/{w.kinematics}/{w.device}/{condition.name}/shear/solution.npz"
+            for condition in scene_of(w).device.distinct_conditions
         ],
     output:
         png="results/figures/map_{kinematics}_{device}-{dispersion}.png",

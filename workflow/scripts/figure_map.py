@@ -21,9 +21,9 @@ def main(
     dispersion: str,
     stem: Path,
 ) -> None:
-    """Read fields and solutions (in the order of the dispersion's conditions), draw, write PNG and PDF."""
+    """Read fields and solutions (in the order of the distinct conditions), draw, write PNG and PDF."""
     scene = load_scene(config, device, Kinematics(kinematics))
-    names = [condition.name for condition in scene.device.by_dispersion[dispersion]]
+    names = [condition.name for condition in scene.device.distinct_conditions]
     save(
         strain_map_figure(
             scene,

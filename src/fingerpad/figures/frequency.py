@@ -80,8 +80,9 @@ def _curves(
         return
     axes.axvline(np.sqrt(slow * frequencies[0]), color=GREY, linewidth=0.5, linestyle=(0, (2.0, 2.0)))
     scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
-    for (device, condition), own in rows.groupby(["device", "condition"], sort=False):
+    curves = [(styles.series[key], own) for key, own in rows.groupby(["device", "condition"], sort=False)]
+    for series, own in sorted(curves, key=lambda each: each[0].fill != "full"):  # open marks over filled ones
         places = own["frequency_hz"].replace(SLOWLY, slow).to_numpy(float)
         scores = scale * own["score"].to_numpy(float)
         for part in (slice(0, 1), slice(1, None)):
-            draw_curve(axes, places[part], scores[part], styles.series[device, condition])
+            draw_curve(axes, places[part], scores[part], series)

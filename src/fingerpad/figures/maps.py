@@ -22,6 +22,7 @@ from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..fields.section_fields import Fields
 from ..scene.device import ActuatorRow, Condition
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..words import KILO, KINEMATICS_NAME, PERCENT, counted, plain
@@ -54,8 +55,8 @@ CAPTION = (
 AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
-# Per cent of the area in view that the colours tell apart; the rest is beyond the end of the bar. Strain changes most
-# at the bone, where no receptors are
+# Per cent of the area in view that the colours tell apart, and of the change all that receptors have besides; the rest
+# is beyond the end of the bar. Strain changes most at the bone, where no receptors are
 COVERED, CHANGE_COVERED = 99.5, 90.0
 STEP, CHANGE_STEP = 5.0, 0.5  # per cent of strain, and of its change, to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
@@ -76,8 +77,8 @@ def strain_map_figure(
     """Maximum principal strain when receptors are read, its change and contact tractions, with shear, a column of
     panels a condition.
 
-    fields: a loading for each distinct stimulus of the device, in the order of its conditions. solutions: by
-    condition, for all of the dispersion. The colours are common to all figures of one device.
+    fields: a loading for each distinct stimulus of the device, in the order of its conditions. solutions: of these, by
+    condition. Scales are common to all figures of one device.
     """
     device = scene.device
     conditions = device.by_dispersion[dispersion]
@@ -85,11 +86,15 @@ def strain_map_figure(
     shown = _in_view(fields, window)
     panels = _new_panels(window, len(conditions))
     distinct = [condition.name for condition in device.distinct_conditions]
-    loadings = [distinct.index(device.first_with_stimulus_of(condition.name).name) for condition in conditions]
-    for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown))):
+    solved_as = {condition.name: device.first_with_stimulus_of(condition.name).name for condition in conditions}
+    loadings = [distinct.index(solved_as[condition.name]) for condition in conditions]
+    read = max(
+        float(np.abs(each.reading.readouts[Readout.CHANGE_OF_STRAIN]).max(initial=0.0)) for each in solutions.values()
+    )
+    for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown, read))):
         for axes, condition, loading in zip(row, conditions, loadings, strict=True):
             drawn = _draw_map(axes, shown, mapped, loading)
-            solution = solutions[condition.name]
+            solution = solutions[solved_as[condition.name]]
             rise = np.array([0.0, solution.height])
             draw_actuators(axes, device.actuators, condition.moves[solution.reading.time] + rise, 2.0 * BELOW)
             axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
@@ -100,7 +105,7 @@ def strain_map_figure(
         )
     limits = _traction_limits(solutions)
     for axes, condition in zip(panels.tractions, conditions, strict=True):
-        _draw_tractions(axes, device.actuators, solutions[condition.name], condition)
+        _draw_tractions(axes, device.actuators, solutions[solved_as[condition.name]], condition)
         axes.tick_params(labelbottom=True)
         axes.set_ylim(*limits)
         axes.set_xlabel("x (mm)")
@@ -222,8 +227,10 @@ def _strain(scene: Scene, shown: _Shown) -> _Mapped:
     )
 
 
-def _change(scene: Scene, shown: _Shown) -> _Mapped:
-    end = colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP)
+def _change(scene: Scene, shown: _Shown, read: float) -> _Mapped:
+    """Change of strain. read: the largest at the receptors [1], which colours tell apart."""
+    most = CHANGE_STEP * math.ceil(PERCENT * read / CHANGE_STEP)
+    end = max(colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP), most)
     return _Mapped(
         values=shown.change,
         norm=Normalize(-end, end),

@@ -3,30 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ..readouts.roughness import SCORE_UNIT
 from ..scene.device import Device
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import KINEMATICS_NAME, SCORE_SCALE, plain, score_label
+from ..words import KINEMATICS_NAME, SCORE_SCALE, score_label
 from .style import (
     BLACK,
-    BLUE,
-    LINES,
     MARKERS,
     MIDDLE,
-    PINK,
     SHADE,
     THIN,
-    VERMILLION,
     Series,
     as_title,
+    condition_styles,
+    conditions_of,
     draw_curve,
     draw_errors,
     legend_below,
@@ -39,7 +37,6 @@ from .style import (
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 26.0  # mm
-COLOURS = (BLUE, VERMILLION, BLACK, PINK)  # of dispersions; neighbours differ in lightness as well
 TICKS = 45.0  # deg
 CAPTION = (
     "With shear. Vertical bars: estimated discretisation errors. Grey lines: phases at which the device is tried. A"
@@ -55,12 +52,15 @@ def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
     """
     change = table[table["readout"] == Readout.CHANGE_OF_STRAIN]
     kinematics = list(change["kinematics"].unique())
-    dispersions = list(change["dispersion"].unique())
-    looks = {name: _look(name, number) for number, name in enumerate(dispersions)}
+    styles = condition_styles(conditions_of(devices))
     figure = new_figure(MIDDLE, ROW_HEIGHT * len(devices) + LEGEND_HEIGHT)
     grid = figure.subplots(len(devices), len(kinematics), squeeze=False, sharex=True)
     for row, device in zip(grid, devices, strict=True):
         own = change[change["device"] == device.name]
+        looks = {
+            dispersion: replace(styles.series[device.name, conditions[0].name], colour=BLACK, marker=MARKERS[0])
+            for dispersion, conditions in device.by_dispersion.items()
+        }
         for axes, each in zip(row, kinematics, strict=True):
             _curves(axes, rows_with(own, each), looks, sorted({one.phase_deg for one in device.conditions}))
             first = axes is row[0]
@@ -71,19 +71,8 @@ def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
         axes.set_xlabel("Phase difference (°)")
     for axes, text in zip(grid.flat, "ABCDEFGH", strict=False):
         letter(axes, text)
-    legend_below(figure, [_handle(look) for look in looks.values()], CAPTION)
+    legend_below(figure, styles.spreads, CAPTION)
     return figure
-
-
-def _look(dispersion: str, number: int) -> Series:
-    """How a dispersion is drawn: its colour, mark and line."""
-    label = f"{plain(dispersion)} dispersion"
-    at = number % len(COLOURS)
-    return Series(label, label, COLOURS[at], MARKERS[at], LINES[at], "full")
-
-
-def _handle(look: Series) -> Line2D:
-    return Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line, label=look.label)
 
 
 def _curves(axes: Axes, rows: pd.DataFrame, looks: dict[str, Series], tried: Sequence[float]) -> None:
