@@ -2,7 +2,7 @@
 # Not part of `all`: ask for it with `snakemake ensemble` (some ten minutes of one core with small kinematics, an hour with finite ones).
 # REQUIRED INPUTS: config/ensemble.yaml, results/scores.csv, data/.
 # OUTPUTS: results/ensemble/{kinematics}/{member}/{half_cycle}/ with scene files and scores,
-# results/ensemble_{claims,correlations}.csv, results/figures/ensemble.{png,pdf}
+# results/ensemble_{claims,correlations}.csv, results/figures/ensemble*.{png,pdf}
 
 from dataclasses import replace
 
@@ -18,8 +18,12 @@ MEMBERS = {slug(AS_CONFIGURED): None} | {slug(each.name): replace(each, source="
 rule ensemble:
     input:
         "results/ensemble_claims.csv",
-        "results/figures/ensemble.png",
-        "results/figures/ensemble.pdf",
+        [
+            f"results/figures/ensemble{mode}.{suffix}"
+            for mode, kinematics in MODES.items()
+            if kinematics in KINEMATICS
+            for suffix in ("png", "pdf")
+        ],
 
 
 rule ensemble_member:
@@ -81,13 +85,14 @@ rule figure_ensemble:
     input:
         claims="results/ensemble_claims.csv",
     output:
-        png="results/figures/ensemble.png",
-        pdf="results/figures/ensemble.pdf",
+        png="results/figures/ensemble{mode}.png",
+        pdf="results/figures/ensemble{mode}.pdf",
     log:
-        "results/logs/figure_ensemble.log",
+        "results/logs/figure_ensemble{mode}.log",
     conda:
         ENVIRONMENT
     params:
         code=code("figure_ensemble.py"),
+        kinematics=mode_of,
     script:
         "../scripts/figure_ensemble.py"

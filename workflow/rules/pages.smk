@@ -40,7 +40,7 @@ SHORT_PAGES = ("claims", "scorings")  # seconds after `all`
 PAGE_FIGURES = {
     "accuracy": ["accuracy_closed_forms", "accuracy_closed_forms_finite", "benchmark"],
     "frequency": ["frequency"],
-    "robustness": ["ensemble"],
+    "robustness": ["ensemble", "ensemble_finite"],
     "scorings": ["phases"],
 }
 

@@ -5,16 +5,16 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.figures.ensemble import ensemble_figure
-from fingerpad.figures.style import save
+from fingerpad.figures.style import rows_with, save
 from fingerpad.jobs import logged
 
 
-def main(claims: Path, stem: Path) -> None:
+def main(kinematics: str, claims: Path, stem: Path) -> None:
     """Read the table, draw, write PNG and PDF."""
-    save(ensemble_figure(pd.read_csv(claims)), stem)
+    save(ensemble_figure(rows_with(pd.read_csv(claims), kinematics)), stem)
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     with logged(job.log):
-        main(Path(job.input.claims), Path(job.output.png).with_suffix(""))
+        main(job.params.kinematics, Path(job.input.claims), Path(job.output.png).with_suffix(""))

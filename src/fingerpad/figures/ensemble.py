@@ -17,7 +17,7 @@ from ..scene.tissue_law import Kinematics
 from ..words import KINEMATICS_NAME
 from .style import BLUE, GREY, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
-ROW_HEIGHT, NAMES_HEIGHT, LEGEND_HEIGHT = 6.6, 12.0, 52.0  # mm
+ROW_HEIGHT, LEGEND_HEIGHT = 6.6, 64.0  # mm: of a statement; of the names below and the legend
 CLAIM_WIDTH = 52  # characters in a line of a statement
 ASIDE = {FIRST: -0.22, SECOND: 0.22}  # of a member's place [1], where its half-cycles are drawn
 SIZE = 3.4  # of a mark [pt]
@@ -27,7 +27,7 @@ MARKS: dict[Holds, dict[str, Any]] = {
     Holds.UNDECIDED: {"marker": "o", "color": GREY, "fillstyle": "none"},
 }
 CAPTION = (
-    "n = {count} members: in each one assumption is varied, as named under the panels, or none. Left mark of a pair:"
+    "n = {count} members: in each one assumption is varied, as named below, or none. Left mark of a pair:"
     " first half-cycle of the stimulus, right: second. No mark: a path that could not be followed, or no prediction."
     " (weaker): follows from what the paper says."
     " Ratings: ordinal surrogates where data/ratings.csv calls them so."
@@ -36,26 +36,24 @@ CAPTION = (
 
 @styled
 def ensemble_figure(claims: pd.DataFrame) -> Figure:
-    """A mark for every statement, member and half-cycle, a panel per kinematics.
+    """A mark for every statement, member and half-cycle.
 
-    claims: results/ensemble_claims.csv.
+    claims: rows of results/ensemble_claims.csv with one kinematics.
     """
-    kinematics = list(claims["kinematics"].unique())
+    (kinematics,) = claims["kinematics"].unique()
     statements, members = list(claims["claim"].unique()), list(claims["varied"].unique())
-    height = len(kinematics) * (ROW_HEIGHT * len(statements) + NAMES_HEIGHT) + LEGEND_HEIGHT
-    figure = new_figure(WIDE, height)
-    panels = figure.subplots(len(kinematics), 1, squeeze=False, sharex=True)[:, 0]
-    for axes, each in zip(panels, kinematics, strict=True):
-        _marks(axes, claims[claims["kinematics"] == each], statements, members)
-        subtitle(axes, KINEMATICS_NAME[Kinematics(each)].capitalize(), "")
-    panels[-1].set_xticks(range(len(members)), members, rotation=90)
+    figure = new_figure(WIDE, ROW_HEIGHT * len(statements) + LEGEND_HEIGHT)
+    axes = figure.subplots()
+    _marks(axes, claims, statements, members)
+    subtitle(axes, KINEMATICS_NAME[Kinematics(kinematics)].capitalize(), "")
+    axes.set_xticks(range(len(members)), members, rotation=90)
     handles = [Line2D([], [], linestyle="none", markersize=SIZE, label=str(each), **MARKS[each]) for each in Holds]
     legend_below(figure, handles, CAPTION.format(count=len(members)))
     return figure
 
 
 def _marks(axes: Axes, claims: pd.DataFrame, statements: list[str], members: list[str]) -> None:
-    """Marks of one kinematics: statements from the top down, members from the left."""
+    """Marks: statements from the top down, members from the left."""
     place = claims["varied"].map(members.index) + claims["half_cycle"].map(ASIDE)
     row = claims["claim"].map(statements.index)
     for holds, look in MARKS.items():
