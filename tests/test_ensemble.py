@@ -175,7 +175,7 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
 def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
     """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
     claims, correlations = tables
-    assert len(claims) == 4 * 19
+    assert len(claims) == 4 * 20
     verdict = claims.set_index(["half_cycle", "varied", "claim"])["holds"]
     turned = verdict[verdict != "yes"].to_dict()
     strain2, strain3 = "Device 2: the strain correlates well.", "Device 3: the strain correlates negatively."
@@ -269,6 +269,20 @@ def test_implied_orders_are_left_out_where_a_member_is_lost() -> None:
     configured = table_of(a=1.0, b=2.0, c=3.0)
     told = orders_held(configured, {"like": configured, "none": table_of(a=1.0, b=2.0, c=None)})
     assert [(each.low, each.high) for each in told] == [("a", "b"), ("b", "c")]
+
+
+def test_an_order_that_holds_where_others_are_lost_is_told() -> None:
+    configured = table_of(a=1.0, b=2.0, c=3.0)
+    told = orders_held(configured, {"like": configured, "gap": table_of(a=1.0, b=None, c=3.0)})
+    assert [(each.low, each.high, len(each.holds)) for each in told] == [("a", "b", 1), ("a", "c", 2), ("b", "c", 1)]
+
+
+def test_an_order_without_a_prediction_is_not_certain() -> None:
+    configured = table_of(a=1.0, b=2.0, c=3.0)
+    told = orders_held(configured, {"none": table_of(a=None, b=None, c=None)})
+    assert len(told) == 3
+    assert not any(each.is_certain for each in told)
+    assert all(each.is_certain for each in orders_held(configured, {"like": configured}))
 
 
 def test_a_score_of_nothing_keeps_its_error() -> None:

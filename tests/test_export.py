@@ -254,7 +254,7 @@ def export(tmp_path: Path, condition: str) -> list[str]:
 
 def test_command_writes_a_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(export(tmp_path, CONDITION)) == 0
-    assert capsys.readouterr().out == f"written: {tmp_path / 'scene.inp'}\n"
+    assert capsys.readouterr().out == f"written: {tmp_path / 'scene.inp'}. Small strains (no NLGEOM).\n"
     text = (tmp_path / "scene.inp").read_text(encoding="utf-8")
     assert text.startswith("*HEADING\n")
     assert text.count("*END STEP") == 5

@@ -78,7 +78,7 @@ class Explorer:
         self.redraw()
 
     def redraw(self) -> None:
-        """Answer the design that the sliders show and draw it; a design without an answer is a message."""
+        """Answer the design that the sliders show and draw it; a message tells its caveats, or why it has no answer."""
         start, processor_start = perf_counter(), process_time()
         values = {name: slider.value for name, slider in self.sliders.items()}
         try:
@@ -90,7 +90,8 @@ class Explorer:
             self._drawing.show(found, self._shown)
             self.picture.value = self._drawing.png()
             self._shown = found
-            self.message.value = f"Errors are unknown: {escape(found.unknown)}." if found.unknown else ""
+            told = {"Errors are unknown": found.unknown, "Beware": found.rows[0]["note"]}
+            self.message.value = " ".join(f"{what}: {escape(why)}." for what, why in told.items() if why)
         self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start
 
     def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:

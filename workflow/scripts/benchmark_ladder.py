@@ -8,6 +8,7 @@ from threadpoolctl import threadpool_limits
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
 from fingerpad.calculix.run import installed
+from fingerpad.errors import CalculixError
 from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -29,7 +30,8 @@ def main(
     table: Path,
 ) -> None:
     """Read scene and small kinematics' reference, climb every ladder, write a row per mesh. With finite kinematics the
-    reference is a mesh of `finest` [1] times the sizes. Without ccx its ladders are left out.
+    reference is a mesh of `finest` [1] times the sizes. CalculiX's are left out without
+    ccx, and where a deck fails.
     """
     rows: list[dict[str, Any]] = []
     for each in kinematics:
@@ -43,10 +45,13 @@ def main(
             rows += plain_ladder(scene, asked, climbed["plain"], wanted)
         decks = folder / each
         decks.mkdir(parents=True, exist_ok=True)
-        if installed():
-            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], decks, limit)
-        else:
+        if not installed():
             print("CalculiX skipped: ccx not installed")
+            continue
+        try:
+            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], decks, limit)
+        except CalculixError as error:
+            print(f"CalculiX's ladder is left out: {error}")
     write_rows(table, alike(rows))
 
 

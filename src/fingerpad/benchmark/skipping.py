@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from ..arrays import FloatArray
 from ..contact.linear_solution import indent_device, stimulate
 from ..fields.recovery import recover_displacement
@@ -110,6 +112,8 @@ def _finds_something(switch: str, scene: Scene) -> bool:
         return len(device.distinct_conditions) < len(device.conditions)
     if switch == "shared_indentation":
         return len(device.conditions) > 1
+    if switch == "mirrored_half" and not np.allclose(device.actuators.positions, -np.flip(device.actuators.positions)):
+        return False
     if switch == "frictionless_path" and Interface.FRICTIONLESS not in device.interfaces():
         return False
     return not (finite and switch in NOT_FINITE)

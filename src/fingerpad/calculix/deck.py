@@ -1,4 +1,5 @@
-"""A scene as an input deck in Abaqus keywords, which CalculiX runs unchanged.
+"""A scene as an input deck in Abaqus keywords, which CalculiX runs unchanged, but for two laws of tissue that Abaqus or
+CalculiX alone takes for what they are meant (`kinematics_told`).
 
 The deck holds the section's own second-order triangles (CPE6), the layers' materials, the bone, and the actuators:
 rigid ones as elements all of whose nodes are prescribed, deformable ones as elastic strips on a prescribed base. The
@@ -52,7 +53,8 @@ class DeckSettings:
     a step at rest after each of them, or none: CalculiX looks only at the start of an increment where the surfaces
     face each other, and in which direction.
 
-    Raises SceneError if a slope or a number of increments is not positive, or friction ends with pre-indentation.
+    Raises SceneError if a slope or a number of increments is not positive, another number negative or not finite, or
+    friction falls with pre-indentation.
     """
 
     indentation: float
@@ -68,10 +70,14 @@ class DeckSettings:
         for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
             if not 0 < getattr(self, name) < math.inf:
                 raise SceneError(f"deck: {_told(name)} must be positive and finite, found {getattr(self, name)}")
-        if self.friction_acting == 0.0 < self.friction_indenting:
-            raise SceneError("deck: friction that indents must act too, found 0 during the stimulus")
-        if self.rest_increments < 0:
-            raise SceneError(f"deck: {_told('rest_increments')} must not be negative, found {self.rest_increments}")
+        for name in ("indentation", "friction_indenting", "friction_acting", "rest_increments"):
+            if not 0 <= getattr(self, name) < math.inf:
+                raise SceneError(f"deck: {_told(name)} must be finite and not negative, found {getattr(self, name)}")
+        if self.friction_acting < self.friction_indenting:
+            raise SceneError(
+                f"deck: friction that indents must act too, found {self.friction_indenting:g}, and"
+                f" {self.friction_acting:g} during the stimulus"
+            )
 
     @property
     def steps_a_move(self) -> int:
@@ -190,19 +196,23 @@ def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, mater
         kind="CPE6",
         node=node,
         element=element_nodes(mesh),
-        touching=boundary_sides(mesh, np.flatnonzero(outer)),
+        touching=sides_of(mesh, boundary_facets(mesh, np.flatnonzero(outer))),
         driven=np.flatnonzero(y == y.min()),
         material=material,
     )
 
 
-def boundary_sides(mesh: MeshTri2, nodes: np.ndarray) -> list[tuple[int, int]]:
-    """Element and side (1-3) of every boundary facet whose three nodes are all among `nodes`."""
+def boundary_facets(mesh: MeshTri2, nodes: np.ndarray) -> np.ndarray:
+    """Boundary facets (k,) whose three nodes are all among `nodes`."""
     facets = mesh.boundary_facets()
     whole = np.isin(mesh.facets[:, facets], nodes).all(axis=0) & np.isin(mesh.nvertices + facets, nodes)
-    chosen = facets[whole]
-    elements = mesh.f2t[0, chosen]
-    sides = np.argmax(element_nodes(mesh)[elements, 3:] == (mesh.nvertices + chosen)[:, None], axis=1) + 1
+    return np.asarray(facets[whole])
+
+
+def sides_of(mesh: MeshTri2, facets: np.ndarray) -> list[tuple[int, int]]:
+    """Element and side (1-3) of every boundary facet (k,)."""
+    elements = mesh.f2t[0, facets]
+    sides = np.argmax(element_nodes(mesh)[elements, 3:] == (mesh.nvertices + facets)[:, None], axis=1) + 1
     return list(zip(elements.tolist(), sides.tolist(), strict=True))
 
 
@@ -210,7 +220,7 @@ def _heading(scene: Scene, condition: Condition, settings: DeckSettings) -> list
     return [
         "*HEADING",
         f"{scene.device.title}; condition {condition.name}; made by fingerpad",
-        f"** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. {_kinematics(scene.model.tissue)}",
+        f"** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. {kinematics_told(scene.model.tissue)}",
         "** x runs along the row of actuators, y into the finger; the pad's lowest point is the origin.",
         f"** Friction: pre-indentation {settings.friction_indenting:g}, stimulus {settings.friction_acting:g}.",
         f"** Penalties: pressure over penetration {settings.pressure_slope:g} MPa/mm, shear over elastic slip"
@@ -218,7 +228,7 @@ def _heading(scene: Scene, condition: Condition, settings: DeckSettings) -> list
     ]
 
 
-def _kinematics(tissue: TissueLaw) -> str:
+def kinematics_told(tissue: TissueLaw) -> str:
     """What the deck says of strains and of the law that a solver takes the finger's materials for."""
     if tissue.kinematics is Kinematics.SMALL:
         return "Small strains (no NLGEOM)."
@@ -244,11 +254,11 @@ def _finger(scene: Scene, section: SectionMesh) -> list[str]:
         "** nodes of the elements in which the receptors' strain is read",
         *_set("NSET", READ_NODES, read_nodes(scene, section) + 1),
     ]
-    near = contact_tractions(section, scene).nodes
-    nearest = scene.device.actuators.nearest(section.mesh.doflocs[0, near])
+    near = boundary_facets(section.mesh, contact_tractions(section, scene).nodes)
+    nearest = scene.device.actuators.nearest(section.mesh.doflocs[0, section.mesh.nvertices + near])  # by their middles
     for number in range(len(scene.device.actuators.positions)):
         lines.append(f"** skin that actuator {number + 1} may touch")
-        lines += _surface(_skin_name(number), boundary_sides(section.mesh, near[nearest == number]), 0)
+        lines += _surface(_skin_name(number), sides_of(section.mesh, near[nearest == number]), 0)
     return lines
 
 

@@ -43,8 +43,10 @@ def installed() -> bool:
 def run(deck: str, folder: Path, limit: float) -> tuple[Path, float]:
     """Run CalculiX on a deck in a folder, on one thread; the table of results that it prints and the seconds it took.
 
-    limit: seconds after which it is stopped. Raises CalculixError if it fails or is stopped.
+    limit: seconds after which it is stopped. Raises CalculixError if it is not installed, fails or is stopped.
     """
+    if not installed():
+        raise CalculixError(f"CalculiX: found no program {PROGRAM}; install it, as by apt-get install calculix-ccx")
     folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{JOB}.inp").write_text(deck, encoding="utf-8")
     start = time.perf_counter()
@@ -72,7 +74,7 @@ def run(deck: str, folder: Path, limit: float) -> tuple[Path, float]:
 def read_printed(path: Path, actuators: int, moves: int, settings: DeckSettings) -> Printed:
     """Read the .dat file of a deck with that many actuators and moves of them (pre-indentation is one).
 
-    Raises CalculixError if something is missing.
+    Raises CalculixError if something is missing, or no number.
     """
     text = path.read_text(encoding="utf-8")
     titles = list(TITLE.finditer(text))
@@ -81,7 +83,10 @@ def read_printed(path: Path, actuators: int, moves: int, settings: DeckSettings)
     for title, stop in zip(titles, stops, strict=True):
         if title[1] in READ_TABLES:
             rows = [line.split() for line in text[title.end() : stop].splitlines()[1:] if line.strip()]
-            tables.setdefault(title[2], []).append(np.array(rows, dtype=float))
+            try:
+                tables.setdefault(title[2], []).append(np.array(rows, dtype=float))
+            except ValueError as error:  # a Fortran number with an exponent of three digits, or a line that ends early
+                raise CalculixError(f"{path}: {title[1]} of {title[2]}: {error}") from error
     wanted = [READ_NODES, *(actuator_name(number) for number in range(actuators))]
     steps = moves * settings.steps_a_move
     for name in wanted:

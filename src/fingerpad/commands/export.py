@@ -9,7 +9,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from ..calculix.deck import DeckSettings, input_deck
+from ..calculix.deck import DeckSettings, input_deck, kinematics_told
 from ..errors import UsageError
 from ..files import require_folder, write_text
 from ..finite.pressing import indented_height
@@ -21,7 +21,7 @@ DECK = ".inp"
 STEPS = 2  # of the progress: mesh, pre-indentation
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
-as deep as fingerpad's own.
+as deep as fingerpad's own. With finite kinematics, what is printed says for which of the two programs a law is meant.
 
 example:
   fingerpad export config/devices/device2.yaml --condition alternate_090 --interface shear -o scene.inp
@@ -85,4 +85,4 @@ def run(options: argparse.Namespace) -> None:
         settings = replace(settings, indentation=indented_height(scene, section, interface))
         bar.update()
     write_text(options.output, input_deck(scene, section, condition, settings))
-    print(f"written: {options.output}")
+    print(f"written: {options.output}. {kinematics_told(scene.model.tissue)}")

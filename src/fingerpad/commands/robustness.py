@@ -130,7 +130,7 @@ def _told(
     found = orders_held(configured, members)
     yield f"{titled(scene)}: {len(members)} assumptions varied, one at a time"
     if found:
-        certain = sum(len(each.holds) == each.scored for each in found)
+        certain = sum(each.is_certain for each in found)
         yield f"{certain} of {several(len(found), 'order')} hold wherever there is a prediction"
     else:
         yield "no two scores differ by more than their errors"

@@ -33,6 +33,7 @@ NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 time
 # Distances of the closest nodes [1] to which increments grow again once one was halved, as fronts that cross many nodes
 # at once fail again and again; source: fewest seconds of 1, 2, 4 (a stroke of 1 mm of six close pins, measured)
 CROSSED = 2.0
+SIZES = "numerics.edge_size, or finite_edge_size"  # what config.yaml calls those at the edges
 CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
 
 
@@ -99,7 +100,7 @@ def advance(
                     f"contact did not converge {done:.1%} of the way from {_located(start)} to"
                     f" {_located(target)} mm, increment {int(done * increments) + 1}/{increments} halved"
                     f" {halvings} times{residual}; {advice} or"
-                    f" {'stiffer bodies' if problem.body else 'a finer mesh at the edges (numerics.edge_size)'}"
+                    f" {'stiffer bodies' if problem.body else f'a finer mesh at the edges ({SIZES})'}"
                 ) from failure
             longest = min(longest, max(step, CROSSED * problem.spacing / length))
     return state, carried

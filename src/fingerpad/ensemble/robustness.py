@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any
 
-from ..prediction.orders import Pair, Row, resolved_pairs, without_implied
+from ..prediction.orders import Pair, Row, resolved_pairs
 from ..readouts.comparison import SAME
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
@@ -38,6 +38,11 @@ class Order:
     def scored(self) -> int:
         """Number of members in which both have a score."""
         return len(self.holds) + len(self.open) + len(self.turned)
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether it holds in every member in which both have a score, and there is one."""
+        return 0 < len(self.holds) == self.scored
 
 
 def varied_values(config: Document, device: Document, alternatives: Sequence[Alternative]) -> dict[str, dict[str, Any]]:
@@ -77,8 +82,8 @@ def reasons(configured: Sequence[Row], varied: Sequence[Row]) -> list[str]:
 
 
 def orders_held(configured: Sequence[Row], varied: Mapping[str, Sequence[Row]]) -> list[Order]:
-    """What becomes of the orders of a device's scores, for each interface and read-out. What follows from two orders
-    that hold in every member is left out.
+    """What becomes of the orders of a device's scores, for each interface and read-out. An order that is certain is
+    left out if it follows from two others that are, and hold wherever it does.
 
     configured: rows of the score table with errors, of conditions that differ. varied: those of each member, which take
     the same errors, relative to the score.
@@ -89,10 +94,18 @@ def orders_held(configured: Sequence[Row], varied: Mapping[str, Sequence[Row]]) 
             own = _rows_of(configured, interface, readout)
             members = {name: _with_errors(_rows_of(rows, interface, readout), own) for name, rows in varied.items()}
             orders = [_order(interface, readout, pair, members) for pair in resolved_pairs(own)]
-            certain = [(each.low, each.high) for each in orders if len(each.holds) == each.scored]
-            told = {*without_implied(certain), *({(each.low, each.high) for each in orders} - {*certain})}
-            found += [each for each in orders if (each.low, each.high) in told]
+            certain = {(each.low, each.high): set(each.holds) for each in orders if each.is_certain}
+            found += [each for each in orders if not _is_implied(each, certain)]
     return found
+
+
+def _is_implied(order: Order, certain: Mapping[Pair, Set[str]]) -> bool:
+    """Whether an order follows from two that are certain and hold wherever it does. certain: members by order."""
+    held = certain.get((order.low, order.high))
+    between = {name for pair in certain for name in pair}
+    return held is not None and any(
+        held <= certain.get((order.low, name), set()) & certain.get((name, order.high), set()) for name in between
+    )
 
 
 def _order(interface: Interface, readout: Readout, pair: Pair, members: Mapping[str, Sequence[Row]]) -> Order:

@@ -20,6 +20,7 @@ from .style import WIDE, as_title, legend_below, letter, new_figure, styled
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
 # what else differs between the interfaces where the contact normal turns under friction (docs/decisions/0021)
+ERRORS = " Lines on bars: estimated discretisation errors."
 TURNING = " With shear the contact normal turns on rounded edges, which press sideways; without shear it does not."
 
 
@@ -51,7 +52,9 @@ def ablation_figure(
     handles = [Patch(label=INTERFACE_NAME[each], **look) for each, look in zip(Interface, LOOKS, strict=True)]
     shown = correlations[correlations["device"].isin(titles)]
     turned = TURNING if turning else ""
-    legend_below(figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}{turned}")
+    legend_below(
+        figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}{ERRORS}{turned}"
+    )
     return figure
 
 

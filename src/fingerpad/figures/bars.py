@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from ..scene.readout import Readout
 from ..words import LONGEST_LABEL, SCORE_SCALE, plain, score_label, shortened
-from .style import BLUE, GREY, ORANGE, draw_errors
+from .style import BLACK, BLUE, GREY, ORANGE, draw_errors
 
 BAR = 0.38  # width of a bar, of the distance between conditions [1]
 SIDES = (-0.5, 0.5)  # middle of each bar of a pair from that of the pair, in widths of a bar [1]
@@ -38,7 +38,7 @@ def draw_pairs(axes: Axes, readout: Readout, pair: Sequence[pd.DataFrame], is_sh
         heights = factor * placed["score"].to_numpy(float)
         if np.isfinite(heights).any():
             axes.bar(places + side * BAR, heights, BAR, **look)
-            draw_errors(axes, places + side * BAR, heights, factor * placed["score_error"].to_numpy(float), along="y")
+            draw_errors(axes, places + side * BAR, heights, factor * placed["score_error"].to_numpy(float), "y", BLACK)
         elif len(own):
             for place in places:
                 axes.annotate(

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import INTERFACE_NAME, KINEMATICS_NAME
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, several
 from .bars import LOOKS, draw_pairs
 from .style import BLUE, ORANGE, WIDE, as_title, legend_below, letter, new_figure, rows_with, styled
 
@@ -29,8 +29,8 @@ NO_LIMITS = "No force falls on the way: there are no limit points."
 SMALL_ALONE = " (small strain alone)"  # of a device whose file leaves the other out
 END = {Kinematics.SMALL: "o", Kinematics.FINITE: "s"}  # marks where pre-indentation ends
 CAPTION = (
-    "Force: of all actuators, per mm of thickness. Marks: where pre-indentation ends, and stimuli begin."
-    " Bars: scores with shear, and their stated errors."
+    "n = {scored}. Force: of all actuators, per mm of finger. Marks: where pre-indentation ends, and stimuli begin."
+    " Bars: scores with shear; lines on them: estimated discretisation errors."
 )
 
 
@@ -64,7 +64,9 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
     limits = curves["limit_point"].astype(bool)
     if limits.any():
         handles.append(Line2D([], [], color="black", linestyle="", marker=LIMIT, label="limit point"))
-    legend_below(figure, handles, CAPTION if limits.any() else f"{CAPTION} {NO_LIMITS}")
+    conditions = scores.drop_duplicates(["device", "condition"])
+    caption = CAPTION.format(scored=several(len(conditions), "condition"))
+    legend_below(figure, handles, caption if limits.any() else f"{caption} {NO_LIMITS}")
     return figure
 
 

@@ -250,12 +250,12 @@ def draw_curve(axes: Axes, x: np.ndarray, y: np.ndarray, series: Series) -> None
     )  # fmt: skip
 
 
-def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, along: str) -> None:
+def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, along: str, colour: str = GREY) -> None:
     """Bars of estimated error (n,) on both sides of points (n,), along the axis "x" or "y"."""
     if along == "x":
-        axes.hlines(y, x - error, x + error, color=GREY, linewidth=LINE, zorder=2)
+        axes.hlines(y, x - error, x + error, color=colour, linewidth=LINE, zorder=2)
     else:
-        axes.vlines(x, y - error, y + error, color=GREY, linewidth=LINE, zorder=2)
+        axes.vlines(x, y - error, y + error, color=colour, linewidth=LINE, zorder=2)
 
 
 def legend_below(figure: Figure, handles: Sequence[Any], caption: str, below: Sequence[Any] = ()) -> None:

@@ -32,6 +32,7 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
     refused = change[change["score"].isna()].groupby(["device", "frequency_hz"]).size()
     inertia = worst.rename("inertia").to_frame().assign(refused=refused).fillna({"refused": 0}).reset_index()
     inertia = inertia[inertia["frequency_hz"] > SLOWLY]
+    stated = _stated(quasistatic, set(frequencies["device"]))
     return {
         "scores": table(shown.reset_index()),
         "spread": _spread(scores[scores.columns[scores.columns > SLOWLY]]),
@@ -39,7 +40,7 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         "orders": table(_orders(scores)),
         "varied_at": f"{variants['frequency_hz'].iloc[0]:g}",
         "variants": table(_varied(variants)),
-        "discretisation": _discretisation(quasistatic, set(frequencies["device"])),
+        "discretisation": f"{PERCENT * stated.min():.1f} to {PERCENT * stated.max():.1f} %",
         "inertia": table(
             inertia.assign(
                 frequency_hz=inertia["frequency_hz"].map("{:g}".format),
@@ -47,7 +48,7 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
                 refused=inertia["refused"].astype(int),
             )
         ),
-    } | _of_rises(change[change["device"] == change["device"].iloc[0]])
+    } | _of_rises(change[change["device"] == change["device"].iloc[0]], stated)
 
 
 def _spread(scores: pd.DataFrame) -> str:
@@ -56,19 +57,19 @@ def _spread(scores: pd.DataFrame) -> str:
     return f"{spread.min():.0f} to {spread.max():.0f} %"
 
 
-def _discretisation(quasistatic: pd.DataFrame, devices: set[str]) -> str:
-    """Stated errors of the same conditions' quasi-static scores: least and most."""
+def _stated(quasistatic: pd.DataFrame, devices: set[str]) -> pd.Series:
+    """Stated errors of the same conditions' quasi-static scores, relative [1], by device and condition."""
     alike = quasistatic[
         (quasistatic["kinematics"] == Kinematics.SMALL)
         & quasistatic["device"].isin(devices)
         & (quasistatic["interface"] == Interface.SHEAR)
         & (quasistatic["readout"] == Readout.CHANGE_OF_STRAIN)
     ]
-    stated = PERCENT * alike["score_error"] / alike["score"]
-    return f"{stated.min():.1f} to {stated.max():.1f} %"
+    by_condition = alike.set_index(["device", "condition"])
+    return by_condition["score_error"] / by_condition["score"]
 
 
-def _of_rises(change: pd.DataFrame) -> dict[str, object]:
+def _of_rises(change: pd.DataFrame, stated: pd.Series) -> dict[str, object]:
     """Whether a device's scores rise with phase at the highest frequency, and where they do not with dispersion."""
     asked, predicted = change["frequency_hz"].max(), change.dropna(subset="score")["frequency_hz"].max()
     dispersions = change[change["frequency_hz"] == predicted].groupby("dispersion", sort=False)
@@ -78,18 +79,22 @@ def _of_rises(change: pd.DataFrame) -> dict[str, object]:
         "what_highest": "the highest that it was asked for" if predicted == asked else "the highest with a prediction",
         "rising": sum(rising),
         "dispersions": len(rising),
-        "falls": _falls(change[change["frequency_hz"] > SLOWLY]),
+        "falls": _falls(change[change["frequency_hz"] > SLOWLY], stated),
     }
 
 
-def _falls(change: pd.DataFrame) -> str:
-    """Where a device's score is lower at a wider dispersion, which stands later in the table."""
+def _falls(change: pd.DataFrame, stated: pd.Series) -> str:
+    """Where a device's score is lower at a wider dispersion, which stands later in the table, by more than the stated
+    errors of both, relative.
+    """
     found = []
     for phase, alike in change.groupby("phase_deg"):
         scores = alike.pivot_table("score", "dispersion", "frequency_hz", sort=False)
         scores = scores.reindex(columns=sorted(scores.columns))
+        error = {row.dispersion: stated[row.device, row.condition] for row in alike.itertuples()}
         for lower, higher in pairwise(scores.index):
-            at = scores.columns[scores.loc[higher] < scores.loc[lower]]
+            below = scores.loc[higher] * (1.0 + error[higher]) < scores.loc[lower] * (1.0 - error[lower])
+            at = scores.columns[below]
             if len(at):
                 hertz = ", ".join(f"{each:g}" for each in at)
                 found.append(f"at {phase:g}° `{higher}` lies below `{lower}` at {hertz} Hz")

@@ -60,10 +60,11 @@ def scene_caveats(scene: Scene) -> list[str]:
             "round actuators have no flat face to cover: pre-indentation ends where contact reaches the middle of each;"
             f" {PRESS_AS_ASKED}"
         )
-    elements = scene.device.actuators.width / scene.model.numerics.edges(scene.kinematics)[0]
+    numerics = scene.model.numerics
+    elements = scene.device.actuators.width / numerics.edges(scene.kinematics)[0]
     if elements < FEW:
-        found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
-    waves = min(scene.model.gabor.wavelength(each) for each in Readout) / scene.model.numerics.receptor_size
+        found.append(f"actuators are {elements:.1f} elements wide: try a smaller {numerics.edge_key(scene.kinematics)}")
+    waves = min(scene.model.gabor.wavelength(each) for each in Readout) / numerics.receptor_size
     if waves < COARSE:
         found.append(f"the filter's wavelength is {waves:.1f} receptor elements: try a smaller numerics.receptor_size")
     return found

@@ -17,7 +17,6 @@ from ..contact.solution import Solution
 from ..errors import ContactError
 from ..readouts.accuracy import COARSENING, score_errors, with_error
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import score_rows
 from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device
@@ -26,6 +25,7 @@ from ..scene.scene import Model, Scene
 from ..tissue.compliance import CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import mesh_section
+from .caveats import noted_rows
 from .scoring import Condensed, read_out
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
@@ -144,11 +144,13 @@ def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) ->
 
 
 def _moved(row: PressedRow, condition: Condition) -> Answer:
-    """The answer on one mesh, its rows without errors. Raises ContactError."""
+    """The answer on one mesh, its rows with caveats as notes and without errors. Raises ContactError."""
     scene = row.scene.with_conditions([condition])
     solution = stimulate(scene, row.skin.section, row.indented, condition)
     readouts = read_out(scene, row.skin, solution)
-    rows = score_rows(scene, condition, Interface.SHEAR, readouts)
+    numerics = scene.model.numerics
+    as_meshed = scene.with_numerics(replace(numerics, edge_size=SIZE * numerics.edge_size))
+    rows = noted_rows(as_meshed, condition, Interface.SHEAR, solution, readouts)
     return Answer(scene, row.skin.section, solution, readouts, rows)
 
 

@@ -46,6 +46,11 @@ class Numerics:
             return self.finite_edge_size, self.finite_edge_zone
         return self.edge_size, self.edge_zone
 
+    @staticmethod
+    def edge_key(kinematics: Kinematics) -> str:
+        """What config.yaml calls that element size."""
+        return "numerics.finite_edge_size" if kinematics is Kinematics.FINITE else "numerics.edge_size"
+
     def coarsened(self, factor: float) -> Numerics:
         """Element sizes, everywhere, and load increments `factor` times as large; finer below 1."""
         return replace(

@@ -125,8 +125,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
         logical = logical.refined(marked)
         if 2 * logical.t.shape[1] > MAX_ELEMENTS:
             raise MeshError(
-                f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try larger sizes in"
-                " numerics (edge_size, face_size, receptor_size, growth) or thicker layers"
+                f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try thicker layers,"
+                f" or larger {scene.model.numerics.edge_key(scene.kinematics)}, face_size, receptor_size or growth"
             )
     else:
         raise MeshError(f"{scene.device.name}: {MAX_REFINEMENTS} refinements leave elements larger than asked for")
