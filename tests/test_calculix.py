@@ -90,6 +90,19 @@ def test_a_missing_step_is_an_error(tmp_path: Path) -> None:
         read_printed(printed(tmp_path, [1.0]), 1, 2, replace(SETTINGS, rest_increments=0))
 
 
+def test_a_number_that_fortran_cuts_is_an_error(tmp_path: Path) -> None:
+    path = printed(tmp_path, [1.0, 2.0])
+    path.write_text(path.read_text().replace("1.500000E-01", "1.500000-101"))
+    with pytest.raises(CalculixError, match=r"scene\.dat: displacements of RECEPTOR_NODES: "):
+        read_printed(path, 1, 2, replace(SETTINGS, rest_increments=0))
+
+
+def test_without_calculix_running_a_deck_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(CalculixError, match="found no program ccx"):
+        run("*HEADING\n", tmp_path / "deck", 1.0)
+
+
 def test_without_calculix_the_table_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     table, device = tmp_path / "calculix.csv", CONFIG / "devices" / "device2.yaml"

@@ -98,6 +98,14 @@ def test_errors_that_cannot_be_known_are_said_to_be_unknown() -> None:
     assert all(row["score_error"] > 0.0 for row in known.rows)
 
 
+def test_designs_have_the_caveats_of_their_solution() -> None:
+    """Pins far apart are pressed deep before the outer ones are covered."""
+    wide = press_row(condense_pad(scene(DEVICE), 1.5 * 3.5 + WIDTH / 2.0), 3.5, WIDTH, 0.6)
+    notes = {row["note"] for row in answer(wide, AMPLITUDE, 180.0, True).rows}
+    assert all("of the pad: small strain is invalid" in note for note in notes)
+    assert {row["note"] for row in answer(pressed(0.6), AMPLITUDE, 180.0, True).rows} == {""}
+
+
 def test_pins_that_overlap_are_refused() -> None:
     with pytest.raises(SceneError, match="overlap"):
         press_row(pad(), 1.0, 1.2, 0.6)

@@ -81,9 +81,30 @@ def surface(blocks: list[Block], name: str) -> FloatArray:
     return np.array(found)
 
 
-def test_deck_whose_friction_ends_with_pre_indentation_is_refused() -> None:
+@pytest.mark.parametrize("acting", [0.0, 0.3])
+def test_deck_whose_friction_falls_after_pre_indentation_is_refused(acting: float) -> None:
     with pytest.raises(SceneError, match="friction that indents must act too"):
-        replace(DECK, friction_indenting=0.6, friction_acting=0.0)
+        replace(DECK, friction_indenting=0.6, friction_acting=acting)
+
+
+@pytest.mark.parametrize("name", ["indentation", "friction_indenting", "friction_acting", "rest_increments"])
+@pytest.mark.parametrize("value", [-1, float("nan"), float("inf")])
+def test_deck_of_numbers_that_are_none_is_refused(name: str, value: float) -> None:
+    with pytest.raises(SceneError, match=f"deck: {name.replace('_', ' ')} must be finite and not negative"):
+        replace(DECK, **{name: value})
+
+
+def test_skin_of_close_pins_is_that_of_one_of_them_each() -> None:
+    """Four pins with gaps of a few elements, coarsely meshed: surfaces join without a gap, and mirror."""
+    base = scene("device2")
+    row = replace(base.device.actuators, positions=(-0.825, -0.275, 0.275, 0.825), width=0.5)
+    close = replace(base, device=replace(base.device, actuators=row)).coarsened(4.0)
+    blocks = parsed(close, DECK)
+    skins = [surface(blocks, f"SKIN_{number}")[:, :, 0] for number in range(1, 5)]
+    ends = np.array([[skin.min(), skin.max()] for skin in skins])
+    np.testing.assert_array_equal(ends[1:, 0], ends[:-1, 1])
+    np.testing.assert_array_equal(ends, -ends[::-1, ::-1])
+    assert [len(skin) for skin in skins] == [len(skin) for skin in skins[::-1]]
 
 
 @pytest.mark.parametrize("device", ["device1", "device2", "device3"])
