@@ -845,7 +845,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
     said = capsys.readouterr().out
     assert said.startswith(
         "Device 2: lateral pins (device2), small strain: 2 assumptions varied, one at a time\n"
-        "0 of 3 orders hold wherever there is a prediction\n\nshear, strain\n"
+        "orders that hold wherever there is a prediction: 0 of 3\n\nshear, strain\n"
         "  alternate_000 < alternate_090 holds in 0 of 1; turned with contact.friction 0.3;"
         " no prediction with stimulus.half_cycle second\n"
     )

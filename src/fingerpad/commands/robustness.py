@@ -19,7 +19,6 @@ from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..store import csv_text
-from ..words import several
 from .options import add_kinematics, add_scene_options, checked_scene
 from .printing import in_order, titled
 from .score_table import caveat_lines
@@ -131,7 +130,7 @@ def _told(
     yield f"{titled(scene)}: {len(members)} assumptions varied, one at a time"
     if found:
         certain = sum(each.is_certain for each in found)
-        yield f"{certain} of {several(len(found), 'order')} hold wherever there is a prediction"
+        yield f"orders that hold wherever there is a prediction: {certain} of {len(found)}"
     else:
         yield "no two scores differ by more than their errors"
     for (interface, readout), orders in groupby(found, key=lambda each: (each.interface, each.readout)):

@@ -19,8 +19,8 @@ from .correlation import ratings_caption
 from .style import WIDE, as_title, legend_below, letter, new_figure, styled
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
-# what else differs between the interfaces where the contact normal turns under friction (docs/decisions/0021)
 ERRORS = " Lines on bars: estimated discretisation errors."
+# what else differs between the interfaces where the contact normal turns under friction (docs/decisions/0021)
 TURNING = " With shear the contact normal turns on rounded edges, which press sideways; without shear it does not."
 
 
