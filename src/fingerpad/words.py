@@ -5,22 +5,32 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .readouts.roughness import TYPESET_UNITS
 from .scene.contact_law import Interface
-from .scene.readout import READOUT_NAME, Readout
+from .scene.readout import Readout
 from .scene.tissue_law import Kinematics
 
 LONGEST_LABEL = 16  # characters of a name at an axis
 
+READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
 KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
 INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
 SCORE_SCALE = {
     Readout.STRAIN: (1.0, ""),
     Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
 }  # factor [1] and its typeset inverse
+TYPESET_UNITS = {"mm2": "mm²"}  # of those in tables, which keep to plain letters
 PERCENT = 100.0
 KILO = 1e3  # kPa in a MPa, µm in a mm
 MINUS = "\N{MINUS SIGN}"
+
+
+def typeset(unit: str) -> str:
+    """A unit from a table as people read it.
+
+    >>> typeset("mm2"), typeset("mm")
+    ('mm²', 'mm')
+    """
+    return TYPESET_UNITS.get(unit, unit)
 
 
 def score_label(readout: Readout, unit: str, in_two_lines: bool = False) -> str:
@@ -30,7 +40,7 @@ def score_label(readout: Readout, unit: str, in_two_lines: bool = False) -> str:
     'Strain score (mm²)'
     """
     gap = "\n" if in_two_lines else " "
-    return f"{READOUT_NAME[readout]}{gap}score ({SCORE_SCALE[readout][1]}{TYPESET_UNITS.get(unit, unit)})"
+    return f"{READOUT_NAME[readout]}{gap}score ({SCORE_SCALE[readout][1]}{typeset(unit)})"
 
 
 def plain(name: str) -> str:

@@ -1,5 +1,6 @@
-"""A scene as an input deck in Abaqus keywords, which CalculiX runs unchanged, but for two laws of tissue that Abaqus or
-CalculiX alone takes for what they are meant (`kinematics_told`).
+"""A scene as an input deck in Abaqus keywords, which CalculiX runs unchanged.
+
+Two laws of tissue Abaqus or CalculiX alone takes for what they are meant (`kinematics_told`).
 
 The deck holds the section's own second-order triangles (CPE6), the layers' materials, the bone, and the actuators:
 rigid ones as elements all of whose nodes are prescribed, deformable ones as elastic strips on a prescribed base. The

@@ -22,8 +22,8 @@ from ..arrays import FloatArray
 from ..prediction.design import Answer
 from ..readouts.roughness import SCORE_UNIT, score_span
 from ..rounding import rounded
-from ..scene.readout import READOUT_NAME, Readout
-from ..words import KILO, PERCENT, SCORE_SCALE, score_label
+from ..scene.readout import Readout
+from ..words import KILO, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
 from .receptors import face_arcs
 from .style import BLUE, DASHED, GREY, LINE, MM, SHADE, THIN, VERMILLION, WIDE, styled
 

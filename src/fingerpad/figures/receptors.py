@@ -13,10 +13,10 @@ from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..readouts.strain import FilteredReadouts
 from ..scene.device import Condition, Device
-from ..scene.readout import READOUT_NAME, Readout
+from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
 from ..tissue.compliance import CondensedSection
-from ..words import KINEMATICS_NAME, PERCENT, plain
+from ..words import KINEMATICS_NAME, PERCENT, READOUT_NAME, plain
 from .style import (
     GREY,
     SHADE,

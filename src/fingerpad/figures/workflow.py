@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 from ..readouts.roughness import score_span
 from ..rounding import rounded
-from ..scene.readout import READOUT_NAME, GaborFilter, Readout, ReadoutRule
-from ..words import PERCENT, SCORE_SCALE, counted, score_label, shortened
+from ..scene.readout import GaborFilter, Readout, ReadoutRule
+from ..words import PERCENT, READOUT_NAME, SCORE_SCALE, counted, score_label, shortened
 from .receptors import DeviceReadouts, draw_curve, draw_faces
 from .style import (
     WIDE,

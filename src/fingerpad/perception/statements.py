@@ -14,9 +14,10 @@ from typing import Any
 import pandas as pd
 
 from ..readouts.comparison import Relation, Score
-from ..readouts.roughness import KEY, TYPESET_UNITS
+from ..readouts.roughness import KEY
 from ..scene.contact_law import Interface
-from ..scene.readout import READOUT_NAME, Readout
+from ..scene.readout import Readout
+from ..words import READOUT_NAME, typeset
 from .correlation import CONSTANT_SCORE
 from .verdicts import (
     Chain,
@@ -110,7 +111,7 @@ def tables_of(scores: pd.DataFrame, correlations: pd.DataFrame) -> Tables:
         rows = scored[["dispersion", "phase_deg", "score", "score_error"]].fillna({"score_error": math.inf})
         by_key[device, interface, readout] = Scores(
             {(dispersion, float(phase)): Score(*score) for dispersion, phase, *score in rows.itertuples(index=False)},
-            TYPESET_UNITS.get(group["unit"].iloc[0], group["unit"].iloc[0]),
+            typeset(group["unit"].iloc[0]),
         )
     records = {(row["device"], row["interface"], row["readout"]): row for row in correlations.to_dict("records")}
     return Tables(by_key, records)

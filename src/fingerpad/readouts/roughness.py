@@ -14,7 +14,6 @@ from ..scene.scene import Scene
 from .strain import FilteredReadouts
 
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
-TYPESET_UNITS = {SCORE_UNIT: "mm²"}  # where people read them; tables keep to plain letters
 KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table that tell series of scores apart
 NO_PREDICTION = "no prediction"
 ERROR_UNKNOWN = "error unknown"

@@ -7,13 +7,22 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from ..perception.wording import has_p, p_text, range_text, slope_name
-from ..readouts.roughness import TYPESET_UNITS
 from ..scene.contact_law import Interface
 from ..scene.device import Device
-from ..scene.readout import READOUT_NAME, Readout
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from ..words import INTERFACE_NAME, KINEMATICS_NAME, MINUS, SCORE_SCALE, counted, plain, several
+from ..words import (
+    INTERFACE_NAME,
+    KINEMATICS_NAME,
+    MINUS,
+    READOUT_NAME,
+    SCORE_SCALE,
+    counted,
+    plain,
+    several,
+    typeset,
+)
 from .tables import Row, score_with_error
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
@@ -246,7 +255,7 @@ def _scores(
     ]
     found = (f"{row['condition']} {score_with_error(row)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
-    scaled = f"{SCORE_SCALE[readout][1]}{TYPESET_UNITS.get(unit, unit)}".replace(" ", "\N{NO-BREAK SPACE}")
+    scaled = f"{SCORE_SCALE[readout][1]}{typeset(unit)}".replace(" ", "\N{NO-BREAK SPACE}")
     return f"{', '.join(found)} {scaled}"
 
 

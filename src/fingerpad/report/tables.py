@@ -10,9 +10,9 @@ from ..perception.wording import has_p, p_text, published_text, range_text, slop
 from ..readouts.accuracy import relative_error, relative_errors
 from ..rounding import rounded
 from ..scene.contact_law import Interface
-from ..scene.readout import READOUT_NAME, Readout
+from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition

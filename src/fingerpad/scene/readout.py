@@ -25,9 +25,6 @@ class Readout(StrEnum):
     CHANGE_OF_STRAIN = "change_of_strain"
 
 
-READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}  # where people read it
-
-
 class Side(StrEnum):
     """From which side of the epidermis/dermis interface the strain is read."""
 
