@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 from fingerpad.arrays import FloatArray
 from fingerpad.contact.linear_solution import solve_condition
 from fingerpad.fields.states import States, linear_states, strain_at, stress_at
-from fingerpad.fields.vtu import field_meshes, skin_tractions, write_collection, write_vtu
+from fingerpad.fields.vtu import field_meshes, skin_tractions, write_collection, write_path, write_vtu
 from fingerpad.readouts.measures import stress
 from fingerpad.readouts.strain import maximum_principal
 from fingerpad.scene.contact_law import Interface, TurningNormal
@@ -271,3 +271,14 @@ def test_collection_names_files_and_times(tmp_path: Path) -> None:
         ("0.0", "states/0000.vtu"),
         ("0.25", "fields.vtu"),
     ]
+
+
+def test_a_shorter_path_leaves_no_state_of_a_longer_one(tmp_path: Path) -> None:
+    """And no file of others goes away."""
+    state = meshio.Mesh(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), [("triangle", [[0, 1, 2]])])
+    pvd, folder, last = tmp_path / "path.pvd", tmp_path / "path", tmp_path / "path.vtu"
+    write_path(pvd, folder, last, np.arange(4.0), [state] * 4)
+    own = folder / "0002 of mine.vtu"
+    own.write_text("mine", encoding="utf-8")
+    write_path(pvd, folder, last, np.arange(2.0), [state] * 2)
+    assert sorted(path.name for path in folder.iterdir()) == ["0000.vtu", own.name]

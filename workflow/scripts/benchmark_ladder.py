@@ -30,8 +30,7 @@ def main(
     table: Path,
 ) -> None:
     """Read scene and small kinematics' reference, climb every ladder, write a row per mesh. With finite kinematics the
-    reference is a mesh of `finest` [1] times the sizes. CalculiX's are left out without
-    ccx, and where a deck fails.
+    reference is a mesh of `finest` [1] times the sizes. CalculiX's are left out without ccx, and where a deck fails.
     """
     rows: list[dict[str, Any]] = []
     for each in kinematics:

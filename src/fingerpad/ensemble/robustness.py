@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..prediction.orders import Pair, Row, resolved_pairs
+from ..prediction.orders import Pair, Row, resolved_pairs, without_implied
 from ..readouts.comparison import SAME
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
@@ -94,18 +94,9 @@ def orders_held(configured: Sequence[Row], varied: Mapping[str, Sequence[Row]]) 
             own = _rows_of(configured, interface, readout)
             members = {name: _with_errors(_rows_of(rows, interface, readout), own) for name, rows in varied.items()}
             orders = [_order(interface, readout, pair, members) for pair in resolved_pairs(own)]
-            certain = {(each.low, each.high): set(each.holds) for each in orders if each.is_certain}
-            found += [each for each in orders if not _is_implied(each, certain)]
+            told = without_implied({(each.low, each.high): {*each.holds} for each in orders if each.is_certain})
+            found += [each for each in orders if not each.is_certain or (each.low, each.high) in told]
     return found
-
-
-def _is_implied(order: Order, certain: Mapping[Pair, Set[str]]) -> bool:
-    """Whether an order follows from two that are certain and hold wherever it does. certain: members by order."""
-    held = certain.get((order.low, order.high))
-    between = {name for pair in certain for name in pair}
-    return held is not None and any(
-        held <= certain.get((order.low, name), set()) & certain.get((name, order.high), set()) for name in between
-    )
 
 
 def _order(interface: Interface, readout: Readout, pair: Pair, members: Mapping[str, Sequence[Row]]) -> Order:

@@ -82,14 +82,14 @@ def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
 
 def write_path(pvd: Path, folder: Path, last: Path, times: FloatArray, meshes: Sequence[meshio.Mesh]) -> None:
     """Write a path: the last state as a file of its own, those before in a folder, and the PVD file of all, whose times
-    (n_states,) [s] begin with that of pre-indentation. What the folder holds of another path goes away.
+    (n_states,) [s] begin with that of pre-indentation. What the folder holds of a longer path goes away.
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = [*(folder / f"{number:04d}.vtu" for number in range(len(meshes) - 1)), last]
     for file, mesh in zip(files, meshes, strict=True):
         write_vtu(file, mesh)
     write_collection(pvd, times, files)
-    for stale in sorted(set(folder.glob("[0-9]*.vtu")) - set(files)):  # of a longer path that was written here before
+    for stale in sorted(set(folder.glob("[0-9][0-9][0-9][0-9].vtu")) - set(files)):  # of a longer path before
         stale.unlink()
 
 

@@ -17,8 +17,8 @@ from ..scene.tissue_law import Kinematics
 from ..words import KINEMATICS_NAME
 from .style import BLUE, GREY, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
 
-ROW_HEIGHT, LEGEND_HEIGHT = 6.6, 64.0  # mm: of a statement; of the names below and the legend
-CLAIM_WIDTH = 52  # characters in a line of a statement
+ROW_HEIGHT, LETTER, LEGEND_HEIGHT = 6.6, 1.35, 30.0  # mm: of a statement, of a letter of a name, of title and legend
+CLAIM_WIDTH = 54  # characters in a line of a statement
 ASIDE = {FIRST: -0.22, SECOND: 0.22}  # of a member's place [1], where its half-cycles are drawn
 SIZE = 3.4  # of a mark [pt]
 MARKS: dict[Holds, dict[str, Any]] = {
@@ -42,7 +42,8 @@ def ensemble_figure(claims: pd.DataFrame) -> Figure:
     """
     (kinematics,) = claims["kinematics"].unique()
     statements, members = list(claims["claim"].unique()), list(claims["varied"].unique())
-    figure = new_figure(WIDE, ROW_HEIGHT * len(statements) + LEGEND_HEIGHT)
+    height = ROW_HEIGHT * len(statements) + LETTER * max(map(len, members)) + LEGEND_HEIGHT
+    figure = new_figure(WIDE, height)
     axes = figure.subplots()
     _marks(axes, claims, statements, members)
     subtitle(axes, KINEMATICS_NAME[Kinematics(kinematics)].capitalize(), "")

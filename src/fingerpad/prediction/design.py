@@ -84,9 +84,8 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
 
     Raises SceneError if the finger is narrower, MeshError, CondensationError.
     """
-    numerics = scene.model.numerics
-    skin = replace(numerics, edge_size=SIZE * numerics.edge_size)
-    scenes = (scene.with_numerics(each) for each in (skin, skin.coarsened(COARSENING)))
+    skin = _as_meshed(scene)
+    scenes = (skin, skin.coarsened(COARSENING))
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
@@ -148,10 +147,14 @@ def _moved(row: PressedRow, condition: Condition) -> Answer:
     scene = row.scene.with_conditions([condition])
     solution = stimulate(scene, row.skin.section, row.indented, condition)
     readouts = read_out(scene, row.skin, solution)
-    numerics = scene.model.numerics
-    as_meshed = scene.with_numerics(replace(numerics, edge_size=SIZE * numerics.edge_size))
-    rows = noted_rows(as_meshed, condition, Interface.SHEAR, solution, readouts)
+    rows = noted_rows(_as_meshed(scene), condition, Interface.SHEAR, solution, readouts)
     return Answer(scene, row.skin.section, solution, readouts, rows)
+
+
+def _as_meshed(scene: Scene) -> Scene:
+    """The scene with the size of the pad's elements at the edges."""
+    numerics = scene.model.numerics
+    return scene.with_numerics(replace(numerics, edge_size=SIZE * numerics.edge_size))
 
 
 def _condensed(scene: Scene, reach: float) -> Condensed:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import permutations
 from typing import Any
 
@@ -59,7 +59,7 @@ def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
             sets = sorted({tuple(names) for names in holding.values()}, key=lambda names: -len(names))
             for names in sets:
                 pairs = [pair for pair, held in holding.items() if tuple(held) == names]
-                pairs = without_implied(pairs) if len(names) == len(scored) else pairs
+                pairs = without_implied({pair: {*names} for pair in pairs}) if len(names) == len(scored) else pairs
                 where = "" if len(names) == len(scored) else f" ({'; '.join(names)})"
                 said = ", ".join(f"{low} < {high}" for low, high in pairs)
                 yield f"{interface}, {readout}, in {len(names)} of {len(scored)}{where}: {said}"
@@ -67,12 +67,19 @@ def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
                 yield f"{interface}, {readout}, no prediction ({'; '.join(lost)})"
 
 
-def without_implied(pairs: Sequence[Pair]) -> list[Pair]:
-    """Pairs that do not follow from two others.
+def without_implied(certain: Mapping[Pair, Set[str]]) -> list[Pair]:
+    """Pairs that do not follow from two others which hold wherever they do. certain: names of the variants in which
+    each pair holds; it is turned in none.
 
-    >>> without_implied([("a", "b"), ("a", "c"), ("b", "c")])
+    >>> without_implied({("a", "b"): {"1"}, ("a", "c"): {"1"}, ("b", "c"): {"1", "2"}})
     [('a', 'b'), ('b', 'c')]
+    >>> len(without_implied({("a", "b"): {"1"}, ("a", "c"): {"1", "2"}, ("b", "c"): {"1", "2"}}))
+    3
     """
-    known = set(pairs)
-    between = {name for pair in pairs for name in pair}
-    return [(low, high) for low, high in pairs if not any({(low, mid), (mid, high)} <= known for mid in between)]
+    nowhere = set[str]()
+    between = {name for pair in certain for name in pair}
+    return [
+        (low, high)
+        for (low, high), held in certain.items()
+        if not any(held <= certain.get((low, mid), nowhere) & certain.get((mid, high), nowhere) for mid in between)
+    ]

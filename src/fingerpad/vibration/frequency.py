@@ -84,7 +84,8 @@ def frequency_rows(
 
     Where inertia matters, or a path cannot be followed, there is a note instead of a score.
     """
-    indented, shares_equal = _indented(scene, condensed, interface), scene.model.skips.equal_stimuli
+    indented = _indented(scene, condensed, interface)
+    shares_equal = scene.model.skips.equal_stimuli
     rows = []
     found: dict[tuple[object, float], Outcome] = {}
     for cycle in scene.device.cycles:
