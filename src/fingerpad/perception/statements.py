@@ -34,6 +34,7 @@ from .verdicts import (
     slope_of,
     throughout,
 )
+from .wording import is_open
 
 DISPERSIONS = ("low", "medium", "high")
 PHASES = (0.0, 90.0, 180.0)
@@ -182,13 +183,12 @@ def _described(row: Mapping[str, Any]) -> str:
     numbers = f"R² {row['r2']:.4g}, Kendall's tau {row['kendall_tau']:.3g}, "
     reason = f"({row['note']}) " if isinstance(row["note"], str) and row["note"] else ""
     sign = "positive" if slope_of(row) > 0 else "negative"
-    what = (
-        f"{sign} slope{' (open)' if r_of(row).is_open else ''}, {numbers}"
-        if slope_of(row)
-        else f"no slope {reason}with "
-    )
-    ranges = is_surrogate(row) and not pd.isna(row["r2_lowest"])
-    others = f"; R² {row['r2_lowest']:.2g} to {row['r2_highest']:.2g} over all with the stated order" if ranges else ""
+    doubt = " (open)" if is_open(row) else ""
+    what = f"{sign} slope{doubt}, {numbers}" if slope_of(row) else f"no slope {reason}with "
+    others = ""
+    if is_surrogate(row) and not pd.isna(row["r2_lowest"]):
+        doubt = ", the sign open for some" if r_of(row).is_open else ""
+        others = f"; R² {row['r2_lowest']:.2g} to {row['r2_highest']:.2g} over all with the stated order{doubt}"
     return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']}{others})"
 
 
