@@ -19,6 +19,7 @@ NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
     "Device 2: the change of strain correlates very well.": "undecided",
     "Device 3: the change of strain correlates very well.": "undecided",
     "Device 1 without shear: the change of strain still correlates very well.": "undecided",
+    "Device 1 without shear: the strain still correlates very poorly.": "undecided",
     "Device 2: the strain correlates well.": "no",
     "Device 1: the strain correlates very poorly.": "undecided",
     "Device 3: the strain correlates negatively.": "undecided",
@@ -99,7 +100,7 @@ def test_what_the_model_should_show(finished: Project) -> None:
     not, and this list changes when the model does."""
     claims = pd.read_csv(finished.folder / "results" / "claims.csv")
     found = {claim: holds for claim, holds in zip(claims["claim"], claims["holds"], strict=True) if holds != "yes"}
-    assert len(claims) == 19
+    assert len(claims) == 20
     assert found == NOT_BORNE_OUT, claims["evidence"].tolist()
 
 

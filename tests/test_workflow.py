@@ -116,7 +116,7 @@ def test_rule_and_script_share_a_name(rule: Rule) -> None:
 def test_rule_log_and_benchmark_share_a_name(rule: Rule) -> None:
     for directive, ending in (("log", "log"), ("benchmark", "tsv")):
         if directive in rule.directives:
-            assert re.search(rf"/{rule.name}(_[^/]*)?\.{ending}\"", rule.directives[directive])
+            assert re.search(rf"/{rule.name}(_[^/]*|\{{mode\}})?\.{ending}\"", rule.directives[directive])
 
 
 @pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
