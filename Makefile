@@ -1,6 +1,6 @@
 # fingerpad: two commands on a fresh machine with Python 3.11 or newer, git and make.
 #   make reproduce   sets up its own environment and computes everything: snakemake all
-#   make test        the same for the tests
+#   make test        makes the same environment and runs the tests
 PYTHON ?= python3
 VENV ?= .venv
 CORES ?= all

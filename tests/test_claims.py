@@ -88,12 +88,12 @@ def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
         (
             ("device1", "shear", "change_of_strain"),
             [1, 2, 3, 1, 3.6, 3.5, 1, 4, 6],
-            {"Device 1: the change of strain rises with phase", "Device 1: leaving out shear turns"},
+            {"Device 1: the change of strain rises with phase", "Device 1: leaving out shear reverses"},
         ),
         (
             ("device1", "shear", "change_of_strain"),
             [1, 2, 4.1, 1, 3, 4, 1, 4.5, 6],
-            {"Device 1: the change of strain rises with dispersion", "Device 1: leaving out shear turns"},
+            {"Device 1: the change of strain rises with dispersion", "Device 1: leaving out shear reverses"},
         ),
         (("device1", "shear", "strain"), [1, 2, 3, 1, 3, 4, 1, 4, 5], {"Device 1: the strain "}),
         (
@@ -141,7 +141,7 @@ def test_all_claims_hold_for_scores_that_are_as_the_paper_says() -> None:
         (
             ("device1", "frictionless", "change_of_strain"),
             [1, 2, 3, 1, 3.3, 3.2, 1, 4, 6],
-            {"Device 1: leaving out shear turns"},
+            {"Device 1: leaving out shear reverses"},
         ),
     ],
 )
@@ -161,7 +161,7 @@ def test_each_claim_can_be_broken_and_no_other_breaks_with_it(
             (
                 ("device1", "shear", "change_of_strain"),
                 [1, 2, 3, 1, 3.5, 3.5 + step, 1, 4, 6],
-                ("Device 1: the change of strain rises with phase", "Device 1: leaving out shear turns"),
+                ("Device 1: the change of strain rises with phase", "Device 1: leaving out shear reverses"),
             )
             for step in (0.0009, -0.0009)
         ),
@@ -185,7 +185,7 @@ def test_each_claim_can_be_broken_and_no_other_breaks_with_it(
         (
             ("device1", "frictionless", "change_of_strain"),
             [1, 2, 3, 1, 3, 3.0004, 1, 4, 5],
-            "Device 1: leaving out shear turns",
+            "Device 1: leaving out shear reverses",
         ),
         (
             ("device1", "frictionless", "change_of_strain"),
@@ -227,7 +227,7 @@ def test_evidence_from_ratings_says_ordinal_surrogate() -> None:
         assert "ordinal surrogate" in evidence
         assert "R²" in evidence
     assert "negative slope, R² 1," in evidence_of(table, "Device 3: the strain")
-    assert "R² 0.75 to 1 over all with the stated order" in evidence_of(table, "Device 3: the strain")
+    assert "R² 0.75 to 1 over all ratings with the stated order" in evidence_of(table, "Device 3: the strain")
 
 
 @pytest.mark.parametrize(

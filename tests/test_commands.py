@@ -41,12 +41,12 @@ from fingerpad.prediction.caveats import (
     MANY_CUTS,
     MANY_SEARCHES,
     noted_rows,
-    score_caveats,
     solution_caveats,
     stimulus_caveats,
 )
 from fingerpad.prediction.forecast import LEFT_OUT, SILENT, forecast, steps
 from fingerpad.prediction.orders import orders
+from fingerpad.prediction.ranking import RANKS, ranks
 from fingerpad.prediction.scoring import Condensed, Meshed, read_out
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.contact_law import Criterion, Interface
@@ -68,9 +68,14 @@ CONFIG = ROOT / "config" / "config.yaml"
 MEASURED = re.sub("^#", "", DRIVES[DRIVES.index("#stimulus") : DRIVES.rindex("# -")], flags=re.MULTILINE)
 SHIPPED = ("device1", "device2", "device3")
 
+TOO_DEEP = """
+contact:
+  criterion: {value: depth, unit: "1", source: "assumption: as deep as is asked"}
+  depth: {value: 6.0, unit: mm, source: "assumption: the pad is 5 mm thick"}
+"""
 
 # columns of predictions behind those of scores.csv
-BEHIND = ("rank", "indentation_mm", "force_N_per_mm", "sliding_share", "caveats")
+BEHIND = (*RANKS, "indentation_mm", "force_N_per_mm", "sliding_share", "caveats")
 
 
 @pytest.fixture
@@ -396,20 +401,6 @@ ROW = {
 }
 
 
-def test_scores_closer_than_their_errors_are_told() -> None:
-    rows = [
-        ROW | {"condition": name, "score": score, "score_error": 0.01}
-        for name, score in (("a", 1.0), ("b", 1.005), ("c", 2.0), ("same", 2.0))
-    ]
-    assert score_caveats(rows) == [
-        ["errors are larger than the difference to b"],
-        ["errors are larger than the difference to a"],
-        [],
-        [],
-    ]
-    assert score_caveats([row | {"score_error": None} for row in rows]) == [[], [], [], []]
-
-
 def test_caveats_of_a_solution() -> None:
     solution = solved("device2", "alternate_090", Interface.SHEAR)
     assert solution_caveats(scene("device2"), solution) == []
@@ -447,13 +438,14 @@ def test_phases_as_of_radians_are_doubted(phase: float, doubted: bool) -> None:
 def test_actuators_that_press_nothing_are_told_by_their_number() -> None:
     """From the beginning, or from some time on."""
     given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
-    idle = replace(solution, pressing=solution.pressing * [0.0, 1.0, 1.0, 1.0])
+    bears = np.array([0.0, 1.0, 1.0, 1.0])[:, None]
+    idle = replace(solution, actuator_force=solution.actuator_force * bears)
     assert solution_caveats(given, idle) == [
         "actuators without force after pre-indentation, counted from the left: 1",
     ]
-    left = solution.pressing.copy()
+    left = solution.actuator_force.copy()
     left[-1, [1, 3]] = 0.0
-    (caveat,) = solution_caveats(given, replace(solution, pressing=left))
+    (caveat,) = solution_caveats(given, replace(solution, actuator_force=left))
     assert caveat.startswith("actuators that leave the skin, counted from the left: 2, 4; ")
 
 
@@ -645,10 +637,10 @@ def test_all_stimuli_of_a_device_set_out_from_one_force() -> None:
 def quick(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
     """Rows that `predict` prints, without solving for them."""
     rows = [
-        ROW | {"condition": "a", "score": 0.12345678, "score_error": 1e-4, "rank": 1, "caveats": ["doubtful", "odd"]},
-        ROW | {"condition": "bb", "score": None, "score_error": None, "note": "no prediction", "rank": None}
-        | {"caveats": []},
-    ]  # fmt: skip
+        ROW | {"condition": "a", "score": 0.12345678, "score_error": 1e-4, "caveats": ["doubtful", "odd"]},
+        ROW | {"condition": "bb", "score": None, "score_error": None, "note": "no prediction", "caveats": []},
+    ]
+    rows = [row | rank for row, rank in zip(rows, ranks(rows), strict=True)]
     monkeypatch.setattr(predicting, "forecast", lambda *given: rows)
     return rows
 
@@ -689,10 +681,12 @@ def test_ranks_that_errors_leave_open_are_ranges() -> None:
     """Three scores, of which two are closer than their errors; equal ones share a rank, unknown errors leave it."""
     scores = {"a": (1.0, 0.1), "b": (1.1, 0.1), "c": (2.0, 0.1), "same": (2.0, 0.1), "unknown": (1.05, None)}
     rows = [
-        ROW | {"condition": name, "score": score, "score_error": error, "rank": rank, "caveats": []}
-        for (name, (score, error)), rank in zip(scores.items(), (5, 3, 1, 1, 4), strict=True)
+        ROW | {"condition": name, "score": score, "score_error": error, "caveats": []}
+        for name, (score, error) in scores.items()
     ]
-    printed = as_table(scene("device2"), rows).splitlines()[-5:]
+    found = ranks(rows)
+    assert [each["rank"] for each in found] == [5, 3, 1, 1, 4]
+    printed = as_table(scene("device2"), [row | rank for row, rank in zip(rows, found, strict=True)]).splitlines()[-5:]
     assert [line.split()[-1] for line in printed] == ["3-4", "3-4", "1", "1", "4"]
 
 
@@ -700,7 +694,7 @@ def test_caveats_that_differ_in_a_share_are_told_as_one() -> None:
     said = {"a": ["pressed 44% deep", "odd"], "b": ["pressed 9% deep"], "c": ["pressed 9% of 20% deep"]}
     said |= {"d": ["pressed 44% deep"]}
     rows = [
-        ROW | {"condition": name, "score": 1.0, "score_error": None, "rank": 1, "caveats": own}
+        ROW | {"condition": name, "score": 1.0, "score_error": None, "caveats": own} | dict.fromkeys(RANKS, 1)
         for name, own in said.items()
     ]
     assert as_table(scene("device2"), rows).splitlines()[-3:] == [
@@ -846,7 +840,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
     assert said.startswith(
         "Device 2: lateral pins (device2), small strain: 2 assumptions varied, one at a time\n"
         "orders that hold wherever there is a prediction: 0 of 3\n\nshear, strain\n"
-        "  alternate_000 < alternate_090 holds in 0 of 1; turned with contact.friction 0.3;"
+        "  alternate_000 < alternate_090 holds in 0 of 1; reversed with contact.friction 0.3;"
         " no prediction with stimulus.half_cycle second\n"
     )
     assert "\ncaveat: all conditions (shear, strain): deep\n" in said and "close" not in said
@@ -1101,11 +1095,11 @@ def test_values_of_a_key_that_is_given_twice_are_all_taken() -> None:
     assert variations(asked) == [{"contact.friction": 0.3}, {"contact.friction": 0.6}]
 
 
-def test_scores_of_other_cases_are_not_close() -> None:
+def test_scores_of_other_cases_have_ranks_of_their_own() -> None:
     one = ROW | {"condition": "a", "score": 1.0, "score_error": 0.01}
     near = one | {"condition": "b", "score": 1.005}
     others = [near | {key: "other"} for key in ("kinematics", "device", "interface", "readout")]
-    assert score_caveats([one, *others]) == [[]] * 5
+    assert ranks([one, *others]) == [dict.fromkeys(RANKS, 1)] * 5
 
 
 def test_what_shipped_devices_do_is_no_caveat() -> None:
@@ -1267,6 +1261,24 @@ def test_a_vibration_without_a_prediction_is_a_dash_and_its_note_is_told_once() 
         *cells,
         "a (shear): no prediction: why",
     ]
+
+
+def test_forces_are_a_table_for_programs(coarse: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["forces", "--no-error", "--csv", "config/devices/device3.yaml"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert len(rows) == 3 * 2 * 4  # conditions, times, actuators
+    assert all(float(row["normal"]) > 0.0 and row["error"] == "" for row in rows)
+    assert main(["forces", "--no-error", "--json", "config/devices/device3.yaml"]) == 0
+    assert [row["actuator"] for row in json.loads(capsys.readouterr().out)] == [int(row["actuator"]) for row in rows]
+
+
+def test_forces_of_what_cannot_be_pressed_are_an_error(coarse: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Project(coarse).edit("config/devices/device3.yaml", lambda text: text + TOO_DEEP)
+    assert main(["forces", "config/devices/device3.yaml"]) == UNSOLVED
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert "nothing could be solved: no prediction: " in captured.err
+    assert "did not reach a depth of 6 mm" in captured.err
 
 
 def test_a_single_file_holds_the_end_of_the_stimulus(coarse: Path) -> None:

@@ -251,7 +251,7 @@ def test_orders_hold_are_open_turn_or_are_lost() -> None:
     assert (first.low, first.high, first.holds) == ("a", "b", ("like", "near", "turns", "none"))
     assert (outer.low, outer.high, outer.holds) == ("a", "c", ("like", "near", "turns"))
     assert (last.low, last.high) == ("b", "c")
-    assert (last.holds, last.open, last.turned, last.lost) == (("like",), ("near",), ("turns",), ("none",))
+    assert (last.holds, last.open, last.reversed, last.lost) == (("like",), ("near",), ("turns",), ("none",))
     assert (first.scored, last.scored) == (4, 3)
     assert [(each.low, each.high) for each in orders_held(configured, {"like": configured})] == [("a", "b"), ("b", "c")]
     assert reasons(configured, members["none"]) == ["lost"]
@@ -285,11 +285,11 @@ def test_an_order_without_a_prediction_is_not_certain() -> None:
     assert all(each.is_certain for each in orders_held(configured, {"like": configured}))
 
 
-def test_a_score_of_nothing_keeps_its_error() -> None:
+def test_a_score_of_nothing_keeps_its_error_as_long_as_it_is_nothing() -> None:
+    """As that of a condition that moves nothing; of another score no error is known."""
     configured = table_of(a=0.0, b=2.0)
-    configured[0]["score_error"] = 0.5
-    (found,) = orders_held(configured, {"near": table_of(a=1.6, b=2.0)})
-    assert found.open == ("near",)
+    (found,) = orders_held(configured, {"like": table_of(a=0.0, b=3.0), "more": table_of(a=0.1, b=2.0)})
+    assert (found.holds, found.open) == (("like",), ("more",))
 
 
 def test_members_leave_out_kinematics_that_a_device_does() -> None:

@@ -525,7 +525,7 @@ def test_receptor_figure_explains_what_is_drawn_and_says_what_is_not() -> None:
 @pytest.mark.parametrize("device", [PHASED, UNRATED])
 def test_workflow_figure_goes_from_strain_to_score(device: Device) -> None:
     shear = SCORES[(SCORES["device"] == device.name) & (SCORES["interface"] == "shear")]
-    figure = workflow_figure(make_readouts(device), MODEL.gabor, MODEL.readout, shear)
+    figure = workflow_figure(Scene(MODEL, device), make_readouts(device), shear)
     require_legible(figure)
     assert [label for _, label in axis_labels(figure)] == [
         "Strain (%)",
@@ -579,7 +579,7 @@ def test_names_of_many_conditions_are_legible(count: int, alike: bool) -> None:
     correlations = correlation_table(scores, RATINGS[:0], ORDER, PUBLISHED[:0])
     ablation = ablation_figure(scores, correlations, {device.name: device.title}, Kinematics.SMALL, False)
     ranks = correlation_figure(scores, RATINGS[:0], correlations, {device.name: device.title}, Kinematics.SMALL)
-    way = workflow_figure(make_readouts(device), MODEL.gabor, MODEL.readout, scores[scores["interface"] == "shear"])
+    way = workflow_figure(Scene(MODEL, device), make_readouts(device), scores[scores["interface"] == "shear"])
     for figure in (ablation, way) if alike and count > 3 else (ablation, ranks, way):
         require_legible(figure)
         assert all(axes.get_position().height > 0.07 for axes in figure.axes)
@@ -609,7 +609,7 @@ def titled(title: str, section: SectionMesh, correlations: pd.DataFrame) -> list
         kinematics_figure(SCORES, curves, titles),
         receptor_figure(entries, Kinematics.SMALL),
         section_figure(MODEL, section, devices),
-        workflow_figure(entries[0], MODEL.gabor, MODEL.readout, shear),
+        workflow_figure(Scene(MODEL, entries[0].device), entries[0], shear),
     ]
 
 
@@ -714,7 +714,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         indented_actuator=row.nearest(contact.position[:, 0]),
         force=none,
         contact=none,
-        pressing=none,
+        actuator_force=none,
         arc=none,
         reading=Reading(time=0, strain=none, change_of_strain=none, rival_peak=0.0),
         pressure=traction,
@@ -806,7 +806,7 @@ def test_workflow_curves_and_errors_are_in_the_units_of_their_axes(device: Devic
     """Strain in per cent; filtered it is in mm, its change in thousandths of that, and so are scores and errors."""
     own = make_readouts(device)
     shear = SCORES[(SCORES["device"] == device.name) & (SCORES["interface"] == "shear")]
-    panels = workflow_figure(own, MODEL.gabor, MODEL.readout, shear).axes
+    panels = workflow_figure(Scene(MODEL, device), own, shear).axes
     found = own.readouts[device.conditions[0].name]
     for row, readout, factor in zip((panels[:3], panels[3:]), Readout, (1.0, 1e3), strict=True):
         read = (100.0 * found.unfiltered(readout), factor * found.filtered(readout))

@@ -12,10 +12,8 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 from skfem import MeshTri2
 
-from ..prediction.scoring import Condensed
-from ..readouts.resampling import resampling_to_grid
+from ..prediction.scoring import Condensed, condensed_of
 from ..scene.scene import Scene
-from ..tissue.actuator_body import body_of
 from ..tissue.condensation import condense_parts, section_stiffness
 from ..tissue.halves import right_half
 from ..tissue.mesh import SectionMesh
@@ -38,7 +36,7 @@ def condense_first_order(scene: Scene, mesh: SectionMesh) -> Condensed:
         loads=[csc_matrix(nodal.T @ loads) for loads in parts.loads],
     )
     section = condense_parts(mesh, scene, tractions, first, csc_matrix(nodal.T @ matrix @ nodal), nodal)
-    return Condensed(section, body_of(scene), resampling_to_grid(section.arc, scene.model.gabor.spacing))
+    return condensed_of(scene, section)
 
 
 def _linear(mesh: MeshTri2, dofs: np.ndarray) -> csr_matrix:

@@ -11,7 +11,14 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact.formulation import ContactProblem, rest, switch_friction, touching_height
+from ..contact.formulation import (
+    ContactProblem,
+    ContactState,
+    actuator_force,
+    rest,
+    switch_friction,
+    touching_height,
+)
 from ..contact.path import follow
 from ..contact.problem import contact_problem
 from ..errors import CalculixError
@@ -150,11 +157,12 @@ def fingerpad_outcome(
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(section, settings)))
     if contact is ContactModel.TURNING:
-        forces = _turning_forces(problem, section.weight, condition, settings)
+        turned = _turning_states(problem, section.weight, condition, settings)
+        ends = [(state.force, problem.actuator_of) for state in turned]
     else:
-        forces = _own_forces(problem, condition, settings)
-    strains = [section.strain @ force.ravel() for force in forces]
-    return outcome_of(scene, section.arc, strains, actuator_forces(problem, forces))
+        ends = [(state.force, state.given) for state in _own_states(problem, condition, settings)]
+    strains = [section.strain @ force.ravel() for force, _ in ends]
+    return outcome_of(scene, section.arc, strains, np.array([actuator_force(problem, *end) for end in ends]))
 
 
 def differences(found: Outcome, reference: Outcome) -> dict[str, float]:
@@ -183,36 +191,33 @@ def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
     return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())
 
 
-def _own_forces(problem: ContactProblem, condition: Condition, settings: DeckSettings) -> tuple[FloatArray, FloatArray]:
-    """Forces (n, 2) [N/mm] after pre-indentation and at the stimulus's end, by fingerpad's own law of contact."""
+def _own_states(
+    problem: ContactProblem, condition: Condition, settings: DeckSettings
+) -> tuple[ContactState, ContactState]:
+    """States after pre-indentation and at the stimulus's end, by fingerpad's own law of contact."""
     indented, *stimulus = targets(condition, settings)
     first = replace(problem, friction=settings.friction_indenting)
     before = follow(first, rest(first, touching_height(first)), indented, INDENTATION_INCREMENTS)
     state = switch_friction(before) if settings.friction_acting > settings.friction_indenting else before
     for target in stimulus:
         state = follow(problem, state, target, STIMULUS_INCREMENTS)
-    return before.force, state.force
+    return before, state
 
 
-def _turning_forces(
+def _turning_states(
     problem: ContactProblem, weight: FloatArray, condition: Condition, settings: DeckSettings
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[PenaltyState, PenaltyState]:
     """The same by the penalty law. weight: (n,) length of skin of each node [mm]."""
     indented, *stimulus = targets(condition, settings)
     law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting, slides_open=True)
     first = replace(law, friction=settings.friction_indenting)
     # in the deck's increments, which decide how much of what slides before it touches bears friction
-    before = follow_penalties(problem, weight, first, untouched(problem), indented, settings.indentation_increments)
-    state: PenaltyState = before
+    state = before = follow_penalties(
+        problem, weight, first, untouched(problem), indented, settings.indentation_increments
+    )
     for target in stimulus:
         state = follow_penalties(problem, weight, law, state, target, settings.stimulus_increments)
-    return before.force, state.force
-
-
-def actuator_forces(problem: ContactProblem, forces: Sequence[FloatArray]) -> FloatArray:
-    """Forces (k, n_actuators, 2) [N/mm] of the actuators from those of the nodes, k times (n, 2)."""
-    owner, count = problem.actuator_of, len(problem.row.positions)
-    return np.array([[force[owner == number].sum(axis=0) for number in range(count)] for force in forces])
+    return before, state
 
 
 def outcome_of(scene: Scene, arc: FloatArray, components: Sequence[FloatArray], force: FloatArray) -> Outcome:

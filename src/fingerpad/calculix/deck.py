@@ -197,7 +197,7 @@ def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, mater
         kind="CPE6",
         node=node,
         element=element_nodes(mesh),
-        touching=sides_of(mesh, boundary_facets(mesh, np.flatnonzero(outer))),
+        touching=_sides_of(mesh, boundary_facets(mesh, np.flatnonzero(outer))),
         driven=np.flatnonzero(y == y.min()),
         material=material,
     )
@@ -210,7 +210,7 @@ def boundary_facets(mesh: MeshTri2, nodes: np.ndarray) -> np.ndarray:
     return np.asarray(facets[whole])
 
 
-def sides_of(mesh: MeshTri2, facets: np.ndarray) -> list[tuple[int, int]]:
+def _sides_of(mesh: MeshTri2, facets: np.ndarray) -> list[tuple[int, int]]:
     """Element and side (1-3) of every boundary facet (k,)."""
     elements = mesh.f2t[0, facets]
     sides = np.argmax(element_nodes(mesh)[elements, 3:] == (mesh.nvertices + facets)[:, None], axis=1) + 1
@@ -259,7 +259,7 @@ def _finger(scene: Scene, section: SectionMesh) -> list[str]:
     nearest = scene.device.actuators.nearest(section.mesh.doflocs[0, section.mesh.nvertices + near])  # by their middles
     for number in range(len(scene.device.actuators.positions)):
         lines.append(f"** skin that actuator {number + 1} may touch")
-        lines += _surface(_skin_name(number), sides_of(section.mesh, near[nearest == number]), 0)
+        lines += _surface(_skin_name(number), _sides_of(section.mesh, near[nearest == number]), 0)
     return lines
 
 

@@ -17,6 +17,7 @@ from ..scene.finger import Material
 from ..tissue.compliance import MIRROR
 from ..tissue.condensation import condense
 from ..tissue.elasticity import displacement_basis, node_dofs, stiffness, unit_loads
+from ..tissue.mesh import SIZE_SLACK
 from ..tissue.traction import linear_tractions
 
 TOLERANCE = 1e-10  # of the contact equations [1]; source: far below any error that is measured
@@ -29,7 +30,6 @@ HALF_WIDTH = 1.0  # of contact on a half-plane [mm]
 FAR = 4096.0 * HALF_WIDTH  # to a half-plane's boundary [mm]; a power of two, so that halving meets the contact's edge
 REACH = 1.125 * HALF_WIDTH  # of contact nodes [mm]; source: contact ends at its half-width
 DIAGONAL = np.sqrt(2.0)  # longest edge of a triangle over its legs [1]
-SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def block_mesh(x: FloatArray, y: FloatArray) -> MeshTri2:
     return _mirrored(MeshTri.init_tensor(x, y))
 
 
-def half_plane_mesh(spacing: float, edge_spacing: float) -> MeshTri2:
+def _half_plane_mesh(spacing: float, edge_spacing: float) -> MeshTri2:
     """Mesh of a half-plane: a block so large that its boundary does not matter.
 
     Elements on the face are at most `spacing` [mm] long in contact and at most `edge_spacing` at its edges,
@@ -70,7 +70,7 @@ def refined_block(x: FloatArray, y: FloatArray, size: Callable[[FloatArray, Floa
     while True:
         corners = half.p[:, half.t]
         longest = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
-        marked = np.flatnonzero(longest > DIAGONAL * size(*corners.mean(axis=1)) * (1.0 + SLACK))
+        marked = np.flatnonzero(longest > DIAGONAL * size(*corners.mean(axis=1)) * (1.0 + SIZE_SLACK))
         if marked.size == 0:
             return _mirrored(half)
         half = half.refined(marked)
@@ -114,7 +114,7 @@ def block_contact(
 
 def half_plane(spacing: float, edge_spacing: float, poisson: float, row: ActuatorRow, friction: float) -> Block:
     """Contact problem of a half-plane of modulus 1 MPa, touched over about 2 HALF_WIDTH."""
-    return block_contact(half_plane_mesh(spacing, edge_spacing), Material(1.0, poisson), row, friction, REACH)
+    return block_contact(_half_plane_mesh(spacing, edge_spacing), Material(1.0, poisson), row, friction, REACH)
 
 
 def face_means(block: Block, traction: FloatArray) -> tuple[FloatArray, FloatArray]:

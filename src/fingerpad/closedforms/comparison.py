@@ -91,3 +91,13 @@ def on_two_meshes(
     coarse, fine = (case(each) for each in divisions)
     held = [replace(row, tolerance=tolerance) for row in fine]
     return [*coarse, *held, *orders(coarse, fine, divisions[1] / divisions[0], wanted, shortfall)]
+
+
+def on_spacings(
+    case: Callable[[float], list[Comparison]], spacings: Iterable[float], shortfall: float
+) -> list[Comparison]:
+    """A case on ever finer meshes, with no tolerance but for the ORDERS with which errors fall on the last two."""
+    found = [case(spacing) for spacing in spacings]
+    coarse, fine = found[-2:]
+    finer = float(np.sqrt(fine[0].unknowns / coarse[0].unknowns))  # times smaller elements, on the whole
+    return [row for mesh in found for row in mesh] + orders(coarse, fine, finer, ORDERS, shortfall)

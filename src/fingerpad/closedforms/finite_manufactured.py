@@ -9,6 +9,8 @@ wrinkle under a few per cent of compression, and next to that no solution is wel
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from skfem import Basis, ElementTriP2, ElementVector, LinearForm
 from skfem.helpers import ddot, grad
@@ -18,10 +20,10 @@ from ..finite.hyperelasticity import tissue_of
 from ..scene.scene import Scene
 from ..tissue.elasticity import displacement_basis, node_dofs
 from ..tissue.mesh import mesh_section, nominal_edges
-from .comparison import ORDERS, Comparison, compare, orders
+from .comparison import Comparison, compare, on_spacings
 from .energy import first_stress
 from .equilibrium import equilibrium
-from .manufactured import EXACT_ORDER, SHORTFALL, SPACINGS, displacement, finer, gradient, uniform
+from .manufactured import EXACT_ORDER, SHORTFALL, SPACINGS, displacement, gradient, uniform
 
 EXPANSION = 0.15  # s [1]; source: above the compression that w brings about
 WAVES = 5.0  # w over the displacement of `manufactured` [1]: its gradients reach 0.1
@@ -32,9 +34,7 @@ CASE = "Finite manufactured"
 
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
-    found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    coarse, fine = found[-2:]
-    return [row for mesh in found for row in mesh] + orders(coarse, fine, finer(coarse, fine), ORDERS, SHORTFALL)
+    return on_spacings(partial(manufactured, scene), SPACINGS, SHORTFALL)
 
 
 def large_displacement(place: FloatArray) -> FloatArray:

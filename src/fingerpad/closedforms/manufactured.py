@@ -7,6 +7,7 @@ all layers: the body force and the jumps of traction at interfaces and faces tha
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from skfem import Basis, ElementTriP2, ElementVector, LinearForm
@@ -17,7 +18,7 @@ from ..scene.scene import Scene
 from ..tissue.condensation import section_stiffness
 from ..tissue.elasticity import lame
 from ..tissue.mesh import mesh_section, nominal_edges
-from .comparison import ORDERS, Comparison, compare, orders
+from .comparison import Comparison, compare, on_spacings
 from .equilibrium import linear_equilibrium
 
 WAVE = 0.6  # of the exact displacement [1/mm]; source: a period is two thirds of the section's width
@@ -42,14 +43,7 @@ def gradient(x: FloatArray, y: FloatArray) -> FloatArray:
 
 def rows(scene: Scene) -> list[Comparison]:
     """Errors on ever finer meshes of the scene's section, and the orders with which they fall."""
-    found = [manufactured(scene, spacing) for spacing in SPACINGS]
-    coarse, fine = found[-2:]
-    return [row for mesh in found for row in mesh] + orders(coarse, fine, finer(coarse, fine), ORDERS, SHORTFALL)
-
-
-def finer(coarse: list[Comparison], fine: list[Comparison]) -> float:
-    """How many times smaller elements are [1], on the whole."""
-    return float(np.sqrt(fine[0].unknowns / coarse[0].unknowns))
+    return on_spacings(partial(manufactured, scene), SPACINGS, SHORTFALL)
 
 
 def manufactured(scene: Scene, spacing: float) -> list[Comparison]:

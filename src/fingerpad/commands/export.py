@@ -10,15 +10,18 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from ..calculix.deck import DeckSettings, input_deck, kinematics_told
-from ..errors import UsageError
-from ..files import require_folder, write_text
+from ..files import write_text
 from ..finite.pressing import indented_height
 from ..prediction.edges import mesh_device
 from ..scene.contact_law import Interface
-from .options import add_case_options, add_scene_options, checked_case
+from .options import add_case_options, add_scene_options, checked_case, writable
 
 DECK = ".inp"
 STEPS = 2  # of the progress: mesh, pre-indentation
+# MPa/mm of pressure over penetration, of shear over elastic slip; source: CalculiX does not settle on stiffer ones
+PRESSURE_SLOPE, STICK_SLOPE = 500.0, 100.0
+# Increments [1] of pre-indentation, of each time of the stimulus, and at rest after it; source: docs/calculix.md
+INDENTING, ACTING, RESTING = 20, 4, 3
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
 as deep as fingerpad's own. With finite kinematics, what is printed says for which of the two programs a law is meant.
@@ -43,14 +46,14 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="when friction begins to act; 'stimulus' indents without it and converges better (default: %(default)s)",
     )
     for flag, default, what in (
-        ("--pressure-slope", 500.0, "pressure over penetration [MPa/mm]"),
-        ("--stick-slope", 100.0, "shear over elastic slip [MPa/mm]"),
+        ("--pressure-slope", PRESSURE_SLOPE, "pressure over penetration [MPa/mm]"),
+        ("--stick-slope", STICK_SLOPE, "shear over elastic slip [MPa/mm]"),
     ):
         parser.add_argument(flag, type=float, default=default, metavar="NUMBER", help=f"{what} (default: %(default)g)")
     for flag, increments, what in (
-        ("--indentation-increments", 20, "of pre-indentation"),
-        ("--stimulus-increments", 4, "of each time of the stimulus"),
-        ("--rest-increments", 3, "at rest after each of them"),
+        ("--indentation-increments", INDENTING, "of pre-indentation"),
+        ("--stimulus-increments", ACTING, "of each time of the stimulus"),
+        ("--rest-increments", RESTING, "at rest after each of them"),
     ):
         parser.add_argument(
             flag, type=int, default=increments, metavar="N", help=f"increments {what} (default: %(default)d)"
@@ -61,9 +64,7 @@ def run(options: argparse.Namespace) -> None:
     """Mesh the scene, find how deep it is indented, and write the deck. Raises UsageError for a deck of another ending
     than DECK.
     """
-    if options.output.suffix != DECK:
-        raise UsageError(f"{options.output}: found the ending '{options.output.suffix}'; allowed: {DECK}")
-    require_folder(options.output)
+    output = writable(options.output, [DECK])
     scene, condition, touching = checked_case(options)
     acting = scene.model.contact.coefficient(touching)
     indenting = acting if options.friction_from == "indentation" else 0.0
@@ -84,5 +85,5 @@ def run(options: argparse.Namespace) -> None:
         bar.update()
         settings = replace(settings, indentation=indented_height(scene, section, interface))
         bar.update()
-    write_text(options.output, input_deck(scene, section, condition, settings))
-    print(f"written: {options.output}. {kinematics_told(scene.model.tissue)}")
+    write_text(output, input_deck(scene, section, condition, settings))
+    print(f"written: {output}. {kinematics_told(scene.model.tissue)}")

@@ -13,7 +13,7 @@ from ..fields.states import solved_states
 from ..fields.vtu import field_meshes, write_path, write_vtu
 from ..files import require_folder
 from ..prediction.edges import mesh_device
-from .options import add_case_options, add_scene_options, checked_case
+from .options import add_case_options, add_scene_options, checked_case, writable
 
 STEPS = 4  # of the progress: mesh, solution, fields, files
 ENDINGS = (".vtu", ".pvd")
@@ -44,10 +44,7 @@ def run(options: argparse.Namespace) -> None:
     """Solve the condition, and write what it does to the section. Raises UsageError for an output of another kind than
     ENDINGS or a path whose folder is a file, and what `checked_case`, `mesh_device` and `solved_states` raise.
     """
-    output = options.output
-    if output.suffix not in ENDINGS:
-        raise UsageError(f"{output}: found the ending '{output.suffix}'; allowed: {', '.join(ENDINGS)}")
-    require_folder(output)
+    output = writable(options.output, ENDINGS)
     folder, last = output.with_suffix(""), output.with_suffix(".vtu")
     if output.suffix == ".pvd":
         require_folder(last)

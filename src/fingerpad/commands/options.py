@@ -24,7 +24,7 @@ from ..scene.validation import check_device
 from ..scene.variation import NO_VALUES, variants
 
 PICTURES = (".png", ".pdf", ".svg")
-CUT_NUMBER = re.compile(r"(?<![\w.])0\d+")  # what a decimal comma leaves of a number
+CUT_NUMBER = re.compile(r",\s*(0\d+)\s*(?=[,\]]|$)")  # what a decimal comma leaves of a number
 VARIATION = "KEY=VALUE or KEY=VALUE,VALUE, such as contact.friction=0.3,0.6, with a list in brackets"
 
 
@@ -80,8 +80,9 @@ def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str
 
     Raises SceneError, and UsageError without a checkout.
     """
-    config, schemas = model_for(device, options.config), schemas_for(options.schemas)
-    return check_device(existing_file(device), schemas, config, values)
+    found = existing_file(device)
+    config, schemas = model_for(found, options.config), schemas_for(options.schemas)
+    return check_device(found, schemas, config, values)
 
 
 def add_picture(parser: argparse.ArgumentParser, what: str) -> None:
@@ -95,12 +96,29 @@ def picture_of(options: argparse.Namespace) -> Path | None:
     """The picture that the options ask for. Raises UsageError for a kind that cannot be drawn, and an OSError as
     `require_folder`.
     """
-    picture: Path | None = options.output
-    if picture is not None and picture.suffix not in PICTURES:
-        raise UsageError(f"{picture}: found the ending '{picture.suffix}'; allowed: {', '.join(PICTURES)}")
-    if picture is not None:
-        require_folder(picture)
-    return picture
+    return None if options.output is None else writable(options.output, PICTURES)
+
+
+def writable(output: Path, endings: Sequence[str]) -> Path:
+    """That file, if it can be written. Raises UsageError unless it has one of the endings, and an OSError as
+    `require_folder`.
+    """
+    if output.suffix not in endings:
+        raise UsageError(f"{output}: found the ending '{output.suffix}'; allowed: {', '.join(endings)}")
+    require_folder(output)
+    return output
+
+
+def add_forms(parser: argparse.ArgumentParser, as_json: str, as_csv: str) -> None:
+    """The forms for programs, in place of text for people; what each holds."""
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--json", action="store_true", help=f"print {as_json}")
+    how.add_argument("--csv", action="store_true", help=f"print {as_csv}")
+
+
+def add_no_error(parser: argparse.ArgumentParser) -> None:
+    """The option not to estimate errors."""
+    parser.add_argument("--no-error", action="store_true", help="skip the coarser solution and the errors")
 
 
 def add_variation(parser: argparse.ArgumentParser) -> None:
@@ -121,7 +139,7 @@ def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
     for entry in options.vary:
         key, _, text = entry.partition("=")
         if cut := CUT_NUMBER.search(text):
-            raise UsageError(f"--vary: found '{cut[0]}' in '{entry}'; allowed: numbers with a point, as 0.{cut[0]}")
+            raise UsageError(f"--vary: found '{cut[1]}' in '{entry}'; allowed: numbers with a point, as 0.{cut[1]}")
         values = read_values(text)
         if not (key.strip() and values):
             raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")

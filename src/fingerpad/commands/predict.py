@@ -13,15 +13,17 @@ from tqdm import tqdm
 
 from ..checkout import model_for
 from ..csvrows import listed
-from ..errors import ContactError, UsageError
+from ..errors import UsageError
 from ..prediction.forecast import forecast, steps
 from ..prediction.orders import orders
+from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..scene.variation import unit_of
-from ..store import csv_text
 from .options import (
+    add_forms,
     add_kinematics,
+    add_no_error,
     add_picture,
     add_scene_options,
     add_variation,
@@ -30,13 +32,13 @@ from .options import (
     require_effect,
     variations,
 )
-from .score_table import as_table, named
+from .score_table import as_csv, as_table, named, require_scores
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
 discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
-read-out; where errors leave it open, both ends stand there (1-3). Below the table stands what to know before believing
-it.
+read-out; where errors leave it open, both ends stand there (1-3). Below the table stands what else to know before
+believing it.
 
 examples:
   fingerpad predict config/devices/device2.yaml
@@ -53,10 +55,8 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=run)
     parser.description = DESCRIPTION
     parser.add_argument("devices", type=Path, nargs="+", metavar="FILE", help="device, as in config/devices")
-    how = parser.add_mutually_exclusive_group()
-    how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
-    how.add_argument("--csv", action="store_true", help="print the columns of results/scores.csv, rank and caveats")
-    parser.add_argument("--no-error", action="store_true", help="skip the coarser solution and the errors")
+    add_forms(parser, "a list of objects, one a score", "the columns of results/scores.csv, ranks and caveats")
+    add_no_error(parser)
     add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
     add_variation(parser)
     add_picture(parser, "draw the scores against the values of the key that --vary gives several")
@@ -91,8 +91,7 @@ def run(options: argparse.Namespace) -> None:
                     predictions.append(predicted)
                     found = [values | row for row in predicted]
                     if options.csv:
-                        told = [{**row, "caveats": "; ".join(row["caveats"])} for row in found]
-                        bar.write(csv_text(told, header=not rows), end="")
+                        bar.write(as_csv(found, header=not rows), end="")
                     elif is_text:
                         bar.write(("\n" if rows else "") + as_table(scene, predicted, values))
                     sys.stdout.flush()
@@ -104,18 +103,29 @@ def run(options: argparse.Namespace) -> None:
     finally:
         if options.json:
             print(json.dumps(rows, indent=2))
-    if all(row["score"] is None for row in rows):
-        raise ContactError(f"nothing could be scored: {rows[0]['note']}")
+    require_scores(rows)
     if picture:
-        # what draws takes as long to load as all else
-        from ..figures.style import save_as  # noqa: PLC0415
-        from ..figures.variation import variation_figure  # noqa: PLC0415
-
         files = options.devices[0], model_for(options.devices[0], options.config)
-        unit, drawn = unit_of(key, {file: read_yaml(file) for file in files}), [values[key] for values in varied]
-        save_as(variation_figure(key, unit, drawn, devices[0], predictions), picture)
+        unit = unit_of(key, {file: read_yaml(file) for file in files})
+        _draw(picture, key, unit, [values[key] for values in varied], devices[0], predictions)
         if is_text:
             print(f"drawn: {picture}")
+
+
+def _draw(
+    picture: Path,
+    key: str,
+    unit: str,
+    values: Sequence[Any],
+    scenes: Sequence[Scene],
+    predictions: Sequence[Sequence[Mapping[str, Any]]],
+) -> None:
+    """Draw the scores of scenes against the values [unit] of the key in which these differ."""
+    # what draws takes as long to load as all else
+    from ..figures.style import save_as  # noqa: PLC0415
+    from ..figures.variation import variation_figure  # noqa: PLC0415
+
+    save_as(variation_figure(key, unit, values, scenes, predictions), picture)
 
 
 def _drawn_key(devices: Sequence[Path], varied: Sequence[Mapping[str, Any]]) -> str:

@@ -1,4 +1,4 @@
-"""`fingerpad robustness`: which assumptions the orders of a device's scores hang on."""
+"""`fingerpad robustness`: which assumptions the orders of a device's scores depend on."""
 
 from __future__ import annotations
 
@@ -13,18 +13,17 @@ from tqdm import tqdm
 from ..checkout import find_checkout, model_for
 from ..ensemble.alternatives import AS_CONFIGURED, read_ensemble
 from ..ensemble.robustness import Order, changed, orders_held, reasons, varied_values
-from ..errors import ContactError, SceneError, UsageError
+from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
-from ..store import csv_text
 from .options import add_kinematics, add_scene_options, checked_scene
 from .printing import in_order, titled
-from .score_table import caveat_lines
+from .score_table import as_csv, caveat_lines, require_scores
 
 DESCRIPTION = """\
-Tell which assumptions the orders of a device's scores hang on. What config/ensemble.yaml lists is varied, one at a
+Tell which assumptions the orders of a device's scores depend on. What config/ensemble.yaml lists is varied, one at a
 time: of the model, and of what the device file assumes; the other half of the stimulus' cycle and the other
 kinematics, too.
 An order holds where two scores differ the same way by more than the errors of both. Errors are those that
@@ -65,22 +64,21 @@ def run(options: argparse.Namespace) -> None:
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
         configured = forecast(scene, True, bar.update)
-        if all(row["score"] is None for row in configured):
-            raise ContactError(f"nothing could be scored: {configured[0]['note']}")
+        require_scores(configured)
         if options.csv:
-            bar.write(_as_csv(AS_CONFIGURED, configured, header=True), end="")
+            bar.write(_csv_of(AS_CONFIGURED, configured, header=True), end="")
         tables = {}
         for name, each in varied.items():
             tables[name] = forecast(each, False, bar.update)
             if options.csv:
-                bar.write(_as_csv(name, tables[name], header=False), end="")
+                bar.write(_csv_of(name, tables[name], header=False), end="")
     if not options.csv:
         print("\n".join(_told(scene, configured, tables, refused)))
 
 
-def _as_csv(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
+def _csv_of(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
     """Rows of the score table with the name of what is varied, as CSV."""
-    return csv_text([{"varied": name, **row, "caveats": "; ".join(row["caveats"])} for row in rows], header=header)
+    return as_csv([{"varied": name, **row} for row in rows], header)
 
 
 def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene], dict[str, str]]:
@@ -151,7 +149,7 @@ def _told(
 
 def _as_line(order: Order) -> str:
     """An order, in how many members it holds, and in which not."""
-    kinds = {"open": order.open, "turned": order.turned, "no prediction": order.lost}
+    kinds = {"open": order.open, "reversed": order.reversed, "no prediction": order.lost}
     others = [f"{kind} with {', '.join(names)}" for kind, names in kinds.items() if names]
     held = f"  {order.low} < {order.high} holds in {len(order.holds)} of {order.scored}"
     return "; ".join([held, *others])

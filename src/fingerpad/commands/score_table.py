@@ -7,12 +7,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..prediction.caveats import rank_range
+from ..errors import ContactError
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
+from ..store import csv_text
 from .printing import aligned, in_order, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
@@ -29,8 +30,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     # why there is none is a caveat, as are the notes of scores
     notes = ["" if row["score"] is not None else row["note"].partition(":")[0] for row in ordered]
     told = [
-        {**row, **_score(row), "note": note, "rank": _ranked(row, ordered)}
-        for row, note in zip(ordered, notes, strict=True)
+        {**row, **_score(row), "note": note, "rank": _ranked(row)} for row, note in zip(ordered, notes, strict=True)
     ]
     cells = [[str(row[column]) for column in COLUMNS] for row in told]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
@@ -39,6 +39,17 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     if any(row["score"] is not None for row in rows):
         lines += aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])
     return "\n".join([*lines, *caveat_lines(scene, ordered)])
+
+
+def as_csv(rows: Sequence[Mapping[str, Any]], header: bool) -> str:
+    """Rows of the score table with their caveats, as CSV."""
+    return csv_text([{**row, "caveats": "; ".join(row["caveats"])} for row in rows], header=header)
+
+
+def require_scores(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Raise ContactError, with the first note, if no row has a score."""
+    if all(row["score"] is None for row in rows):
+        raise ContactError(f"nothing could be scored: {rows[0]['note']}")
 
 
 def caveat_lines(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -103,12 +114,12 @@ def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
     )
 
 
-def _ranked(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> str:
+def _ranked(row: Mapping[str, Any]) -> str:
     """The rank of a row's score, or the first and the last that errors leave it; nothing without a score."""
     if row["rank"] is None:
         return ""
-    first, last = rank_range(row, rows)
-    return f"{first}-{last}" if last > first else str(row["rank"])
+    first, last = row["first_rank"], row["last_rank"]
+    return str(row["rank"]) if first == last else f"{first}-{last}"
 
 
 def _score(row: Mapping[str, Any]) -> dict[str, str]:

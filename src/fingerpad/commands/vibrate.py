@@ -20,7 +20,7 @@ from ..scene.scene import Scene
 from ..store import csv_text
 from ..vibration.creep import condense_creep
 from ..vibration.frequency import SLOWLY, Vibrating, condense_vibrating_at, frequency_name, frequency_rows
-from .options import add_scene_options, checked_scene
+from .options import add_forms, add_scene_options, checked_scene
 from .printing import aligned, in_order, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
@@ -46,9 +46,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--frequency", type=hertz, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
     )
-    how = parser.add_mutually_exclusive_group()
-    how.add_argument("--json", action="store_true", help="print a list of objects, one a score")
-    how.add_argument("--csv", action="store_true", help="print the columns of results/frequency.csv")
+    add_forms(parser, "a list of objects, one a score", "the columns of results/frequency.csv")
     add_scene_options(parser)
 
 

@@ -94,8 +94,8 @@ class _States:
 @dataclass(frozen=True)
 class Trial:
     """Displacements (2b,) [mm] of the patch's nodes and the forces (2b,) [N/mm] they take, ordered x0, x1, ..., y0, y1,
-    ...; places (b,), gaps (b,) [mm], slopes (b,) [1] of the profile there. largest: force component [N/mm], or the
-    floor.
+    ...; places (b,), gaps (b,) [mm], slopes (b,) [1] of the profile there; pressing and shearing forces (b,) [N/mm].
+    largest: force component [N/mm], or the floor.
     """
 
     moved: FloatArray

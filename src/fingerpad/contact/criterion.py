@@ -56,7 +56,7 @@ def wanted(law: ContactLaw) -> str:
     return asked.get(law.criterion, f"'{law.criterion}' contact")
 
 
-def lacking(missing: float, law: ContactLaw) -> str:
+def _lacking(missing: float, law: ContactLaw) -> str:
     """In words what is missing."""
     if law.criterion is Criterion.FORCE:
         return f"{missing * law.force:.3g} N/mm short"
@@ -67,10 +67,10 @@ def missed(missing: float, way: float, least: tuple[float, float], law: ContactL
     """In words by how much the criterion was missed at the end of a way [mm] from first touch, and, if that was
     elsewhere, at best: what was missing there, and the way [mm].
     """
-    said = f"{lacking(missing, law)} at {way:.3g} mm"
+    said = f"{_lacking(missing, law)} at {way:.3g} mm"
     if not np.isfinite(least[0]):
         return f"{said}, and all never touched at once"
-    return said if least[1] >= way else f"{said}, at best {lacking(least[0], law)}, at {least[1]:.3g} mm"
+    return said if least[1] >= way else f"{said}, at best {_lacking(least[0], law)}, at {least[1]:.3g} mm"
 
 
 def front(place: FloatArray, height: FloatArray, touched: np.ndarray) -> float:

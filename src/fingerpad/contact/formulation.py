@@ -195,6 +195,15 @@ def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> t
     return shorter * (across + slope * along), shorter * (along - slope * across)
 
 
+def actuator_force(problem: ContactProblem, force: FloatArray, given: np.ndarray) -> FloatArray:
+    """Forces (n_actuators, 2) [N/mm] with which the actuators act on the skin, from those on its nodes (n, 2) and which
+    actuator each node (n,) is given to.
+    """
+    found = np.zeros((len(problem.row.positions), 2))
+    np.add.at(found, given, force)
+    return found
+
+
 def shearing_and_pressing(problem: ContactProblem, states: Sequence[ContactState]) -> FloatArray:
     """Shearing and pressing forces (n_states, n, 2) [N/mm] of several states."""
     found = [resolved(problem, state.force, profile(problem.row, state.place)[1]) for state in states]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -47,15 +48,11 @@ def raise_until(
     """
     touch = float(state.actuator[0, 1])
     carried: Carried | None = None
-    over_face = np.abs(state.place) <= problem.row.half_face
-    rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
-    way = {Criterion.DEPTH: law.depth, Criterion.FORCE: max(rise, SHALLOW * limit)}.get(law.criterion, rise)
-    stride = max(way / increments, END_STEP)
+    stride = max(_way(problem, law, limit, state) / increments, END_STEP)
     missing = missing_of(problem, state, law, touch)
     step = min(stride, missing) if law.criterion in (Criterion.TOUCH, Criterion.DEPTH) else stride  # missing is a way
     least = missing, 0.0  # that was missing, and after which way
-    beyond: tuple[float, float] | None = None  # height at which the faces are more than covered, and what is missing
-    weight = 1.0  # of the side that false position has kept (Illinois variant: halved each time)
+    beyond: _Beyond | None = None
     while missing > END_TOLERANCE:
         here = float(state.actuator[0, 1])
         if touch + limit - here <= LEAST_STEP:
@@ -72,18 +69,46 @@ def raise_until(
         left = missing_of(problem, advanced, law, touch)
         least = min(least, (left, height - touch))
         if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
-            weight = weight / 2.0 if beyond else 1.0
-            beyond = height, left  # too far: again from the same state
+            # too far: again from the same state
+            beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond else 1.0)
         else:
             closed = (missing - left) / step if np.isfinite(missing) else 0.0
             state, missing = advanced, left
-            if beyond and height > beyond[0] - LEAST_STEP:
-                beyond = None  # what lay beyond in one increment does not in many: friction remembers them
             longest = stride * max(1.0, (height - touch) / (FAR * stride * increments))
             step = min(longest, left / closed) if closed > 0.0 else longest
-            weight = 2.0 * weight
+            beyond = beyond.after(height) if beyond else None
         if beyond and missing > 0.0:
-            share = weight * missing / (weight * missing - beyond[1]) if np.isfinite(missing) else 0.5
-            step = (beyond[0] - float(state.actuator[0, 1])) * share
+            step = (beyond.height - float(state.actuator[0, 1])) * beyond.share(missing)
         step = max(step, LEAST_STEP)
     return state
+
+
+@dataclass(frozen=True)
+class _Beyond:
+    """An increment that went too far: the height it ended at [mm], what was missing there, below zero, and how much
+    what is missing before it weighs [1] in false position: half as much with each end that follows on this side, twice
+    with each on the other (Illinois).
+    """
+
+    height: float
+    missing: float
+    weight: float
+
+    def share(self, missing: float) -> float:
+        """Share [1] of the way there from a state in which so much is missing, at which nothing would be."""
+        before = self.weight * missing
+        return before / (before - self.missing) if np.isfinite(missing) else 0.5
+
+    def after(self, height: float) -> _Beyond | None:
+        """Once a height [mm] on this side is reached: none if it was, as what lay beyond in one increment does not in
+        many, which friction remembers.
+        """
+        return None if height > self.height - LEAST_STEP else replace(self, weight=2.0 * self.weight)
+
+
+def _way(problem: ContactProblem, law: ContactLaw, limit: float, state: ContactState) -> float:
+    """The way [mm] that is gone in the increments of pre-indentation, from a state at first touch."""
+    touch = float(state.actuator[0, 1])
+    over_face = np.abs(state.place) <= problem.row.half_face
+    rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
+    return {Criterion.DEPTH: law.depth, Criterion.FORCE: max(rise, SHALLOW * limit)}.get(law.criterion, rise)

@@ -51,7 +51,7 @@ def follow(problem: ContactProblem, state: ContactState, target: FloatArray, inc
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
 
     Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
-    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see increment).
+    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see `active_set`).
     """
     return advance(problem, state, target, increments, None, solve_increment)[0]
 

@@ -13,7 +13,14 @@ from ..readouts.strain import Reading, read_receptors
 from ..tissue.compliance import CondensedSection
 from .certificate import Certificate
 from .depth import depth
-from .formulation import ContactProblem, ContactState, Status, shearing_and_pressing, touching_height
+from .formulation import (
+    ContactProblem,
+    ContactState,
+    Status,
+    actuator_force,
+    shearing_and_pressing,
+    touching_height,
+)
 
 
 @dataclass(frozen=True)
@@ -26,10 +33,10 @@ class Solution:
     nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation; indented_actuator: (n,) index of
     the actuator that each may touch there. force: (n_times, n, 2) [N/mm] at the stimulus's times. contact: (1 +
     n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are `forces` but where the normal turns.
-    pressing: (1 + n_times, n_actuators) forces f_y of actuators [N/mm]. arc: (m,) receptors [mm]. reading: what they
-    say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,) index of the one that a skin node may
-    touch; place: (n,) x of the skin nodes from that actuator's centre [mm]; status: (n,). iterations, cuts, searches:
-    of the whole path. certificate.
+    actuator_force: (1 + n_times, n_actuators, 2) with which actuators act on the skin then [N/mm], x and y. arc: (m,)
+    receptors [mm]. reading: what they say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,)
+    index of the one that a skin node may touch; place: (n,) x of the skin nodes from that actuator's centre [mm];
+    status: (n,). iterations, cuts, searches: of the whole path. certificate.
     """
 
     height: float
@@ -40,7 +47,7 @@ class Solution:
     indented_actuator: np.ndarray
     force: FloatArray
     contact: FloatArray
-    pressing: FloatArray
+    actuator_force: FloatArray
     arc: FloatArray
     reading: Reading
     pressure: FloatArray
@@ -52,6 +59,11 @@ class Solution:
     cuts: int
     searches: int
     certificate: Certificate
+
+    @property
+    def pressing(self) -> FloatArray:
+        """Forces f_y (1 + n_times, n_actuators) [N/mm] after pre-indentation and at the stimulus's times."""
+        return self.actuator_force[:, :, 1]
 
     @property
     def sliding_share(self) -> float:
@@ -96,7 +108,7 @@ def solution(
         reading=reading,
         pressure=contact[1 + reading.time, :, 1] / section.weight,
         shear=contact[1 + reading.time, :, 0] / section.weight,
-        pressing=np.array([_pressing(problem, state) for state in states]),
+        actuator_force=np.array([actuator_force(problem, state.force, state.given) for state in states]),
         actuator=shown.given,
         place=shown.place,
         status=shown.status,
@@ -105,8 +117,3 @@ def solution(
         searches=last.searches,
         certificate=certificate,
     )
-
-
-def _pressing(problem: ContactProblem, state: ContactState) -> FloatArray:
-    """Forces f_y (n_actuators,) of the actuators [N/mm] in a state."""
-    return np.asarray(np.bincount(state.given, state.force[:, 1], minlength=len(problem.row.positions)), dtype=float)

@@ -11,6 +11,7 @@ from ..perception.claims import claims_table
 from ..perception.correlation import correlation_table
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import solved_rows
+from ..readouts.accuracy import error_in_proportion
 from ..readouts.roughness import KEY, unpredicted_rows
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
@@ -37,13 +38,16 @@ def ensemble_tables(
     """Claims and correlations of every member, in the columns of their tables behind half_cycle and varied.
 
     members: rows of the score table of all members behind MEMBER; devices that a member leaves as they are have rows as
-    configured alone. configured: the score table with errors, which members' scores have too, relative to the score.
+    configured alone. configured: the score table with errors, which members' scores have too, in proportion to the
+    score (`error_in_proportion`).
     Raises RatingError as `correlation_table`.
     """
-    relative = configured.set_index([*KEY, "condition"])
-    share = (relative["score_error"] / relative["score"].abs()).rename("share").reset_index()
-    scored = members.merge(share, on=[*KEY, "condition"], how="left")
-    scored["score_error"] = scored["share"] * scored["score"]
+    usual = configured[[*KEY, "condition", "score", "score_error"]]
+    scored = members.merge(usual, on=[*KEY, "condition"], how="left", suffixes=("", "_usual"))
+    scored["score_error"] = [
+        error_in_proportion(*each)
+        for each in zip(scored["score"], scored["score_usual"], scored["score_error"], strict=True)
+    ]
     claims: list[pd.DataFrame] = []
     correlations: list[pd.DataFrame] = []
     for (kinematics, half_cycle), group in scored.groupby(MEMBER[:2], sort=False):

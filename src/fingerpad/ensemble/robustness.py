@@ -1,12 +1,14 @@
-"""What the orders of a device's scores hang on: its scene with one assumption varied at a time."""
+"""What the orders of a device's scores depend on: its scene with one assumption varied at a time."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..prediction.orders import Pair, Row, resolved_pairs, without_implied
+from ..readouts.accuracy import error_in_proportion, has_error
 from ..readouts.comparison import SAME
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
@@ -22,7 +24,7 @@ class Order:
     assumptions are varied.
 
     holds: names of the members in which the higher score is higher still, by more than both errors. open: in which
-    errors are larger than the difference. turned: in which the lower one is higher. lost: in which one has no score.
+    errors are larger than the difference. reversed: in which the lower one is higher. lost: in which one has no score.
     """
 
     interface: Interface
@@ -31,13 +33,13 @@ class Order:
     high: str
     holds: tuple[str, ...]
     open: tuple[str, ...]
-    turned: tuple[str, ...]
+    reversed: tuple[str, ...]
     lost: tuple[str, ...]
 
     @property
     def scored(self) -> int:
         """Number of members in which both have a score."""
-        return len(self.holds) + len(self.open) + len(self.turned)
+        return len(self.holds) + len(self.open) + len(self.reversed)
 
     @property
     def is_certain(self) -> bool:
@@ -101,14 +103,14 @@ def orders_held(configured: Sequence[Row], varied: Mapping[str, Sequence[Row]]) 
 
 def _order(interface: Interface, readout: Readout, pair: Pair, members: Mapping[str, Sequence[Row]]) -> Order:
     """What becomes of one order in the members, by their rows of its interface and read-out."""
-    held, open_, turned, lost = list[str](), list[str](), list[str](), list[str]()
+    held, open_, against, lost = list[str](), list[str](), list[str](), list[str]()
     for name, rows in members.items():
         pairs = resolved_pairs(rows)
         if not {row["condition"] for row in rows if row["score"] is not None}.issuperset(pair):
             lost.append(name)
         else:
-            (held if pair in pairs else turned if pair[::-1] in pairs else open_).append(name)
-    return Order(interface, readout, *pair, tuple(held), tuple(open_), tuple(turned), tuple(lost))
+            (held if pair in pairs else against if pair[::-1] in pairs else open_).append(name)
+    return Order(interface, readout, *pair, tuple(held), tuple(open_), tuple(against), tuple(lost))
 
 
 def _case(row: Row) -> tuple[str, str, str]:
@@ -125,12 +127,14 @@ def _rows_of(rows: Sequence[Row], interface: Interface, readout: Readout) -> lis
 
 
 def _with_errors(rows: Sequence[Row], configured: Sequence[Row]) -> list[Row]:
-    """Rows that have scores, with the errors of those as configured, in proportion to the scores."""
-    usual = {row["condition"]: row for row in configured if row["score"] is not None}
+    """Rows that have scores, with the errors of those as configured, in proportion to the scores, where these are
+    known.
+    """
+    usual = {row["condition"]: row for row in configured if has_error(row)}
     found: list[Row] = []
     for row in rows:
         own = usual.get(row["condition"])
-        if own is not None and row["score"] is not None and own["score_error"] is not None:
-            share = abs(row["score"] / own["score"]) if own["score"] else 1.0
-            found.append({**row, "score_error": share * own["score_error"]})
+        if own is not None and row["score"] is not None:
+            error = error_in_proportion(row["score"], own["score"], own["score_error"])
+            found.append({**row, "score_error": None if math.isnan(error) else error})
     return found

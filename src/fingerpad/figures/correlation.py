@@ -13,12 +13,22 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..perception.ratings import NO_RATINGS
-from ..perception.wording import OPEN_SLOPE, SMALLEST_P, has_p, is_open, p_text, published_text, range_text, slope_name
+from ..perception.wording import (
+    OPEN_SLOPE,
+    SMALLEST_P,
+    has_p,
+    is_open,
+    p_text,
+    published_text,
+    range_text,
+    slope_name,
+    tau_text,
+)
 from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import KINEMATICS_NAME, MINUS, PERCENT, SCORE_SCALE, score_label, shortened
+from ..words import KINEMATICS_NAME, PERCENT, SCORE_SCALE, score_label, shortened
 from .style import (
     GREY,
     WIDE,
@@ -144,7 +154,7 @@ def statistics(row: Mapping[str, Any], n: int) -> str:
     if spread_of_r2 := range_text(row):
         lines.append(f"range {spread_of_r2}")
     if pd.notna(row["r2"]):
-        lines.append(f"τ = {row['kendall_tau']:.2f}".replace("-", MINUS))
+        lines.append(f"τ = {tau_text(row['kendall_tau'])}")
         if has_p(row["p"], row["rating_kind"]):
             lines[-1] += f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
     if published := published_text(row):

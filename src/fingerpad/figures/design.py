@@ -20,7 +20,7 @@ from PIL import Image
 
 from ..arrays import FloatArray
 from ..prediction.design import Answer
-from ..readouts.roughness import SCORE_UNIT, score_span
+from ..readouts.roughness import SCORE_UNIT, scene_span
 from ..rounding import rounded
 from ..scene.readout import Readout
 from ..words import KILO, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
@@ -135,9 +135,8 @@ class DesignPicture:
             artist.set(x=start, width=stop - start)
         indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status)
         self._note.set_text(f"indentation {indentation:.2f} mm\n{nodes} nodes in contact")
-        span = score_span(answer.scene.device.actuators, answer.scene.model.readout.span_margin)
         for axes in (self._tractions, *self._strains.values()):
-            axes.set_xlim(*span)
+            axes.set_xlim(*scene_span(answer.scene))
         shown = [artists for artists, _, _ in designs]
         _hold(self._tractions, [line for each in shown for line in (each.pressure, each.shear)])
         for readout in Readout:

@@ -21,7 +21,7 @@ from matplotlib.tri import Triangulation
 from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..fields.section_fields import Fields
-from ..scene.device import ActuatorRow, Condition
+from ..scene.device import ActuatorRow, Condition, Device
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
@@ -81,42 +81,28 @@ def strain_map_figure(
     condition. Scales are common to all figures of one device.
     """
     device = scene.device
-    conditions = device.by_dispersion[dispersion]
+    columns = _columns(device, dispersion, solutions)
     window = _window(scene, max(solution.height for solution in solutions.values()))
     shown = _in_view(fields, window)
-    panels = _new_panels(window, len(conditions))
-    distinct = [condition.name for condition in device.distinct_conditions]
-    solved_as = {condition.name: device.first_with_stimulus_of(condition.name).name for condition in conditions}
-    loadings = [distinct.index(solved_as[condition.name]) for condition in conditions]
+    panels = _new_panels(window, len(columns))
     read = max(
         float(np.abs(each.reading.readouts[Readout.CHANGE_OF_STRAIN]).max(initial=0.0)) for each in solutions.values()
     )
     for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown, read))):
-        for axes, condition, loading in zip(row, conditions, loadings, strict=True):
-            drawn = _draw_map(axes, shown, mapped, loading)
-            solution = solutions[solved_as[condition.name]]
-            rise = np.array([0.0, solution.height])
-            draw_actuators(axes, device.actuators, condition.moves[solution.reading.time] + rise, 2.0 * BELOW)
-            axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
-            axes.text(0.0, window[1][1] - ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
+        for axes, column in zip(row, columns, strict=True):
+            drawn = _draw_map(axes, shown, mapped, column.loading)
+            _draw_surroundings(axes, device.actuators, column, window)
         _label_first(row, panels.columns, "y (mm)")
         panels.figure.colorbar(
             drawn, ax=list(row[: panels.columns]), extend=mapped.extend, aspect=14, pad=0.01, label=mapped.label
         )
     limits = _traction_limits(solutions)
-    for axes, condition in zip(panels.tractions, conditions, strict=True):
-        _draw_tractions(axes, device.actuators, solutions[solved_as[condition.name]], condition)
-        axes.tick_params(labelbottom=True)
-        axes.set_ylim(*limits)
-        axes.set_xlabel("x (mm)")
+    for axes, column in zip(panels.tractions, columns, strict=True):
+        _draw_tractions(axes, device.actuators, column)
+        axes.set(ylim=limits, xlabel="x (mm)")
     _label_first(panels.tractions, panels.columns, "Traction (kPa)")
-    styles = condition_styles(each for each in conditions_of([device]) if each.dispersion == dispersion)
-    for axes, condition in zip(panels.strain, conditions, strict=True):
-        axes.set_title(styles.series[device.name, condition.name].label, loc="left")
-    several = len(device.by_dispersion) > 1
-    named = f", {plain(dispersion)} dispersion" if several else ""
-    title = as_title(panels.figure, f"{device.title}{named}, with shear")
-    panels.figure.suptitle(title, fontweight="bold")
+    _title(panels, device, dispersion)
+    conditions = device.by_dispersion[dispersion]
     legend_below(
         panels.figure,
         [
@@ -130,6 +116,35 @@ def strain_map_figure(
         ),
     )
     return panels.figure
+
+
+@dataclass(frozen=True)
+class _Column:
+    """A condition, which of the fields' loadings is its own, and the solution of its stimulus."""
+
+    condition: Condition
+    loading: int
+    solution: Solution
+
+
+def _columns(device: Device, dispersion: str, solutions: Mapping[str, Solution]) -> list[_Column]:
+    """The conditions of a dispersion, in order."""
+    distinct = [condition.name for condition in device.distinct_conditions]
+    found = []
+    for condition in device.by_dispersion[dispersion]:
+        first = device.first_with_stimulus_of(condition.name).name
+        found.append(_Column(condition, distinct.index(first), solutions[first]))
+    return found
+
+
+def _title(panels: _Panels, device: Device, dispersion: str) -> None:
+    """Name the conditions above their maps, and the device and dispersion above all."""
+    styles = condition_styles(each for each in conditions_of([device]) if each.dispersion == dispersion)
+    for axes, condition in zip(panels.strain, device.by_dispersion[dispersion], strict=True):
+        axes.set_title(styles.series[device.name, condition.name].label, loc="left")
+    named = f", {plain(dispersion)} dispersion" if len(device.by_dispersion) > 1 else ""
+    title = as_title(panels.figure, f"{device.title}{named}, with shear")
+    panels.figure.suptitle(title, fontweight="bold")
 
 
 def _window(scene: Scene, face: float) -> Window:
@@ -219,7 +234,7 @@ class _Mapped:
 def _strain(scene: Scene, shown: _Shown) -> _Mapped:
     return _Mapped(
         values=shown.strain,
-        norm=PowerNorm(0.5, 0.0, colour_end(shown, shown.strain, COVERED, STEP)),
+        norm=PowerNorm(0.5, 0.0, _colour_end(shown, shown.strain, COVERED, STEP)),
         colours=COLOURS,
         lines="white",
         label=f"Max. principal {STRAIN_NAME[scene.kinematics]}\n(%, square-root scale)",
@@ -230,7 +245,7 @@ def _strain(scene: Scene, shown: _Shown) -> _Mapped:
 def _change(scene: Scene, shown: _Shown, read: float) -> _Mapped:
     """Change of strain. read: the largest at the receptors [1], which colours tell apart."""
     most = CHANGE_STEP * math.ceil(PERCENT * read / CHANGE_STEP)
-    end = max(colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP), most)
+    end = max(_colour_end(shown, np.abs(shown.change), CHANGE_COVERED, CHANGE_STEP), most)
     return _Mapped(
         values=shown.change,
         norm=Normalize(-end, end),
@@ -241,7 +256,7 @@ def _change(scene: Scene, shown: _Shown, read: float) -> _Mapped:
     )
 
 
-def colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) -> float:
+def _colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) -> float:
     """Value [%] at which colours end: so many per cent of the area in view, over all loadings, have less.
 
     values: (n_loadings, 3k) [1], none below zero. covered: share [%]. step: [%] to which it is rounded up.
@@ -272,10 +287,20 @@ def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMe
     return drawn
 
 
-def _draw_tractions(axes: Axes, row: ActuatorRow, solution: Solution, condition: Condition) -> None:
+def _draw_surroundings(axes: Axes, row: ActuatorRow, column: _Column, window: Window) -> None:
+    """The actuators below a map, where they are then, and the bone's name above it."""
+    moves = column.condition.moves[column.solution.reading.time]
+    draw_actuators(axes, row, moves + np.array([0.0, column.solution.height]), 2.0 * BELOW)
+    axes.set(xlim=window[0], ylim=window[1], aspect="equal", anchor="S")
+    axes.text(0.0, window[1][1] - ABOVE / 2.0, "bone", ha="center", va="center", color=GREY)
+
+
+def _draw_tractions(axes: Axes, row: ActuatorRow, column: _Column) -> None:
     """Pressure and shear of the nodes in contact, one line per actuator."""
-    centre = np.asarray(row.positions) + condition.tangential[solution.reading.time]
+    solution = column.solution
+    centre = np.asarray(row.positions) + column.condition.tangential[solution.reading.time]
     axes.axhline(0.0, color=GREY, linewidth=THIN)
+    axes.tick_params(labelbottom=True)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear
     for number in range(len(row.positions)):
         own = np.flatnonzero(solution.actuator == number)

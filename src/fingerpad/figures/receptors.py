@@ -94,7 +94,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics) -
                 found = entry.readouts[condition.name]
                 values = PERCENT * found.unfiltered(readout)
                 series = styles.series[entry.device.name, condition.name]
-                draw_curve(axes, found.arc, values, series, number / len(alike))
+                draw_readout(axes, found.arc, values, series, number / len(alike))
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         several = len(own) < len(entry.device.conditions)
@@ -140,7 +140,7 @@ def draw_faces(axes: Axes, faces: FloatArray) -> None:
         axes.axvspan(start, stop, color=SHADE, linewidth=0.0, zorder=0)
 
 
-def draw_curve(axes: Axes, arc: FloatArray, values: FloatArray, series: Series, shift: float) -> None:
+def draw_readout(axes: Axes, arc: FloatArray, values: FloatArray, series: Series, shift: float) -> None:
     """A read-out along the receptor line; markers, shifted by a share [1] of their spacing, tell curves apart."""
     spacing = max(round(MARKER_SPACING / float(arc[1] - arc[0])), 1)
     axes.plot(

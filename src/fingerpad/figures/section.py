@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -24,7 +25,13 @@ HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of dev
 PANEL = 49.0  # mm of the figure's width across a device
 CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators are driven."
 COLUMNS = 3  # devices beside each other
-LABELS = 8.6  # mm from the mid-line at which the layers' names begin, of a finger of half width 8 mm
+LABELS = 1.075  # of the finger's half width [1]: from the mid-line to where the layers' names begin
+BONE_LABEL = (0.3, 0.7)  # of the bone's width and height [1]: the point that its name is for
+DIMENSION, MARGIN, TOP = (
+    0.7,
+    1.6,
+    0.3,
+)  # mm from the section to its dimensions, and shown beside and below it, and above
 TINTS = ("#E9C9A3", "#B98553", "#F3C1AC", "#FBEBC4", "#AEBBC8", "#E3B0BE")  # of the layers, which are named as well
 ASIDE, ABOVE = 0.8, 1.7  # mm shown beside the row and above the lowest skin
 REACH = 5.3  # mm from the mid-line to which panels show a row, above which what follows grows with it
@@ -97,7 +104,7 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
     """Names and thicknesses of layers with leaders to them, and the section's dimensions."""
     finger = model.finger
     half, height = finger.width / 2.0, finger.height
-    labels = LABELS / 8.0 * half
+    labels = LABELS * half
     mesh = section.mesh
     centre = mesh.doflocs[:, mesh.t].mean(axis=1)
     layers = (*finger.pad, *reversed(finger.dorsal))
@@ -109,7 +116,9 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
         )
         for la in layers
     ]
-    inside_bone = np.array([[0.3 * finger.bone_width], [finger.pad_thickness + 0.7 * finger.bone_height]])
+    inside_bone = np.array(
+        [[BONE_LABEL[0] * finger.bone_width], [finger.pad_thickness + BONE_LABEL[1] * finger.bone_height]]
+    )
     parts.insert(len(finger.pad), ("bone", "rigid", inside_bone))
     receptors = mesh.doflocs[:, mesh.nvertices + section.receptor_facets]
     parts.insert(model.layers_above, ("receptors", f"{model.receptor_depth:g} mm deep", receptors))
@@ -122,11 +131,11 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
             arrowprops={"color": colour, **LEADER},
         )  # fmt: skip
         axes.plot(*target, marker="o", markersize=1.5, color=colour)
-    _dimension(axes, (-half, -0.7), (half, -0.7), f"{finger.width:g} mm")
-    _dimension(axes, (-half - 0.7, 0.0), (-half - 0.7, height), f"{height:g} mm")
+    _dimension(axes, (-half, -DIMENSION), (half, -DIMENSION), f"{finger.width:g} mm")
+    _dimension(axes, (-half - DIMENSION, 0.0), (-half - DIMENSION, height), f"{height:g} mm")
     middle = finger.pad_thickness + finger.bone_height / 2.0
     _dimension(axes, (-finger.bone_width / 2.0, middle), (finger.bone_width / 2.0, middle), f"{finger.bone_width:g} mm")
-    axes.set(xlim=(-half - 1.6, 2.0 * half), ylim=(-1.6, height + 0.3))
+    axes.set(xlim=(-half - MARGIN, 2.0 * half), ylim=(-MARGIN, height + TOP))
     axes.set_axis_off()
 
 
@@ -186,7 +195,7 @@ def _heads(moved: FloatArray, cyclic: bool) -> str:
 
 def _described(row: ActuatorRow) -> str:
     """The row's dimensions in words."""
-    pitches = {round(right - left, 6) for left, right in zip(row.positions, row.positions[1:], strict=False)}
+    pitches = {round(right - left, 6) for left, right in pairwise(row.positions)}
     pitch = f"pitch {pitches.pop():g}, " if len(pitches) == 1 else ""
     thick = f", thickness {row.body.thickness:g}" if row.body else ""
     kind = "deformable" if row.body else "rigid"

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..readouts.roughness import score_span
+from ..readouts.roughness import scene_span
 from ..rounding import rounded
-from ..scene.readout import GaborFilter, Readout, ReadoutRule
+from ..scene.device import Device
+from ..scene.readout import Readout
+from ..scene.scene import Scene
 from ..words import PERCENT, READOUT_NAME, SCORE_SCALE, counted, score_label, shortened
-from .receptors import DeviceReadouts, draw_curve, draw_faces
+from .receptors import DeviceReadouts, draw_faces, draw_readout
 from .style import (
     WIDE,
+    Styles,
     as_title,
     condition_styles,
     conditions_of,
@@ -36,60 +42,34 @@ LINES = "Small strain. Lines on bars: the scores' stated errors of discretisatio
 
 
 @styled
-def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule, scores: pd.DataFrame) -> Figure:
+def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -> Figure:
     """Receptor read-outs, the same after the Gabor filter, and their areas; strain (A), change of strain (B).
 
     scores: condition, interface, readout, score and score_error [unit], unit; rows of this device with shear and small
     strain.
     """
-    device = entry.device
+    device, gabor = scene.device, scene.model.gabor
     styles = condition_styles(conditions_of([device]))
     names = [shortened(styles.series[device.name, condition.name].label) for condition in device.conditions]
-    long = max(map(len, names)) > LONG
-    figure = new_figure(WIDE, HEIGHT + (SLANTED if long else 0.0))
+    slanted = max(map(len, names)) > LONG
+    figure = new_figure(WIDE, HEIGHT + (SLANTED if slanted else 0.0))
     grid = figure.subplots(len(Readout), len(WIDTHS), width_ratios=WIDTHS)
-    span = score_span(device.actuators, rule.span_margin)
     for row, readout in zip(grid, Readout, strict=True):
         receptors, filtered, bars = row
-        factor, power = SCORE_SCALE[readout]
-        for axes in (receptors, filtered):
-            draw_faces(axes, entry.faces)
-            axes.set_xlim(*span)
-        for number, condition in enumerate(device.conditions):
-            found = entry.readouts[condition.name]
-            series = styles.series[device.name, condition.name]
-            shift = number / len(device.conditions)
-            draw_curve(receptors, found.arc, PERCENT * found.unfiltered(readout), series, shift)
-            draw_curve(filtered, found.arc, factor * found.filtered(readout), series, shift)
-        receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
-        filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()}\n({power}mm)")
         kernel = f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm"
         headings = HEADINGS if readout is Readout.STRAIN else ("", "", "")
         for axes, heading, text in zip(row, headings, ("", kernel, "under |filtered|, over this span"), strict=True):
             subtitle(axes, heading, text)
-
-        part = scores[scores["readout"] == readout].set_index("condition")
-        part = part.reindex([condition.name for condition in device.conditions])
-        heights, errors = factor * part["score"], factor * part["score_error"]
-        places = np.arange(len(heights))
-        colours = [styles.series[device.name, name].colour for name in heights.index]
-        drawn = bars.bar(places, heights, color=colours, width=0.65)
-        if len(heights) <= MOST_NUMBERS:
-            labels = ["\n±".join(rounded(*each)) for each in zip(heights, errors, strict=True)]
-            bars.bar_label(drawn, labels, padding=1.0)
-        else:
-            draw_errors(bars, places, heights.to_numpy(), errors.to_numpy(), along="y")
-        named = slice(len(places) if len(places) <= MOST_NAMES else 0)
-        bars.set_xticks(places[named], names[named], rotation=30.0 if long else 0.0, ha="right" if long else "center")
-        bars.set_ylim(0.0, HEADROOM * float(heights.max()))
-        bars.set_ylabel(score_label(readout, str(part["unit"].iloc[0]), in_two_lines=True))
+        for axes in (receptors, filtered):
+            draw_faces(axes, entry.faces)
+            axes.set_xlim(*scene_span(scene))
+        _draw_curves(receptors, filtered, entry, readout, styles)
+        own = scores[scores["readout"] == readout].set_index("condition")
+        _draw_bars(bars, own.reindex([condition.name for condition in device.conditions]), device, readout, styles)
+        _name_bars(bars, names, slanted)
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
-    many = len(device.conditions) > MOST_NAMES
-    by_phase = all(
-        name == f"{condition.phase_deg:g}°" for name, condition in zip(names, device.conditions, strict=True)
-    )
-    grid[-1][2].set_xlabel("Conditions, in order" if many else "Phase difference" if by_phase else "Condition")
+    grid[-1][2].set_xlabel(_what_bars_are(names, device))
     for axes, text in zip(grid[:, 0], "AB", strict=True):
         letter(axes, text, (-30.0, 14.0))
     title = f"{device.title}, with shear ({counted(device.conditions)})"
@@ -97,3 +77,47 @@ def workflow_figure(entry: DeviceReadouts, gabor: GaborFilter, rule: ReadoutRule
     caption = NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES
     legend_below(figure, styles.legend, caption, [*styles.spreads, face_handle()])
     return figure
+
+
+def _draw_curves(receptors: Axes, filtered: Axes, entry: DeviceReadouts, readout: Readout, styles: Styles) -> None:
+    """One read-out of every condition along the receptor line, and what the filter makes of it."""
+    factor, power = SCORE_SCALE[readout]
+    conditions = entry.device.conditions
+    for number, condition in enumerate(conditions):
+        found = entry.readouts[condition.name]
+        series = styles.series[entry.device.name, condition.name]
+        shift = number / len(conditions)
+        draw_readout(receptors, found.arc, PERCENT * found.unfiltered(readout), series, shift)
+        draw_readout(filtered, found.arc, factor * found.filtered(readout), series, shift)
+    receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
+    filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()}\n({power}mm)")
+
+
+def _draw_bars(axes: Axes, scores: pd.DataFrame, device: Device, readout: Readout, styles: Styles) -> None:
+    """Scores of one read-out with their errors, as numbers if these are few."""
+    factor, _ = SCORE_SCALE[readout]
+    heights, errors = factor * scores["score"], factor * scores["score_error"]
+    places = np.arange(len(heights))
+    colours = [styles.series[device.name, name].colour for name in heights.index]
+    drawn = axes.bar(places, heights, color=colours, width=0.65)
+    if len(heights) <= MOST_NUMBERS:
+        axes.bar_label(drawn, ["\n±".join(rounded(*each)) for each in zip(heights, errors, strict=True)], padding=1.0)
+    else:
+        draw_errors(axes, places, heights.to_numpy(), errors.to_numpy(), along="y")
+    if (highest := float(heights.max())) > 0.0:
+        axes.set_ylim(0.0, HEADROOM * highest)
+    axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0]), in_two_lines=True))
+
+
+def _name_bars(axes: Axes, names: Sequence[str], slanted: bool) -> None:
+    """Conditions' names below their bars, unless there are too many."""
+    named = names if len(names) <= MOST_NAMES else ()
+    axes.set_xticks(range(len(named)), named, rotation=30.0 if slanted else 0.0, ha="right" if slanted else "center")
+
+
+def _what_bars_are(names: Sequence[str], device: Device) -> str:
+    """The label below bars of conditions with these names."""
+    if len(names) > MOST_NAMES:
+        return "Conditions, in order"
+    phases = [f"{condition.phase_deg:g}°" for condition in device.conditions]
+    return "Phase difference" if [*names] == phases else "Condition"

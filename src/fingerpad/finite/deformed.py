@@ -139,8 +139,7 @@ def solve_deformed_increment(
     length = float(np.abs(actuator - start.actuator).max())
     scale = float(np.abs(actuator).max()) + length
     free, displacement = part.elements.free, start.displacement + length * start.rate
-    first = (part.loads.T @ start.displacement[free]).reshape(-1, 2)
-    made, iterations = 0, 0
+    made, iterations = 0, start.iterations
     changes: list[float] = []
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
@@ -151,19 +150,22 @@ def solve_deformed_increment(
                 tangent, made = tangent_at(part, displacement), made + 1
                 steps, ends = [], []
                 unstable = unstable or _is_unstable(problem, start, tangent)
-            back = -tangent.factors.solve(internal_force(part.elements, displacement)[free])
-            last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
-            found, passed, tangent = _followed(increments, problem, tangent, start, actuator, first, last)
+            step, found, passed, tangent = _linearised_step(
+                part, increments, problem, tangent, start, actuator, displacement
+            )
             iterations += found.iterations - start.iterations
-            step = back + tangent.factors.solve(part.loads @ found.force.ravel())
             displacement[free] += step
             changes.append(float(np.abs(step).max()) / scale)
             if changes[-1] <= LOOSER * problem.tolerance:
                 _require_near(problem, found, tangent, displacement - start.displacement, length, scale)
-                reached = deformed_state(replace(found, iterations=start.iterations + iterations), displacement)
-                rate = (displacement - start.displacement) / length
-                made += start.tangents
-                return replace(reached, rate=rate, passed=passed, tangents=made, changes=tuple(changes)), tangent
+                reached = replace(
+                    deformed_state(replace(found, iterations=iterations), displacement),
+                    rate=(displacement - start.displacement) / length,
+                    passed=passed,
+                    tangents=start.tangents + made,
+                    changes=tuple(changes),
+                )
+                return reached, tangent
             if not changes[-1] <= LARGEST_CHANGE:
                 break
             if len(changes) > 1 and changes[-1] > CONTRACTION * changes[-2]:
@@ -179,6 +181,27 @@ def solve_deformed_increment(
     except NotConvergedError as failure:
         raise NotConvergedError(failure.residual, failure.turned, snaps=failure.snaps or unstable) from failure
     raise NotConvergedError(changes[-1], snaps=unstable)
+
+
+def _linearised_step(
+    part: TissuePart,
+    increments: int,
+    problem: ContactProblem,
+    tangent: Tangent,
+    start: DeformedState,
+    actuator: FloatArray,
+    displacement: FloatArray,
+) -> tuple[FloatArray, ContactState, Passed, Tangent]:
+    """Step (n_free,) [mm] from a displacement (size,) [mm] to equilibrium on a tangent, contact there and what it
+    passed before, and the tangent with its last patch. Raises NotConvergedError, InvertedError.
+    """
+    free = part.elements.free
+    back = -tangent.factors.solve(internal_force(part.elements, displacement)[free])
+    first, last = (
+        (part.loads.T @ each).reshape(-1, 2) for each in (start.displacement[free], displacement[free] + back)
+    )
+    found, passed, tangent = _followed(increments, problem, tangent, start, actuator, first, last)
+    return back + tangent.factors.solve(part.loads @ found.force.ravel()), found, passed, tangent
 
 
 def _require_near(

@@ -39,8 +39,9 @@ SETTLED = 1e-3  # change of displacement in a correction over that of the move [
 class DeformedTissue:
     """The whole section about the pre-indented state.
 
-    factors: of its tangent K. displacement: (size,) [mm]. condensing: the same part in an order from which new tangents
-    are condensed, for moves that need them. spring: `solve` is with K + spring, or None.
+    part: that section, which is moved as a whole. factors: of its tangent K. displacement: (size,) [mm]. condensing:
+    the same part in an order from which new tangents are condensed, for moves that need them. spring: `solve` is with
+    K + spring, or None.
     """
 
     part: TissuePart

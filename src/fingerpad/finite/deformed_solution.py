@@ -34,8 +34,9 @@ from .pressing import Pressed, whole_part
 class PressedFinger:
     """A pressed device and the tissue about that state: the same for all conditions.
 
-    start: of all stimuli. gradient: (4m, size) of displacement gradients at the receptors. dofs: (2, n_nodes) unknowns
-    of the nodes.
+    problem: contact on the condensed tangent. tissue: what corrects its solutions. start: of all stimuli. gradient:
+    (4m, size) of displacement gradients at the receptors. dofs: (2, n_nodes) unknowns of the nodes. skin: which must
+    not cross itself.
     """
 
     interface: Interface

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import EllipticityError
+from ..scene.tissue_law import Law
 from .deformation import Elements, displacement_gradient
 from .hyperelasticity import Tissue, respond
 
@@ -26,10 +27,10 @@ def require_elliptic(elements: Elements, displacement: FloatArray) -> None:
     lost = smallest_stiffness(elements.tissue, displacement_gradient(elements, displacement)).min(axis=-1) <= 0.0
     if lost.any():
         x, y = elements.centre[np.flatnonzero(lost)[0]]
+        other = "" if elements.tissue.law is Law.NEO_HOOKEAN else f", or tissue.law: {Law.NEO_HOOKEAN}"
         raise EllipticityError(
             f"the tissue's law is no longer elliptic in {np.count_nonzero(lost)} elements, the first at x, y ="
-            f" {x:.3f}, {y:.3f} mm: strain gathers there in bands as thin as the mesh; try less indentation, or"
-            " tissue.law: neo_hookean"
+            f" {x:.3f}, {y:.3f} mm: strain gathers there in bands as thin as the mesh; try less indentation{other}"
         )
 
 
@@ -37,7 +38,6 @@ def smallest_stiffness(tissue: Tissue, gradient: FloatArray) -> FloatArray:
     """Smallest eigenvalue (...) [MPa] of the acoustic tensor over all directions, at displacement gradients
     (2, 2, ...).
 
-    >>> from fingerpad.scene.tissue_law import Law
     >>> at_rest = Tissue(Law.HENCKY, np.array(1.0), np.array(0.5), 2.0)
     >>> float(smallest_stiffness(at_rest, np.zeros((2, 2))).round(12))
     0.5

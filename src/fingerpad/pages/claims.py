@@ -25,7 +25,7 @@ def claims_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
 def _counted(kinematics: str, counts: Counter[str]) -> str:
     """How many statements end in each verdict, in words."""
     numbers = ", ".join(f"{counts[each]} {each}" for each in Holds)
-    return f"- With {kinematics} kinematics, of n = {counts.total()}: {numbers}."
+    return f"- With {kinematics} kinematics, of {counts.total()} stated claims: {numbers}."
 
 
 def _verdicts(claims: pd.DataFrame) -> pd.DataFrame:

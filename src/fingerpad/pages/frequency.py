@@ -76,7 +76,7 @@ def _of_rises(change: pd.DataFrame, stated: pd.Series) -> dict[str, object]:
     rising = [group.sort_values("phase_deg")["score"].is_monotonic_increasing for _, group in dispersions]
     return {
         "highest": f"{predicted:g}",
-        "what_highest": "the highest that it was asked for" if predicted == asked else "the highest with a prediction",
+        "what_highest": "the highest in its device file" if predicted == asked else "the highest with a prediction",
         "rising": sum(rising),
         "dispersions": len(rising),
         "falls": _falls(change[change["frequency_hz"] > SLOWLY], stated),
@@ -134,6 +134,6 @@ def _varied(variants: pd.DataFrame) -> pd.DataFrame:
         for other in others:
             moved = PERCENT * (own[other] / own[shipped] - 1.0)
             tau = _tau(own[shipped], own[other])
-            change = f"{moved.min():+.0f} to {moved.max():+.0f} %"
-            rows.append({"device": device, "assumption": other, "change": change, "tau": f"{tau:.2f}"})
+            told = f"{moved.min():+.0f} to {moved.max():+.0f} %"
+            rows.append({"device": device, "assumption": other, "change": told, "tau": f"{tau:.2f}"})
     return pd.DataFrame(rows)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import pandas as pd
 
@@ -12,9 +12,15 @@ from ..perception.verdicts import Holds
 from ..perception.wording import published_text, slope_name
 from ..readouts.roughness import KEY
 from ..scene.contact_law import Interface
+from ..scene.tissue_law import Kinematics
 from .filling import table
 
 NOTHING = ""
+SHOWN = {  # by a figure
+    Kinematics.SMALL: "A mark for every statement, member and half-cycle, with small strain",
+    Kinematics.FINITE: "The same with finite strain",
+}
+MODE = {Kinematics.SMALL: "", Kinematics.FINITE: "_finite"}  # endings of their names
 TOLD = ["claim", "kind"]
 
 
@@ -31,7 +37,21 @@ def robustness_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
             for each in kinematics
         ),
         "correlations": table(_correlations(correlations)),
+        "figures": "\n\n".join(f"![{SHOWN[each]}](figures/ensemble{MODE[each]}.png)" for each in kinematics),
     }
+
+
+def _by_key(names: Iterable[str]) -> str:
+    """Names of members, "key value" each, with the values of one key together.
+
+    >>> _by_key(["contact.friction 0.2", "finger.width 20.0", "contact.friction 0.38"])
+    'contact.friction 0.2, 0.38; finger.width 20.0'
+    """
+    values: dict[str, list[str]] = {}
+    for name in names:
+        key, _, value = name.partition(" ")
+        values.setdefault(key, []).append(value)
+    return "; ".join(f"{key} {', '.join(each)}" for key, each in values.items())
 
 
 def _always(claims: pd.DataFrame) -> str:
@@ -54,7 +74,7 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
             found = _different(own[own["half_cycle"] == half_cycle], "evidence").set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)
             row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
-            row[f"changed in {half_cycle} by"] = ", ".join(found[found != usual].index)
+            row[f"changed in {half_cycle} by"] = _by_key(found[found != usual].index)
         rows.append(row)
     return pd.DataFrame(rows)
 

@@ -187,8 +187,8 @@ def _described(row: Mapping[str, Any]) -> str:
     what = f"{sign} slope{doubt}, {numbers}" if slope_of(row) else f"no slope {reason}with "
     others = ""
     if is_surrogate(row) and not pd.isna(row["r2_lowest"]):
-        doubt = ", the sign open for some" if r_of(row).is_open else ""
-        others = f"; R² {row['r2_lowest']:.2g} to {row['r2_highest']:.2g} over all with the stated order{doubt}"
+        doubt = ", the slope's sign open for some" if r_of(row).is_open else ""
+        others = f"; R² {row['r2_lowest']:.2g} to {row['r2_highest']:.2g} over all ratings with the stated order{doubt}"
     return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']}{others})"
 
 
@@ -259,7 +259,7 @@ def _device2_slides(tables: Tables) -> Verdict:
 
 
 def _device1_keeps(tables: Tables) -> Verdict:
-    """No step by phase or by dispersion turns when shear is left out."""
+    """No step by phase or by dispersion is reversed when shear is left out."""
     without, with_shear = _both(tables, "device1")
     off, on = ({**_along_phase(scores), **_along_dispersion(scores)} for scores in (without, with_shear))
     pairs = zip(_all_steps(off), _all_steps(on), strict=True)
@@ -378,7 +378,7 @@ STATEMENTS: tuple[Statement, ...] = (
         _correlates_less("device1", Interface.FRICTIONLESS, Readout.STRAIN, than=WEAK),
     ),
     Statement(
-        "Device 1: leaving out shear turns no order of the change of strain.", _SHEAR, _device1_keeps, Kind.WEAKER
+        "Device 1: leaving out shear reverses no order of the change of strain.", _SHEAR, _device1_keeps, Kind.WEAKER
     ),
     Statement(
         "Device 2 without shear: the change of strain correlates more weakly than with it.",

@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from ..words import MINUS
 from .ratings import RatingKind
 
 SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
@@ -29,6 +30,15 @@ def p_text(p: object) -> str:
     """
     value = float(str(p))
     return f"{value:#.2g}" if value >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
+
+
+def tau_text(tau: object) -> str:
+    r"""Kendall's tau as it is shown.
+
+    >>> tau_text("-0.6667") == "\N{MINUS SIGN}0.67"
+    True
+    """
+    return f"{float(str(tau)):.2f}".replace("-", MINUS)
 
 
 def is_open(row: Mapping[str, Any]) -> bool:

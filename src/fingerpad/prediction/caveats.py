@@ -1,17 +1,15 @@
-"""What one should know before believing a score: of its solution, and of scores that lie close together."""
+"""What one should know before believing a score."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
-from ..readouts.comparison import Relation, Score, relation
-from ..readouts.roughness import KEY, score_rows
+from ..readouts.roughness import score_rows
 from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Criterion, Interface
 from ..scene.device import Condition
@@ -126,40 +124,3 @@ def noted_rows(
 def _numbers(which: np.ndarray) -> str:
     """Numbers, from 1, of the actuators that are marked (n_actuators,)."""
     return ", ".join(str(number + 1) for number in np.flatnonzero(which))
-
-
-def score_caveats(rows: Sequence[Mapping[str, Any]]) -> list[list[str]]:
-    """For each row of the score table: which conditions' scores are closer than the sum of both errors.
-
-    Scores that are equal are equal stimuli, and no caveat. Rows without a score or an error have none.
-    """
-    found = []
-    for row in rows:
-        close = [
-            str(other["condition"])
-            for other in rows
-            if all(row[column] == other[column] for column in KEY) and _relation(row, other) is Relation.NEAR
-        ]
-        found.append([f"errors are larger than the difference to {', '.join(close)}"] if close else [])
-    return found
-
-
-def rank_range(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
-    """The first and the last rank, 1 the largest, that errors leave the score of a row among those of its device,
-    interface and read-out; scores of which one or its error is not there are left out.
-    """
-    found = [_relation(row, other) for other in rows if all(row[column] == other[column] for column in KEY)]
-    first = 1 + found.count(Relation.LESS)
-    return first, first + found.count(Relation.NEAR)
-
-
-def is_resolved(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """Whether two scores are there and differ by more than the sum of both errors, which are known."""
-    return _relation(row, other) in (Relation.LESS, Relation.MORE)
-
-
-def _relation(row: Mapping[str, Any], other: Mapping[str, Any]) -> Relation | None:
-    """How the scores of two rows compare, if both are there and their errors known."""
-    if any(each["score"] is None or each["score_error"] is None for each in (row, other)):
-        return None
-    return relation(*(Score(each["score"], each["score_error"]) for each in (row, other)))

@@ -16,17 +16,15 @@ from ..contact.linear_solution import Indented, indent_device, stimulate
 from ..contact.solution import Solution
 from ..errors import ContactError
 from ..readouts.accuracy import COARSENING, score_errors, with_error
-from ..readouts.resampling import resampling_to_grid
 from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device
 from ..scene.readout import Readout
 from ..scene.scene import Model, Scene
 from ..tissue.compliance import CondensedSection
-from ..tissue.condensation import condense_section
 from ..tissue.mesh import mesh_section
 from .caveats import noted_rows
-from .scoring import Condensed, read_out
+from .scoring import Condensed, condense_mesh, read_out
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
 SIZE = 4.0
@@ -160,8 +158,7 @@ def _as_meshed(scene: Scene) -> Scene:
 def _condensed(scene: Scene, reach: float) -> Condensed:
     """All skin within reach [mm], as if it lay under one wide pin."""
     covered = pins_at_rest(scene.model, 1, 0.0, 2.0 * reach, 0.0)
-    section = condense_section(mesh_section(covered, np.array([[0.0, reach]])), covered)
-    return Condensed(section, None, resampling_to_grid(section.arc, scene.model.gabor.spacing))
+    return condense_mesh(covered, mesh_section(covered, np.array([[0.0, reach]])))
 
 
 def _pressed(scene: Scene, skin: Condensed) -> PressedRow:

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
 from ..readouts.accuracy import with_error, with_errors
-from ..readouts.comparison import classes
-from ..readouts.roughness import KEY, unpredicted_rows
+from ..readouts.roughness import unpredicted_rows
 from ..scene.device import Control
 from ..scene.scene import Scene
-from .caveats import score_caveats
 from .edges import edge_intervals
+from .ranking import ranks
 from .scoring import ReadSolution, error_rows, solved_rows
 
 SILENT = "the device controls forces: its displacements without friction are unknown"
@@ -23,12 +21,13 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
-    """Rows of the score table, as the workflow's, with `rank`, `indentation_mm` and `force_N_per_mm` of
-    pre-indentation, `sliding_share` (`Solution.sliding_share`), and `caveats` (a list of sentences) behind.
+    """Rows of the score table, as the workflow's, with `rank`, `first_rank` and `last_rank` (`ranks`), `indentation_mm`
+    and `force_N_per_mm` of pre-indentation, `sliding_share` (`Solution.sliding_share`), and `caveats` (a list of
+    sentences) behind.
 
     What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
     coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
-    after each of `steps`. rank: 1 for the largest score of a device, interface and read-out; equal scores share one.
+    after each of `steps`.
     """
     with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
@@ -40,8 +39,8 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
     caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
-        row | {"rank": rank} | _contact(read.get((row["condition"], row["interface"]))) | {"caveats": own + close}
-        for row, rank, own, close in zip(table, ranks(table), caveats, score_caveats(table), strict=True)
+        row | rank | _contact(read.get((row["condition"], row["interface"]))) | {"caveats": own}
+        for row, rank, own in zip(table, ranks(table), caveats, strict=True)
     ]
 
 
@@ -60,22 +59,3 @@ def _contact(read: ReadSolution | None) -> dict[str, float | None]:
 def steps(scene: Scene, error: bool = True) -> int:
     """How often at most `forecast` calls its `step`: after condensation and after every condition of every solution."""
     return (2 if error else 1) * (1 + len(scene.device.interfaces()) * len(scene.device.conditions))
-
-
-def ranks(rows: Sequence[Mapping[str, Any]]) -> list[int | None]:
-    """Rank of each row's score among those of its device, interface and read-out, 1 the largest; None without one.
-
-    >>> key = {"kinematics": "small", "device": "d", "interface": "shear", "readout": "strain"}
-    >>> ranks([key | {"score": 0.1}, key | {"score": 0.3}, key | {"score": 0.1}, key | {"score": None}])
-    [2, 1, 2, None]
-    """
-    found: list[int | None] = [None] * len(rows)
-    groups: dict[tuple[str, ...], list[int]] = {}
-    for number, row in enumerate(rows):
-        if row["score"] is not None:
-            groups.setdefault(tuple(row[column] for column in KEY), []).append(number)
-    for own in groups.values():
-        place = classes(np.array([rows[number]["score"] for number in own]))
-        for number, above in zip(own, (place[:, None] < place).sum(axis=1), strict=True):
-            found[number] = 1 + int(above)
-    return found

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
-from .caveats import is_resolved
+from .ranking import is_resolved
 
 Row = Mapping[str, Any]
 Pair = tuple[str, str]  # conditions with the lower and the higher score
@@ -56,7 +56,7 @@ def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
                     holding.setdefault(pair, []).append(name)
             if not holding:
                 yield f"{interface}, {readout}: no two scores differ by more than their errors"
-            sets = sorted({tuple(names) for names in holding.values()}, key=lambda names: -len(names))
+            sets = sorted(dict.fromkeys(map(tuple, holding.values())), key=len, reverse=True)
             for names in sets:
                 pairs = [pair for pair, held in holding.items() if tuple(held) == names]
                 pairs = without_implied({pair: {*names} for pair in pairs}) if len(names) == len(scored) else pairs

@@ -90,7 +90,11 @@ def condense_scene(scene: Scene, edges: FloatArray) -> Condensed:
 
 def condense_mesh(scene: Scene, mesh: SectionMesh) -> Condensed:
     """Condense the undeformed finger on a mesh. Raises MeshError, CondensationError."""
-    section = condense_section(mesh, scene)
+    return condensed_of(scene, condense_section(mesh, scene))
+
+
+def condensed_of(scene: Scene, section: CondensedSection) -> Condensed:
+    """All that conditions share, of a finger that is condensed already. Raises MeshError, CondensationError."""
     return Condensed(section, body_of(scene), resampling_to_grid(section.arc, scene.model.gabor.spacing))
 
 

@@ -106,6 +106,18 @@ def relative_errors(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, ...], 
     return {case_of(row): error for row in rows if not math.isnan(error := relative_error(row))}
 
 
+def error_in_proportion(score: float, usual: float, error: float) -> float:
+    """The error of a score in proportion to that of the usual score, all in one unit; not a number where none is in
+    proportion, as that usual score is zero and this one is not.
+
+    >>> error_in_proportion(0.2, 0.1, 0.01), error_in_proportion(0.0, 0.0, 0.0), error_in_proportion(0.2, 0.0, 0.0)
+    (0.02, 0.0, nan)
+    """
+    if score == usual:
+        return error
+    return error * score / usual if usual else math.nan
+
+
 def has_error(row: Mapping[str, Any]) -> bool:
     """Whether a row of the score table, also as text, has a score whose error is known."""
     return _is_scored(row) and row["score_error"] not in {None, ""}

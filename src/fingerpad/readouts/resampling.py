@@ -14,11 +14,11 @@ def resampling_to_grid(arc: FloatArray, spacing: float) -> Resampling:
 
     A spline is linear in the values it goes through, so its weights are the splines through unit values.
     """
-    grid = uniform_grid(arc, spacing)
+    grid = _uniform_grid(arc, spacing)
     return Resampling(grid, np.asarray(make_interp_spline(arc, np.eye(arc.size), k=3)(grid)))
 
 
-def uniform_grid(arc: FloatArray, spacing: float) -> FloatArray:
+def _uniform_grid(arc: FloatArray, spacing: float) -> FloatArray:
     """Uniform grid (k,) [mm] over the receptor line, symmetric about the mid-line, at most `spacing` apart."""
     half = min(-arc[0], arc[-1])
     count = int(np.ceil(half / spacing))

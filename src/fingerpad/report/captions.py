@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..perception.wording import has_p, p_text, range_text, slope_name
+from ..perception.wording import has_p, p_text, range_text, slope_name, tau_text
 from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import Readout
@@ -15,7 +15,6 @@ from ..scene.tissue_law import Kinematics
 from ..words import (
     INTERFACE_NAME,
     KINEMATICS_NAME,
-    MINUS,
     READOUT_NAME,
     SCORE_SCALE,
     counted,
@@ -66,9 +65,9 @@ def words(stems: Collection[str], results: Results) -> dict[str, Words]:
         writers[f"{stem}_finite"] = partial(_finite, write, finite)
     writers["kinematics"] = partial(_kinematics, results)
     for scene in results.scenes:
-        for condition in scene.device.conditions:
-            stem = f"map_{Kinematics.SMALL}_{scene.device.name}-{condition.dispersion}"
-            writers[stem] = partial(_map, small, device=scene.device, dispersion=condition.dispersion)
+        for dispersion in scene.device.by_dispersion:
+            stem = f"map_{Kinematics.SMALL}_{scene.device.name}-{dispersion}"
+            writers[stem] = partial(_map, small, device=scene.device, dispersion=dispersion)
     if unknown := set(stems) - set(writers):
         raise KeyError(f"no caption for {', '.join(sorted(unknown))}")
     return {stem: write() for stem, write in writers.items() if stem in stems}
@@ -101,12 +100,12 @@ def rules_words(graph: Sequence[Row]) -> Words:
     )
 
 
-def correlation_words(row: Row) -> str:
+def _correlation_words(row: Row) -> str:
     """One row of the table of correlations as a phrase: R² with its range, slope, tau, p and n."""
     if not row["r2"]:
         return f"{row['note']}, n = {row['n']}"
-    tau = f"{float(row['kendall_tau']):.2f}".replace("-", MINUS)
     p = f", p {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
+    tau = tau_text(row["kendall_tau"])
     return f"R² = {float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
 
 
@@ -265,7 +264,7 @@ def _rows(results: Results, device: str, interface: Interface) -> list[Row]:
 
 def _correlated(results: Results, device: str, interface: Interface, titled: bool = True) -> str:
     found = "; ".join(
-        f"{READOUT_NAME[Readout(row['readout'])].lower()}: {correlation_words(row)}"
+        f"{READOUT_NAME[Readout(row['readout'])].lower()}: {_correlation_words(row)}"
         for row in _rows(results, device, interface)
     )
     return f"{results.device(device).title}, {found}" if titled else found

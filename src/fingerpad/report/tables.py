@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from ..perception.wording import has_p, p_text, published_text, range_text, slope_name
+from ..perception.wording import has_p, p_text, published_text, range_text, slope_name, tau_text
 from ..readouts.accuracy import relative_error, relative_errors
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import INTERFACE_NAME, KINEMATICS_NAME, MINUS, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
 
 Row = Mapping[str, str]
 COLUMNS = [(interface, readout) for interface in Interface for readout in Readout]  # of scores, for each condition
@@ -38,7 +38,7 @@ class Grid:
 def score_with_error(row: Row) -> str:
     """A row's score and its stated error, in the unit that `score_label` names."""
     scale, _ = SCORE_SCALE[Readout(row["readout"])]
-    return " ± ".join(rounded(scale * float(row["score"]), scale * error_of(row)))
+    return " ± ".join(rounded(scale * float(row["score"]), scale * _error_of(row)))
 
 
 def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
@@ -53,7 +53,7 @@ def accuracy_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
     return _grid(scores, titles, names, lambda row: f"{PERCENT * relative_error(row):.2f}".replace("nan", "?"))
 
 
-def error_of(row: Row) -> float:
+def _error_of(row: Row) -> float:
     """A score's stated error, in its unit; not a number if it is unknown."""
     return float(row["score_error"] or "nan")
 
@@ -84,7 +84,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
             range_text(row) or NOTHING,
             slope_name(row) if row["r2"] else NOTHING,
-            f"{float(row['kendall_tau']):.2f}".replace("-", MINUS) if row["kendall_tau"] else NOTHING,
+            tau_text(row["kendall_tau"]) if row["kendall_tau"] else NOTHING,
             p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
             published_text(row) or NOTHING,

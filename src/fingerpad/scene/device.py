@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from enum import StrEnum
+from itertools import pairwise
 
 import numpy as np
 
@@ -79,7 +80,7 @@ class ActuatorRow:
             f"actuators: edge_radius must lie between 0 and width/2 = {self.width / 2.0:g} mm,"
             f" found {self.edge_radius:g}",
         )
-        for left, right in zip(self.positions, self.positions[1:], strict=False):
+        for left, right in pairwise(self.positions):
             require(
                 right - left >= self.width * (1.0 - ROUNDING),
                 f"actuators: neighbours at x = {left:g} and {right:g} mm overlap: width {self.width:g} mm is more"

@@ -59,10 +59,7 @@ class Model:
     @property
     def receptor_depth(self) -> float:
         """Depth of the receptor line below the skin [mm]."""
-        depth = 0.0
-        for layer in self.finger.pad[: self.layers_above]:
-            depth += layer.thickness
-        return depth
+        return sum(layer.thickness for layer in self.finger.pad[: self.layers_above])
 
 
 @dataclass(frozen=True)
@@ -71,6 +68,15 @@ class Scene:
 
     model: Model
     device: Device
+
+    def __post_init__(self) -> None:
+        row = self.device.actuators
+        reach = max(abs(x) for x in row.positions) + row.width / 2.0
+        require(
+            reach < self.model.finger.width / 2.0,
+            f"{self.device.name}: an actuator reaches x = {reach:g} mm; it must stay below the finger's half width,"
+            f" {self.model.finger.width / 2.0:g} mm",
+        )
 
     def solved_as(self, name: str) -> Condition:
         """The condition whose solution holds for that one as well: the first with its stimulus. Raises SceneError if
@@ -106,12 +112,3 @@ class Scene:
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""
         return self.with_numerics(self.model.numerics.coarsened(factor))
-
-    def __post_init__(self) -> None:
-        row = self.device.actuators
-        reach = max(abs(x) for x in row.positions) + row.width / 2.0
-        require(
-            reach < self.model.finger.width / 2.0,
-            f"{self.device.name}: an actuator reaches x = {reach:g} mm; it must stay below the finger's half width,"
-            f" {self.model.finger.width / 2.0:g} mm",
-        )

@@ -99,11 +99,11 @@ def deformed_outcomes(numbers: Sequence[int]) -> Iterator[DeformedOutcome]:
     """`outcomes` of the scenes with finite kinematics of these numbers, each meshed, pressed and stimulated."""
     for number in numbers:
         with strict():
-            found = deformed_outcome(random_deformed_scene(number), number)
+            found = _deformed_outcome(random_deformed_scene(number), number)
         yield found
 
 
-def deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
+def _deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
     """The outcome of a scene with finite kinematics."""
     section: SectionMesh | None = None
     result: Solution | FingerpadError
@@ -149,7 +149,7 @@ def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:
     body, (condition,) = body_of(scene), scene.device.conditions
     pressed = press(scene, section, body, Interface.SHEAR)
     finger = pressed_finger(scene, section, body, pressed, Interface.SHEAR)
-    return with_numbers(stimulate_deformed(scene, finger, condition))
+    return _with_numbers(stimulate_deformed(scene, finger, condition))
 
 
 def condensed_group(number: int) -> CondensedSection:
@@ -209,10 +209,10 @@ def _outcome(number: int, scene: Scene, contact_nodes: int, result: Solution | F
 def solved(scene: Scene, section: CondensedSection, condition: Condition) -> Solution:
     """The scene's solution with friction. Raises FingerpadError, also if a number in it is not finite."""
     body = body_of(scene)
-    return with_numbers(solve_condition(scene, section, body, condition, Interface.SHEAR))
+    return _with_numbers(solve_condition(scene, section, body, condition, Interface.SHEAR))
 
 
-def with_numbers(solution: Solution) -> Solution:
+def _with_numbers(solution: Solution) -> Solution:
     """The solution. Raises CertificateError if a number in it is not finite."""
     numbers = {"force": solution.force, "pressure": solution.pressure, "shear": solution.shear, "place": solution.place}
     for name, values in (numbers | solution.reading.readouts).items():

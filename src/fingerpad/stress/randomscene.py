@@ -147,40 +147,10 @@ def random_group(number: int) -> Scene:
 
 def _group(rng: np.random.Generator, number: int) -> Scene:
     """A scene drawn for a group. Raises SceneError if there is no such finger."""
-    width = _decades(rng, WIDTH)
-    height = width * rng.uniform(*FLATNESS)
-    count = _whole(rng, PAD_LAYERS)
-    pad = tuple(_layer(rng, f"pad_{i}", THICKNESS) for i in range(count - 1))
-    deep = width * DEPTH[0], width * DEPTH[1]
-    pad, dorsal = (*pad, _layer(rng, "pad", deep)), (_layer(rng, "dorsal", deep),)
-    finger = Finger(
-        width=width,
-        height=height,
-        bone_width=width * rng.uniform(*BONE),
-        nail_width=width * NAIL,
-        pad=pad,
-        dorsal=dorsal,
-    )
-    row = _row(rng, width * _decades(rng, SPAN))
-    span = row.positions[-1] - row.positions[0] + row.width
-    spacing = span / _whole(rng, ELEMENTS)
-    at_edges = spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0))
-    numerics = Numerics(
-        edge_size=at_edges,
-        edge_zone=spacing * CLOSENESS,
-        finite_edge_size=at_edges,
-        finite_edge_zone=spacing * CLOSENESS,
-        face_size=spacing,
-        growth=1.0,
-        receptor_size=width / RECEPTOR_ELEMENTS,
-        largest_size=width / LARGEST_ELEMENTS,
-        contact_margin=CONTACT_MARGIN,
-        indentation_increments=1,
-        stimulus_increments=1,
-        newton_tolerance=TOLERANCE,
-        max_cuts=MAX_CUTS,
-    )
-    above = pad[int(rng.integers(count - 1))].name
+    finger = _finger(rng)
+    row = _row(rng, finger.width * _decades(rng, SPAN))
+    numerics = _numerics(rng, row, finger.width)
+    above = finger.pad[int(rng.integers(len(finger.pad) - 1))].name
     model = Model(
         finger=finger,
         tissue=TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
@@ -208,6 +178,46 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
         tangential=stroke,
     )
     return Scene(model, Device(f"group_{number:03d}", "random", Control.DISPLACEMENT, row, (farthest,)))
+
+
+def _finger(rng: np.random.Generator) -> Finger:
+    """A finger. Raises SceneError if its layers leave no bone."""
+    width = _decades(rng, WIDTH)
+    height = width * rng.uniform(*FLATNESS)
+    count = _whole(rng, PAD_LAYERS)
+    pad = tuple(_layer(rng, f"pad_{i}", THICKNESS) for i in range(count - 1))
+    deep = width * DEPTH[0], width * DEPTH[1]
+    pad, dorsal = (*pad, _layer(rng, "pad", deep)), (_layer(rng, "dorsal", deep),)
+    return Finger(
+        width=width,
+        height=height,
+        bone_width=width * rng.uniform(*BONE),
+        nail_width=width * NAIL,
+        pad=pad,
+        dorsal=dorsal,
+    )
+
+
+def _numerics(rng: np.random.Generator, row: ActuatorRow, width: float) -> Numerics:
+    """Sizes for a row under a finger of that width [mm], and as few increments as there can be."""
+    span = row.positions[-1] - row.positions[0] + row.width
+    spacing = span / _whole(rng, ELEMENTS)
+    at_edges = spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0))
+    return Numerics(
+        edge_size=at_edges,
+        edge_zone=spacing * CLOSENESS,
+        finite_edge_size=at_edges,
+        finite_edge_zone=spacing * CLOSENESS,
+        face_size=spacing,
+        growth=1.0,
+        receptor_size=width / RECEPTOR_ELEMENTS,
+        largest_size=width / LARGEST_ELEMENTS,
+        contact_margin=CONTACT_MARGIN,
+        indentation_increments=1,
+        stimulus_increments=1,
+        newton_tolerance=TOLERANCE,
+        max_cuts=MAX_CUTS,
+    )
 
 
 def _layer(rng: np.random.Generator, name: str, thickness: tuple[float, float]) -> Layer:

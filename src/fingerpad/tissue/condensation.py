@@ -47,10 +47,15 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     `contact_tractions`.
     """
     tractions = contact_tractions(section, scene)
-    halved = scene.model.skips.halved_condensation
-    parts = right_half(section, tractions) if halved else whole(section, tractions)
+    parts = parts_of(section, scene, tractions)
     matrix, _ = section_stiffness(section, scene, parts.elements)
     return condense_parts(section, scene, tractions, parts, matrix)
+
+
+def parts_of(section: SectionMesh, scene: Scene, tractions: Tractions) -> Parts:
+    """What is condensed of a section: its right half, or with that skip off the whole of it."""
+    halved = scene.model.skips.halved_condensation
+    return right_half(section, tractions) if halved else whole(section, tractions)
 
 
 def condense_parts(
@@ -140,14 +145,7 @@ def condense(
     """
     order = fill_reducing_order(matrix, dofs, fixed)
     permuted, right, read = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order]
-    return condense_ordered(permuted, factorise(permuted), right, read)
-
-
-def condense_ordered(
-    permuted: csc_matrix, factors: SuperLU, right: csc_matrix, read: csr_matrix
-) -> tuple[FloatArray, FloatArray, float]:
-    """`condense` of a stiffness already in a fill-reducing order, with its factors. Raises CondensationError."""
-    count = right.shape[1]
+    factors, count = factorise(permuted), right.shape[1]
     compliance, strain_map = np.zeros((count, count)), np.zeros((read.shape[0], count))
     mix = np.random.default_rng(0).standard_normal(count)
     mixed = np.zeros(permuted.shape[0])

@@ -133,7 +133,7 @@ def _outcome(
             _require_no_inertia(scene, frequency, effect)
         deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
         note = "; ".join([*state_caveats(scene, deepest, read), *scene_caveats(scene)])
-        return Outcome(vibration_scores(scene, condensed, vibration), effect, note)
+        return Outcome(_vibration_scores(scene, condensed, vibration), effect, note)
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
 
@@ -154,7 +154,7 @@ def certified_vibration(
     return vibration
 
 
-def vibration_scores(scene: Scene, condensed: Condensed, vibration: Vibration) -> dict[Readout, float]:
+def _vibration_scores(scene: Scene, condensed: Condensed, vibration: Vibration) -> dict[Readout, float]:
     """Both scores [mm2] of a vibration."""
     filtered = filtered_readouts(condensed.resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
     return roughness_scores(scene, filtered)

@@ -13,7 +13,7 @@ from .creep import condense_creep
 from .frequency import condense_vibrating_at, frequency_rows
 
 
-def relaxation_variants(scene: Scene) -> dict[str, Scene]:
+def _relaxation_variants(scene: Scene) -> dict[str, Scene]:
     """The scene with other assumptions on how tissue relaxes, by name; the scene itself first."""
     relaxation = scene.model.vibration.relaxation
     deep = tuple(layer.name for layer in scene.model.finger.pad[scene.model.layers_above :])
@@ -40,7 +40,7 @@ def variant_rows(scene: Scene, section: SectionMesh, condensed: Condensed, frequ
     """
     return [
         {"assumption": name, **row}
-        for name, variant in relaxation_variants(scene).items()
+        for name, variant in _relaxation_variants(scene).items()
         for row in frequency_rows(
             variant,
             condensed,

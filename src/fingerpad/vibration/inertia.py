@@ -21,9 +21,8 @@ from ..readouts.roughness import scene_span
 from ..scene.device import Cycle
 from ..scene.scene import Scene
 from ..tissue.compliance import VOIGT, CondensedSection
-from ..tissue.condensation import condense_parts, section_stiffness
+from ..tissue.condensation import condense_parts, parts_of, section_stiffness
 from ..tissue.elasticity import mass
-from ..tissue.halves import right_half
 from ..tissue.mesh import SectionMesh
 from ..tissue.reach import contact_tractions
 from .creep import stiffened
@@ -39,7 +38,7 @@ def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float, den
     speed = 2.0 * math.pi * frequency
     stiff = stiffened(scene, 1j * speed)
     tractions = contact_tractions(section, stiff)
-    parts = right_half(section, tractions)
+    parts = parts_of(section, stiff, tractions)
     matrix, _ = section_stiffness(section, stiff, parts.elements)
     moving = csc_matrix(matrix - speed**2 * mass(section.mesh, parts.elements, density))
     return condense_parts(section, stiff, tractions, parts, moving)

@@ -1,0 +1,87 @@
+"""`fingerpad forces`: the forces that actuators have to bear."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from ..errors import ContactError
+from ..prediction.forces import force_rows
+from ..prediction.forecast import steps
+from ..rounding import rounded
+from ..scene.contact_law import Interface
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..store import csv_text
+from .options import add_forms, add_kinematics, add_no_error, add_scene_options, checked_scene
+from .printing import aligned, titled
+
+PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
+COLUMNS = ("condition", "interface", "actuator", "x", "normal", "tangential", "error")
+DESCRIPTION = """\
+Print the forces with which every actuator acts on the skin, in N per mm of finger, as the model is a section: normal
+into the skin, tangential to the right, after pre-indentation and when each condition is read. They are what actuators
+have to bear, and can be compared with what a load cell under your device says. Errors are those of discretisation,
+estimated from a second solution on a coarser mesh. --csv and --json hold all times of the stimuli.
+
+examples:
+  fingerpad forces config/devices/device2.yaml
+  fingerpad forces --kinematics finite config/devices/device2.yaml
+  fingerpad forces --csv config/devices/device2.yaml > device2.csv
+"""
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    parser.set_defaults(run=run)
+    parser.description = DESCRIPTION
+    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    add_forms(parser, "a list of objects, one an actuator, condition and time", "the same as a table for programs")
+    add_no_error(parser)
+    add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
+    add_scene_options(parser)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Solve the device and print all forces once they are there. Raises ContactError if there is none."""
+    scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
+    error = not options.no_error
+    with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
+        rows = force_rows(scene, error, bar.update)
+    if all(row["normal"] is None for row in rows):
+        raise ContactError(f"nothing could be solved: {rows[0]['note']}")
+    if options.json:
+        print(json.dumps(rows, indent=2))
+    elif options.csv:
+        print(csv_text(rows), end="")
+    else:
+        print(as_table(scene, rows))
+
+
+def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
+    """Forces after pre-indentation at each interface, and in every condition at the time that is read; notes below."""
+    lines = [list(COLUMNS)]
+    for interface in Interface:
+        own = [row for row in rows if row["interface"] == interface and row["normal"] is not None]
+        lines += [_cells(row, PRESSED) for row in own[: len(scene.device.actuators.positions)]]
+        lines += [_cells(row, row["condition"]) for row in own if row["is_read"]]
+    notes = dict.fromkeys(f"{row['condition']} ({row['interface']}): {row['note']}" for row in rows if row["note"])
+    right = [False, False, *(True for _ in COLUMNS[2:])]
+    head = [titled(scene), "forces on the skin [N/mm of finger], positive into it and to the right; x [mm]"]
+    return "\n".join([*head, *aligned(lines, right), *notes])
+
+
+def _cells(row: Mapping[str, Any], name: str) -> list[str]:
+    """A line of the table: forces as far as their error tells."""
+    error = row["error"]
+    normal, tangential = (
+        rounded(row[way], math.nan if error is None else error)[0] for way in ("normal", "tangential")
+    )
+    within = "" if error is None else rounded(0.0, error)[1]
+    return [name, row["interface"], str(row["actuator"]), f"{row['x_mm']:g}", normal, tangential, within]
