@@ -7,6 +7,7 @@ import dataclasses
 import functools
 import hashlib
 import json
+import re
 import shutil
 import subprocess
 from collections.abc import Iterable
@@ -16,6 +17,7 @@ from typing import Any
 import numpy as np
 
 PACKAGE = "fingerpad"
+MAGIC = re.compile(r"^(\s*)[%!].*$", re.MULTILINE)  # a line for IPython or the shell, in a notebook
 LEFT_BEHIND = {"__pycache__", ".ipynb_checkpoints", f"{PACKAGE}.egg-info"}  # folders that Python and Jupyter make
 
 
@@ -65,7 +67,8 @@ def _program(path: Path) -> str:
     if path.suffix != ".ipynb":
         return text
     cells = json.loads(text)["cells"]
-    return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+    program = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+    return MAGIC.sub(r"\1pass", program)
 
 
 def checksum(files: Iterable[str]) -> str:

@@ -99,6 +99,7 @@ rule benchmark_ladder:
         cases={"small": CALCULIX_CASE, "finite": CALCULIX_FINITE_CASE},
         limit=1800,
         repeats={"small": 3, "finite": 1},
+        compared=with_calculix("results/benchmark/ladder.csv", "CalculiX"),
     script:
         "../scripts/benchmark_ladder.py"
 

@@ -49,6 +49,7 @@ rule calculix:
         ogden_exponent=lambda w: SCENE[COMPARED_DEVICE].model.tissue.ogden_exponent,
         condition=COMPARED_CONDITION,
         limit=1800,
+        compared=with_calculix("results/accuracy/calculix.csv", "calculix_s"),
         cases={
             "base": CALCULIX_CASE,
             "finer_mesh": CALCULIX_CASE | CALCULIX_FINER,

@@ -4,6 +4,7 @@
 from difflib import get_close_matches
 from functools import cache
 
+from fingerpad.calculix.run import installed
 from fingerpad.scene.contact_law import Interface
 from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assuming, read_ensemble, slug
 from fingerpad.errors import FingerpadError
@@ -18,7 +19,12 @@ SETTINGS = ("scenes", "stress_scenes", "stress_scenes_finite")  # what --config 
 if unknown := [name for name in config if name not in SETTINGS]:
     raise WorkflowError(f"--config: found {', '.join(unknown)}; allowed: {', '.join(SETTINGS)}")
 
-SCENES = Path(str(config.get("scenes", BASE / "config")))
+# Snakemake takes text that looks like a number, a truth or nothing for one
+if not isinstance(config.get("scenes", ""), str):
+    raise WorkflowError(
+        f"--config scenes: found {config['scenes']!r}; allowed: a folder; write scenes=./NAME for such a name"
+    )
+SCENES = Path(config.get("scenes", BASE / "config"))
 CONFIG = SCENES / "config.yaml"
 RULES = BASE / "workflow" / "rules"
 CUSTOM_RULES = sorted((RULES / "custom").glob("[!.]*.smk"))  # of devices that need their own (docs/extending.md)
@@ -70,12 +76,20 @@ TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
 
 def scene_of(wildcards):
-    """The scene of the wildcard device; an unknown one is an error that names the known ones."""
+    """The scene of the wildcard device; an unknown one is an error that names the known ones, and so are kinematics or an
+    interface with which it is not predicted.
+    """
     if wildcards.device not in SCENE:
         close = get_close_matches(wildcards.device, DEVICES, n=1)
         hint = f"; did you mean {close[0]!r}?" if close else ""
         raise WorkflowError(f"unknown device {wildcards.device!r}: known are {', '.join(DEVICES)}{hint}")
-    return SCENE[wildcards.device]
+    scene = SCENE[wildcards.device]
+    for name, predicted in (("kinematics", scene.computed), ("interface", scene.device.interfaces())):
+        if (asked := wildcards.get(name, predicted[0])) not in predicted:
+            raise WorkflowError(
+                f"{wildcards.device}: found {name} {asked!r}; it is predicted with {', '.join(predicted)} alone"
+            )
+    return scene
 
 
 def condition_of(wildcards):
@@ -118,8 +132,28 @@ def kinematics_of(wildcards):
 
 
 def mode_of(wildcards):
-    """The kinematics that a figure's ending names."""
-    return MODES[wildcards.mode]
+    """The kinematics that a figure's ending names; those that no device is predicted with are an error."""
+    if (kinematics := MODES[wildcards.mode]) not in KINEMATICS:
+        raise WorkflowError(
+            f"found a figure with {kinematics} kinematics; devices are predicted with {', '.join(KINEMATICS)}"
+        )
+    return kinematics
+
+
+def pages_elsewhere(wildcards):
+    """Nothing; an error where pages on other scenes would take the place of the project's own."""
+    if SCENES.resolve() != (BASE / "config").resolve() and Path.cwd() == BASE.resolve():
+        raise WorkflowError(
+            f"docs/ is about config/, and scenes are {SCENES}: ask for pages on these with --directory FOLDER"
+        )
+    return []
+
+
+def with_calculix(table, sign):
+    """Whether CalculiX is installed, or what it computed is in a table that is there, as a sign in its text tells: the table
+    is made again once CalculiX can be run, and not where it cannot be any more.
+    """
+    return installed() or (os.path.exists(table) and sign in Path(table).read_text(encoding="utf-8"))
 
 
 def scored(name, kinematics=Kinematics.SMALL):
@@ -245,7 +279,7 @@ def interfaces_referenced(wildcards):
 
 def body_of(wildcards):
     """The condensed body of a deformable actuator, or nothing."""
-    return f"results/{wildcards.device}/body.npz" if scene_of(wildcards).device.actuators.body else []
+    return f"results/bodies/{wildcards.device}.npz" if scene_of(wildcards).device.actuators.body else []
 
 
 wildcard_constraints:

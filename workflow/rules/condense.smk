@@ -1,6 +1,6 @@
 # What every condition of a device shares with small kinematics: compliance of contact nodes and strain map of receptors;
 # and with any, the compliance of its actuators' bodies.
-# REQUIRED INPUTS: results/small/{device}/mesh.npz. OUTPUTS: results/small/{device}/condensed.npz, results/{device}/body.npz
+# REQUIRED INPUTS: results/small/{device}/mesh.npz. OUTPUTS: results/small/{device}/condensed.npz, results/bodies/{device}.npz
 
 
 rule condense:
@@ -38,7 +38,7 @@ rule condense_body:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
     output:
-        body="results/{device}/body.npz",
+        body="results/bodies/{device}.npz",
     log:
         "results/logs/{device}/condense_body.log",
     benchmark:

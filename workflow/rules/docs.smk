@@ -15,6 +15,7 @@ rule docs:
 
 rule assumptions:
     input:
+        pages_elsewhere,
         files=[CONFIG, *DEVICE_FILES],
         package=[SOURCE / "fingerpad" / "__init__.py", *sorted((SOURCE / "fingerpad").rglob("*.py"))],
     output:

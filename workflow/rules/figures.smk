@@ -206,12 +206,21 @@ rule figure_stimuli:
         "../scripts/figure_stimuli.py"
 
 
+def device_with_dispersion(wildcards):
+    """The wildcard device; without the wildcard dispersion that is an error."""
+    device = scene_of(wildcards).device
+    if wildcards.dispersion not in device.by_dispersion:
+        known = ", ".join(device.by_dispersion)
+        raise WorkflowError(f"{device.name}: found the dispersion {wildcards.dispersion!r}; allowed: {known}")
+    return device
+
+
 rule figure_map:
     input:
         config=ancient(CONFIG),
         device=ancient(device_file),
         recordings=ancient(recordings_of),
-        fields=lambda w: f"results/{w.kinematics}/{w.device}/fields.npz",
+        fields=lambda w: f"results/{w.kinematics}/{device_with_dispersion(w).name}/fields.npz",
         solutions=lambda w: [
             f"results/{w.kinematics}/{w.device}/{condition.name}/shear/solution.npz"
             for condition in scene_of(w).device.distinct_conditions

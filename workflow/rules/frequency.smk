@@ -1,6 +1,6 @@
 # Scores of the devices that name a frequency_hz as vibrations, at each frequency; on tissue that creeps, small kinematics.
 # Not part of `all`: ask for them with `snakemake frequency` (minutes).
-# REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz and resampling.npz beside it, results/{device}/body.npz for deformable actuators.
+# REQUIRED INPUTS: results/small/{device}/mesh.npz, condensed.npz and resampling.npz beside it, results/bodies/{device}.npz for deformable actuators.
 # OUTPUTS: results/small/{device}/frequency.csv, frequency_variants.csv beside it, both of all devices in
 # results, results/figures/frequency.{png,pdf}
 

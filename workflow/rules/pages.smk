@@ -40,7 +40,7 @@ SHORT_PAGES = ("claims", "scorings")  # seconds after `all`
 PAGE_FIGURES = {
     "accuracy": ["accuracy_closed_forms", "accuracy_closed_forms_finite", "benchmark"],
     "frequency": ["frequency"],
-    "robustness": ["ensemble", "ensemble_finite"],
+    "robustness": [f"ensemble{mode}" for mode, kinematics in MODES.items() if kinematics in KINEMATICS],
     "scorings": ["phases"],
 }
 
@@ -52,6 +52,7 @@ rule pages:
 
 rule page:
     input:
+        pages_elsewhere,
         template=BASE / "workflow" / "pages" / "{page}.md",
         tables=lambda w: PAGE_TABLES[w.page].values(),
         figures=lambda w: [f"docs/figures/{name}.png" for name in PAGE_FIGURES.get(w.page, [])],

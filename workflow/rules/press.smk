@@ -1,5 +1,5 @@
 # With finite kinematics: a device pressed onto the finger, and each of its stimuli from there.
-# REQUIRED INPUTS: results/finite/{device}/mesh.npz, results/{device}/body.npz for deformable actuators.
+# REQUIRED INPUTS: results/finite/{device}/mesh.npz, results/bodies/{device}.npz for deformable actuators.
 # OUTPUTS: results/finite/{device}/{interface}/pressed.npz, results/finite/{device}/{condition}/{interface}/solution.npz;
 # force against indentation, of small kinematics too: results/indentation.csv
 
@@ -57,7 +57,7 @@ rule indentation:
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
         condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
-        bodies=[f"results/{name}/body.npz" for name in DEVICES if SCENE[name].device.actuators.body],
+        bodies=[f"results/bodies/{name}.npz" for name in DEVICES if SCENE[name].device.actuators.body],
         pressed=[
             f"results/finite/{name}/{interface}/pressed.npz"
             for name in DEVICES_WITH[Kinematics.FINITE]

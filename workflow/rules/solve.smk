@@ -1,5 +1,5 @@
 # With small kinematics: frictional contact path of one device, condition and interface, with its certificate and receptor strains.
-# REQUIRED INPUTS: results/small/{device}/condensed.npz, body.npz for deformable actuators.
+# REQUIRED INPUTS: results/small/{device}/condensed.npz, results/bodies/{device}.npz for deformable actuators.
 # OUTPUTS: results/small/{device}/{condition}/{interface}/solution.npz
 
 

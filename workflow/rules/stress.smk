@@ -17,6 +17,16 @@ STRESS_CHUNKS = {
 }
 
 
+def first_of_chunk(wildcards):
+    """Number of the first scene of the wildcard chunk; one beyond the last is an error."""
+    first = int(wildcards.chunk) * STRESS_CHUNK[wildcards.kinematics]
+    if first >= (count := STRESS_SCENES[wildcards.kinematics]):
+        raise WorkflowError(
+            f"found chunk {wildcards.chunk} of {count} random scenes, {STRESS_CHUNK[wildcards.kinematics]} each"
+        )
+    return first
+
+
 rule stress:
     input:
         "results/stress/summary.csv",
@@ -30,7 +40,7 @@ rule stress_scenes:
     benchmark:
         "results/benchmarks/stress_scenes_{kinematics}_{chunk}.tsv"
     wildcard_constraints:
-        chunk=r"\d+",
+        chunk=r"0|[1-9]\d*",
     conda:
         ENVIRONMENT
     resources:
@@ -38,7 +48,7 @@ rule stress_scenes:
         runtime=60,
     params:
         code=code("stress_scenes.py"),
-        first=lambda w: int(w.chunk) * STRESS_CHUNK[w.kinematics],
+        first=first_of_chunk,
         stop=lambda w: min((int(w.chunk) + 1) * STRESS_CHUNK[w.kinematics], STRESS_SCENES[w.kinematics]),
     script:
         "../scripts/stress_scenes.py"

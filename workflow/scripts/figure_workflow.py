@@ -28,7 +28,7 @@ def main(
     entry = DeviceReadouts(scene.device, readouts, faces)
     table = rows_with(pd.read_csv(scores), Kinematics.SMALL)
     own = table[(table["device"] == scene.device.name) & (table["interface"] == Interface.SHEAR)]
-    save(workflow_figure(entry, scene.model.gabor, scene.model.readout, own), stem)
+    save(workflow_figure(scene, entry, own), stem)
 
 
 if __name__ == "__main__":
