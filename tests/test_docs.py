@@ -18,6 +18,7 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "fingerpad"
 RULES = sorted((ROOT / "workflow" / "rules").rglob("*.smk"))  # with those in rules/custom
 SCRIPTS = sorted((ROOT / "workflow" / "scripts").glob("*.py"))
+TEMPLATES = sorted((ROOT / "workflow" / "pages").glob("*.md"))
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md")), ROOT / "data" / "README.md"]
 MODEL = (ROOT / "docs" / "model.md").read_text(encoding="utf-8")
 EQUATIONS, _, INDEX = MODEL.partition("## From a figure to its equation")
@@ -95,6 +96,15 @@ def test_committed_map_is_what_the_code_says() -> None:
     )
     committed = (ROOT / "docs" / "map.md").read_text(encoding="utf-8")
     assert committed == made, "the code has changed: run `snakemake docs` and commit docs/map.md"
+
+
+@pytest.mark.parametrize("template", TEMPLATES, ids=lambda path: path.stem)
+def test_committed_page_says_what_its_template_says(template: Path) -> None:
+    """Whatever its numbers, which take hours."""
+    parts = re.split(r"\$\{\w+\}", template.read_text(encoding="utf-8"))
+    pattern = ".*?".join(map(re.escape, parts))
+    committed = (ROOT / "docs" / template.name).read_text(encoding="utf-8")
+    assert re.fullmatch(pattern, committed, re.DOTALL), f"renew docs/{template.name}: `snakemake pages` or `docs`"
 
 
 def test_imports_have_no_circle_and_levels_rise() -> None:

@@ -17,9 +17,18 @@ PNG = b"\x89PNG"
 
 
 @pytest.fixture(scope="module")
-def explorer() -> Explorer:
+def shared() -> Explorer:
     """Sliders on the shipped finger."""
     return Explorer(explored_pad(scene("device2").model))
+
+
+@pytest.fixture
+def explorer(shared: Explorer) -> Explorer:
+    """The same where they start."""
+    shared.direction.value = "lateral"
+    for name, slider in shared.sliders.items():
+        slider.value = START[name]
+    return shared
 
 
 def test_it_starts_with_device_2(explorer: Explorer) -> None:

@@ -31,6 +31,7 @@ EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
 KEY = ["kinematics", "device", "condition", "interface", "readout"]
 # Another processor rounds differently; that may move the end of pre-indentation by its resolution of 1e-4 mm in 1.6 mm
 TOLERANCE = 1e-3
+ERROR_TOLERANCE = 0.1  # of an error of 1 % of a score that moves by TOLERANCE
 BOTH = {"figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear"}  # drawn for both kinematics
 
 
@@ -82,16 +83,20 @@ def test_fields_and_maps_of_finite_kinematics(finite_run: Project, project: Proj
 
 @pytest.mark.workflow
 def test_scores_are_those_recorded(finished: Project) -> None:
-    """Every score within TOLERANCE; if a change is meant, copy results/scores.csv over the recorded one. Those with
+    """Every score within TOLERANCE, its error, unit and note; if a change is meant, copy results/scores.csv over the
+    recorded one. Those with
     finite strain are computed by `make reproduce`, and compared after it (.ci/recorded).
     """
     found = pd.read_csv(finished.folder / "results" / "scores.csv").set_index(KEY).sort_index()
     recorded = pd.read_csv(EXPECTED)
     expected = recorded[recorded["kinematics"] == "small"].set_index(KEY).sort_index()
     assert list(found.index) == list(expected.index)
-    both = pd.DataFrame({"found": found["score"], "expected": expected["score"]})
-    off = ~np.isclose(both["found"], both["expected"], rtol=TOLERANCE, atol=0.0, equal_nan=True)
-    assert not off.any(), f"scores that moved (cp results/scores.csv {EXPECTED.name} if meant):\n{both[off]}"
+    for column, tolerance in (("score", TOLERANCE), ("score_error", ERROR_TOLERANCE)):
+        both = pd.DataFrame({"found": found[column], "expected": expected[column]})
+        off = ~np.isclose(both["found"], both["expected"], rtol=tolerance, atol=0.0, equal_nan=True)
+        assert not off.any(), f"{column} moved (cp results/scores.csv {EXPECTED.name} if meant):\n{both[off]}"
+    assert found["unit"].equals(expected["unit"])
+    assert found["note"].fillna("").equals(expected["note"].fillna(""))
 
 
 @pytest.mark.workflow
@@ -105,15 +110,15 @@ def test_what_the_model_should_show(finished: Project) -> None:
 
 
 @pytest.mark.workflow
-def test_figures_are_complete_and_byte_stable(finished: Project) -> None:
+def test_figures_are_complete_and_byte_stable(changeable: Project) -> None:
     """All figures exist as PNG and PDF, and drawing one anew gives the same bytes."""
-    figures = finished.folder / "results" / "figures"
+    figures = changeable.folder / "results" / "figures"
     stems = {path.stem for path in figures.iterdir()}
     wanted = {"figure_3_workflow", *BOTH}
     maps = {f"map_small_device1-{dispersion}" for dispersion in ("low", "medium", "high")}
     assert wanted | maps | {"section", "stimuli", "map_small_device2-alternate", "map_small_device3-alternate"} == stems
     assert {path.suffix for path in figures.iterdir()} == {".png", ".pdf"}
     before = {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in figures.iterdir()}
-    run = finished.snakemake("--force", "results/figures/figure_5_correlation.png")
+    run = changeable.snakemake("--force", "results/figures/figure_5_correlation.png")
     assert run.status == 0, run.text
     assert before == {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in figures.iterdir()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import asdict, replace
 from functools import cache
 from pathlib import Path
@@ -51,6 +52,16 @@ from fingerpad.tissue.reach import contact_tractions
 
 GROUPS = range(8)
 COMING_BACK = [679, 7484, 7727]  # soft actuators at whose edges skin lies anew when they come back; a second in all
+RECORDED = {  # outcomes of the 200
+    SOLVED: 156,
+    "MeshError": 19,
+    "UniquenessError": 15,
+    "CriterionError": 4,
+    "ReachError": 4,
+    "ConvergenceError": 1,
+    "DepthError": 1,
+}
+DIFFERENT = 2  # of them [1]; source: a mended solver moved 45 of 10,000, which is one of 200
 DEFORMED = [3, 6, 9, 29, 40, 48]  # a second each
 SCENES = [GROUP * group + member for group in GROUPS for member in range(25)]  # 200
 PROPERTIES = settings(
@@ -72,11 +83,14 @@ def condensed(group: int) -> CondensedSection:
 
 
 def test_every_scene_ends_in_a_solution_or_a_named_error() -> None:
-    """200 of the scenes of `snakemake stress`, warnings being errors; three quarters are solved (78 %, measured)."""
+    """200 of the scenes of `snakemake stress`, warnings being errors. Another processor rounds differently, which may
+    decide at the limits of what can be solved: a few may end otherwise than recorded.
+    """
     assert [row.number for row in found()] == SCENES
     assert {row.outcome for row in found()} <= NAMES | {SOLVED}
     assert all(row.message for row in found() if row.outcome != SOLVED)
-    assert sum(row.outcome == SOLVED for row in found()) >= 0.75 * len(SCENES)
+    others = Counter(row.outcome for row in found()) - Counter(RECORDED)
+    assert others.total() <= DIFFERENT, others
 
 
 def test_every_deformed_scene_ends_so_too() -> None:
@@ -171,7 +185,7 @@ def test_any_friction_is_answered() -> None:
         try:
             solution = solve_condition(scene, condensed(group), None, scene.device.conditions[0], Interface.SHEAR)
         except FingerpadError as error:
-            assert str(error)
+            assert type(error).__name__ in NAMES - {"FingerpadError"}
             continue
         solved += 1
         assert solution.certificate.smallest_pressure >= 0.0
@@ -201,6 +215,7 @@ def test_outcomes_do_not_depend_on_threads() -> None:
             [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True, timeout=900
         )
         said.append([line.split() for line in done.stdout.splitlines()])
+    assert [len(lines) for lines in said] == [5, 5]
     for one, two in zip(*said, strict=True):
         assert one[0] == two[0]
         assert float(one[1]) == pytest.approx(float(two[1]), rel=1e-8, abs=1e-15)

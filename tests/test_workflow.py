@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from conftest import CORES, LONGEST_RUN, ROOT, Job, Project, Run, into, results
@@ -39,6 +40,17 @@ DIRECTIVES = [
     "script",
     "shell",
 ]
+PUSHED = """
+stimulus:
+  kind: history
+  histories:
+    one:
+      dispersion: {value: own, unit: "1", source: "assumption: a test"}
+      phase: {value: 30, unit: deg, source: "assumption: a test"}
+      time: {value: [0.1], unit: s, source: "assumption: a test"}
+      normal: {value: [[0.01, 0.0, 0.0, 0.0]], unit: mm, source: "assumption: a test"}
+      tangential: {value: [[0.0, 0.0, 0.0, 0.0]], unit: mm, source: "assumption: a test"}
+"""
 SOLVER = {"mesh", "condense", "condense_body", "solve", "filter", "score"}
 TABLES = {"scores", "correlate", "claims"}
 CONFIG, DEVICE = "config/config.yaml", "config/devices/device2.yaml"
@@ -110,6 +122,15 @@ def test_directives_come_in_the_same_order(rule: Rule) -> None:
 @pytest.mark.parametrize("rule", WORKING, ids=lambda rule: rule.name)
 def test_rule_and_script_share_a_name(rule: Rule) -> None:
     assert rule.script in {f"workflow/scripts/{rule.name}.py", ""}
+
+
+def test_every_script_and_page_is_one_of_a_rule() -> None:
+    scripts = {path.name for path in (ROOT / "workflow" / "scripts").iterdir() if path.is_file()}
+    assert scripts == {Path(rule.script).name for rule in WORKING if rule.script}
+    pages = (ROOT / "workflow" / "rules" / "pages.smk").read_text(encoding="utf-8")
+    listed = pages.partition("PAGE_TABLES = {")[2].partition("\n}\n")[0]
+    named = set(re.findall(r'^    "(\w+)": \{', listed, re.MULTILINE))
+    assert named == {path.stem for path in (ROOT / "workflow" / "pages").glob("*.md")}
 
 
 @pytest.mark.parametrize("rule", [rule for rule in WORKING if rule.file != "figures"], ids=lambda rule: rule.name)
@@ -405,7 +426,7 @@ def test_copied_project_reruns_nothing(finished: Project, changeable: Project) -
     assert NOTHING in changeable.snakemake("-n", "all").text
 
 
-@pytest.mark.parametrize("folder", ["src", "workflow", "config", "data"])
+@pytest.mark.parametrize("folder", ["src", "workflow", "config", "data", "notebooks"])
 def test_touched_files_rerun_nothing(changeable: Project, folder: str) -> None:
     for path in (changeable.folder / folder).rglob("*.*"):
         path.touch()
@@ -430,6 +451,97 @@ def test_edited_module_reruns_exactly_what_reaches_it(
     run = changeable.snakemake("-n", "all")
     assert shown(run.jobs) == shown(stale)
     assert not spared & {job.rule for job in run.jobs}
+
+
+def test_relabelled_condition_is_scored_again(changeable: Project) -> None:
+    """And nothing is solved again: its stimulus is what it was."""
+    name = "config/devices/pushed.yaml"
+    path = changeable.folder / name
+    path.write_text((changeable.folder / DEVICE).read_text(encoding="utf-8"), encoding="utf-8")
+    changeable.edit(name, lambda text: text[: text.index("\nstimulus:")] + PUSHED)
+    scored = "results/small/pushed/one/shear/score.csv"
+    run = changeable.snakemake(scored)
+    assert run.status == 0, run.text
+    for label, other in (("dispersion: {value: own", "dispersion: {value: other"), ("value: 30,", "value: 60,")):
+        changeable.edit(name, lambda text, label=label, other=other: text.replace(label, other))
+        assert rules(changeable.snakemake("-n", scored)) == {"score"}
+        run = changeable.snakemake(scored)
+        assert run.status == 0, run.text
+
+
+def test_fewer_random_scenes_are_in_as_many_parts(project: Project, tmp_path: Path) -> None:
+    """Planned for 600 and 20, and computed for one of each."""
+    where = ("--directory", tmp_path, "--config")
+    planned = project.snakemake("-n", "stress", *where, "stress_scenes=600", "stress_scenes_finite=20").outputs
+    names = ("small_0", "small_1", "finite_0", "summary")
+    assert planned == {f"results/stress/{name}.csv" for name in names}
+    run = project.snakemake("stress", *where, "stress_scenes=1", "stress_scenes_finite=1")
+    assert run.status == 0, run.text
+    summary = pd.read_csv(tmp_path / "results" / "stress" / "summary.csv")
+    assert summary.loc[summary["what"] == "all", "scenes"].tolist() == [1, 1]
+
+
+@dataclass(frozen=True)
+class WithPrograms(Project):
+    """A project whose users have the programs in a folder alone."""
+
+    programs: Path
+
+    def environment(self) -> dict[str, str]:
+        """As that of any project."""
+        return super().environment() | {"PATH": str(self.programs)}
+
+
+def test_installed_calculix_is_used_and_a_table_with_it_is_kept(project: Project, tmp_path: Path) -> None:
+    """A table that says "skipped" is made again once there is a ccx; one of its results is not once there is none."""
+    table, programs = "results/accuracy/calculix.csv", tmp_path / "programs"
+    programs.mkdir()
+    for name in ("git", "bash", "sh", "which"):
+        if found := shutil.which(name):
+            (programs / name).symlink_to(found)
+    without = WithPrograms(project.folder, programs)
+    where = ("--directory", tmp_path)
+    run = without.snakemake(table, *where)
+    assert run.status == 0, run.text
+    assert "skipped" in (tmp_path / table).read_text(encoding="utf-8")
+    assert NOTHING in without.snakemake("-n", table, *where).text
+    (programs / "ccx").write_text("#!/bin/sh\n", encoding="utf-8")
+    (programs / "ccx").chmod(0o755)
+    assert rules(without.snakemake("-n", table, *where)) == {"calculix"}
+    (tmp_path / table).write_text("calculix_s\n1.0\n", encoding="utf-8")
+    run = without.snakemake("--touch", table, *where)
+    assert run.status == 0, run.text
+    (programs / "ccx").unlink()
+    assert NOTHING in without.snakemake("-n", table, *where).text
+
+
+def test_pages_on_other_scenes_do_not_take_the_place_of_the_projects(
+    project: Project, coarse_scenes: Path, tmp_path: Path
+) -> None:
+    settings = ("--config", f"scenes={coarse_scenes}")
+    for name in ("claims", "assumptions"):
+        refused = project.snakemake("-n", f"docs/{name}.md", *settings)
+        assert refused.status != 0
+        assert "docs/ is about config/, and scenes are" in refused.text
+        planned = project.snakemake("-n", f"docs/{name}.md", *into(tmp_path, coarse_scenes))
+        assert planned.status == 0, planned.text
+
+
+def test_long_pages_can_be_asked_for_with_small_kinematics_alone(project: Project) -> None:
+    outputs = project.snakemake("-n", "pages").outputs
+    assert "docs/figures/ensemble.png" in outputs
+    assert "docs/figures/ensemble_finite.png" not in outputs
+
+
+def test_scores_of_more_increments_and_other_read_outs(project: Project, coarse_scenes: Path, tmp_path: Path) -> None:
+    """The rules of `accuracy` and `readouts` that solve scenes, on a coarse mesh."""
+    made = "results/accuracy/increments.csv", "results/ablation_readout.csv"
+    run = project.snakemake(*made, *into(tmp_path, coarse_scenes))
+    assert run.status == 0, run.text
+    increments, readouts = (pd.read_csv(tmp_path / name) for name in made)
+    assert set(increments["device"]) == set(readouts["device"]) == {"device2"}
+    assert increments["times_the_increments"].nunique() == 3
+    assert readouts["score"].notna().all()
 
 
 def test_edited_source_or_comment_reruns_nothing(changeable: Project) -> None:

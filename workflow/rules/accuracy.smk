@@ -113,6 +113,6 @@ rule figure_accuracy:
         ENVIRONMENT
     params:
         code=code("figure_accuracy.py"),
-        kinematics=mode_of,
+        kinematics=lambda w: MODES[w.mode],  # closed forms are of both, whatever the devices
     script:
         "../scripts/figure_accuracy.py"

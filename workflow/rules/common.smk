@@ -140,6 +140,25 @@ def mode_of(wildcards):
     return kinematics
 
 
+def device_with_dispersion(wildcards):
+    """The wildcard device; without the wildcard dispersion that is an error."""
+    device = scene_of(wildcards).device
+    if wildcards.dispersion not in device.by_dispersion:
+        known = ", ".join(device.by_dispersion)
+        raise WorkflowError(f"{device.name}: found the dispersion {wildcards.dispersion!r}; allowed: {known}")
+    return device
+
+
+def first_of_chunk(wildcards):
+    """Number of the first scene of the wildcard chunk; one beyond the last is an error."""
+    first = int(wildcards.chunk) * STRESS_CHUNK[wildcards.kinematics]
+    if first >= (count := STRESS_SCENES[wildcards.kinematics]):
+        raise WorkflowError(
+            f"found chunk {wildcards.chunk} of {count} random scenes, {STRESS_CHUNK[wildcards.kinematics]} each"
+        )
+    return first
+
+
 def pages_elsewhere(wildcards):
     """Nothing; an error where pages on other scenes would take the place of the project's own."""
     if SCENES.resolve() != (BASE / "config").resolve() and Path.cwd() == BASE.resolve():

@@ -206,15 +206,6 @@ rule figure_stimuli:
         "../scripts/figure_stimuli.py"
 
 
-def device_with_dispersion(wildcards):
-    """The wildcard device; without the wildcard dispersion that is an error."""
-    device = scene_of(wildcards).device
-    if wildcards.dispersion not in device.by_dispersion:
-        known = ", ".join(device.by_dispersion)
-        raise WorkflowError(f"{device.name}: found the dispersion {wildcards.dispersion!r}; allowed: {known}")
-    return device
-
-
 rule figure_map:
     input:
         config=ancient(CONFIG),

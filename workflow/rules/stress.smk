@@ -17,16 +17,6 @@ STRESS_CHUNKS = {
 }
 
 
-def first_of_chunk(wildcards):
-    """Number of the first scene of the wildcard chunk; one beyond the last is an error."""
-    first = int(wildcards.chunk) * STRESS_CHUNK[wildcards.kinematics]
-    if first >= (count := STRESS_SCENES[wildcards.kinematics]):
-        raise WorkflowError(
-            f"found chunk {wildcards.chunk} of {count} random scenes, {STRESS_CHUNK[wildcards.kinematics]} each"
-        )
-    return first
-
-
 rule stress:
     input:
         "results/stress/summary.csv",
