@@ -13,6 +13,9 @@ def rounded(value: float, error: float) -> tuple[str, str]:
     >>> rounded(0.49387, 0.01868), rounded(0.31891, 0.00057), rounded(123.4, 56.0)
     (('0.494', '0.019'), ('0.3189', '0.0006'), ('123', '56'))
 
+    >>> rounded(-0.0004, 0.02)
+    ('0.00', '0.02')
+
     Of an error that is not known, as not a number, that is said.
 
     >>> rounded(0.324622, math.nan), rounded(0.324622, 0.0)
@@ -22,4 +25,4 @@ def rounded(value: float, error: float) -> tuple[str, str]:
         return f"{value:.{DIGITS}g}", "?" if math.isnan(error) else "0"
     first = math.floor(math.log10(error))
     decimals = max(-first + (error < 2.0 * 10.0**first), 0)
-    return f"{value:.{decimals}f}", f"{error:.{decimals}f}"
+    return f"{value:z.{decimals}f}", f"{error:.{decimals}f}"  # z: nothing is -0
