@@ -1267,7 +1267,7 @@ def test_forces_are_a_table_for_programs(coarse: Path, capsys: pytest.CaptureFix
     assert main(["forces", "--no-error", "--csv", "config/devices/device3.yaml"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
     assert len(rows) == 3 * 2 * 4  # conditions, times, actuators
-    assert all(float(row["normal"]) > 0.0 and row["error"] == "" for row in rows)
+    assert all(float(row["normal_N_per_mm"]) > 0.0 and row["error_N_per_mm"] == "" for row in rows)
     assert main(["forces", "--no-error", "--json", "config/devices/device3.yaml"]) == 0
     assert [row["actuator"] for row in json.loads(capsys.readouterr().out)] == [int(row["actuator"]) for row in rows]
 

@@ -12,7 +12,7 @@ import pytest
 
 from fingerpad.commands.forces import PRESSED, as_table
 from fingerpad.prediction import forces
-from fingerpad.prediction.forces import force_rows
+from fingerpad.prediction.forces import ERROR, NORMAL, TANGENTIAL, force_rows
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.scene import Scene
@@ -43,19 +43,19 @@ def test_actuators_bear_what_the_row_is_pressed_with(interface: Interface) -> No
     """Mirrored actuators the same, and shear that cancels."""
     solution = solved("device2", "alternate_090", interface)
     normal, along = (
-        chosen(rows("device2"), way, "alternate_090", interface, read=False) for way in ("normal", "tangential")
+        chosen(rows("device2"), way, "alternate_090", interface, read=False) for way in (NORMAL, TANGENTIAL)
     )
     assert normal.sum() == pytest.approx(solution.indented_force[:, 1].sum(), rel=EQUAL)
     assert normal == pytest.approx(normal[::-1], rel=EQUAL)
     assert along == pytest.approx(-along[::-1], rel=EQUAL)
     assert np.any(along != 0.0) == (interface is Interface.SHEAR)
-    acting = chosen(rows("device2"), "normal", "alternate_090", interface, read=True)
+    acting = chosen(rows("device2"), NORMAL, "alternate_090", interface, read=True)
     assert acting == pytest.approx(solution.pressing[1 + solution.reading.time], rel=EQUAL)
 
 
 def test_skin_is_pushed_where_a_pin_goes() -> None:
     """Against pre-indentation, at 180 degrees: pins 1 and 3 to the right, 2 and 4 to the left."""
-    change = [chosen(rows("device2"), "tangential", "alternate_180", Interface.SHEAR, read) for read in (True, False)]
+    change = [chosen(rows("device2"), TANGENTIAL, "alternate_180", Interface.SHEAR, read) for read in (True, False)]
     assert np.sign(change[0] - change[1]).tolist() == [1.0, -1.0, 1.0, -1.0]
 
 
@@ -65,8 +65,8 @@ def test_errors_are_honest(device: str) -> None:
     given = scene(device)
     finer = force_rows(given.coarsened(FINER), error=False)
     for row, reference in zip(rows(device), finer, strict=True):
-        for way in ("normal", "tangential"):
-            assert abs(row[way] - reference[way]) <= row["error"]
+        for way in (NORMAL, TANGENTIAL):
+            assert abs(row[way] - reference[way]) <= row[ERROR]
 
 
 def test_every_time_of_a_history_has_its_forces() -> None:
@@ -79,10 +79,10 @@ def test_every_time_of_a_history_has_its_forces() -> None:
     assert [(row["time_s"], row["actuator"]) for row in shear] == [
         (t, n) for t in (0.0, 0.5, 2.0) for n in (1, 2, 3, 4)
     ]
-    assert [row["normal"] for row in shear[:4]] == pytest.approx([row["normal"] for row in shear[4:8]], rel=EQUAL)
-    assert shear[8]["normal"] > shear[4]["normal"]
+    assert [row[NORMAL] for row in shear[:4]] == pytest.approx([row[NORMAL] for row in shear[4:8]], rel=EQUAL)
+    assert shear[8][NORMAL] > shear[4][NORMAL]
     assert [row["is_read"] for row in shear] == [False] * 8 + [True] * 4
-    assert {row["error"] for row in shear} == {None}
+    assert {row[ERROR] for row in shear} == {None}
 
 
 def too_far(given: Scene) -> Scene:
@@ -94,7 +94,7 @@ def too_far(given: Scene) -> Scene:
 def test_what_cannot_be_solved_is_a_row_with_the_reason() -> None:
     found = force_rows(too_far(scene("device2")))
     assert len(found) == 2 * 3  # interfaces and conditions
-    assert {row["normal"] for row in found} == {None}
+    assert {row[NORMAL] for row in found} == {None}
     assert all("did not reach a depth of 6 mm" in row["note"] for row in found)
 
 
@@ -106,7 +106,7 @@ def test_forces_are_there_where_their_error_is_not(monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(forces, "solve_scene", without_coarser)
     found = force_rows(given)
-    assert all(row["normal"] is not None and row["error"] is None for row in found)
+    assert all(row[NORMAL] is not None and row[ERROR] is None for row in found)
     assert all(row["note"].startswith("error unknown: on a mesh of 2 times the sizes, ") for row in found)
 
 
@@ -117,4 +117,4 @@ def test_the_table_has_pre_indentation_once_and_the_times_that_are_read() -> Non
     header, first = lines[2].split(), lines[3].split()
     assert len(header) == len(first)
     row = rows("device3")[0]
-    assert float(first[header.index("normal")]) == pytest.approx(row["normal"], abs=row["error"])
+    assert float(first[header.index("normal")]) == pytest.approx(row[NORMAL], abs=row[ERROR])

@@ -12,7 +12,7 @@ from typing import Any
 from tqdm import tqdm
 
 from ..errors import ContactError
-from ..prediction.forces import force_rows
+from ..prediction.forces import ERROR, NORMAL, TANGENTIAL, force_rows
 from ..prediction.forecast import steps
 from ..rounding import rounded
 from ..scene.contact_law import Interface
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> None:
     error = not options.no_error
     with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
         rows = force_rows(scene, error, bar.update)
-    if all(row["normal"] is None for row in rows):
+    if all(row[NORMAL] is None for row in rows):
         raise ContactError(f"nothing could be solved: {rows[0]['note']}")
     if options.json:
         print(json.dumps(rows, indent=2))
@@ -68,7 +68,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     """Forces after pre-indentation at each interface, and in every condition at the time that is read; notes below."""
     lines = [list(COLUMNS)]
     for interface in Interface:
-        own = [row for row in rows if row["interface"] == interface and row["normal"] is not None]
+        own = [row for row in rows if row["interface"] == interface and row[NORMAL] is not None]
         lines += [_cells(row, PRESSED) for row in own[: len(scene.device.actuators.positions)]]
         lines += [_cells(row, row["condition"]) for row in own if row["is_read"]]
     notes = dict.fromkeys(f"{row['condition']} ({row['interface']}): {row['note']}" for row in rows if row["note"])
@@ -79,9 +79,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
 
 def _cells(row: Mapping[str, Any], name: str) -> list[str]:
     """A line of the table: forces as far as their error tells."""
-    error = row["error"]
-    normal, tangential = (
-        rounded(row[way], math.nan if error is None else error)[0] for way in ("normal", "tangential")
-    )
+    error = row[ERROR]
+    normal, tangential = (rounded(row[way], math.nan if error is None else error)[0] for way in (NORMAL, TANGENTIAL))
     within = "" if error is None else rounded(0.0, error)[1]
     return [name, row["interface"], str(row["actuator"]), f"{row['x_mm']:g}", normal, tangential, within]

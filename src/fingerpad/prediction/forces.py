@@ -17,14 +17,14 @@ from ..scene.scene import Scene
 from .edges import edge_intervals
 from .scoring import UNKNOWN, Case, Solved, prepared, solve_scene
 
-NUMBERS = ("normal", "tangential", "error")  # columns [N/mm]
+NORMAL, TANGENTIAL, ERROR = "normal_N_per_mm", "tangential_N_per_mm", "error_N_per_mm"  # columns
 
 
 def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Forces with which every actuator acts on the skin, at every time of every condition that the device is predicted
     in: `kinematics, device, condition, interface, time_s, is_read, actuator` (from 1, at the left), `x_mm` (of the row
-    before it moves), and in N per mm of finger `normal` (into the skin), `tangential` (to the right) and the estimated
-    discretisation `error` of either; `note`.
+    before it moves); per mm of finger `normal_N_per_mm` (into the skin), `tangential_N_per_mm` (to the right) and
+    `error_N_per_mm`, the estimated discretisation error of either; `note`.
 
     The first time of a condition is that of pre-indentation; `is_read` marks the one at which it is scored. What cannot
     be solved has one row, without a time, and a note that says why. error: whether to solve once more, more coarsely;
@@ -65,7 +65,7 @@ def _rows(scene: Scene, solved: Solved, coarser: Mapping[Case, Solved]) -> Itera
         "interface": str(solved.interface),
     }
     if isinstance(found, UnsolvedError):
-        nothing = dict.fromkeys(("time_s", "is_read", "actuator", "x_mm", *NUMBERS))
+        nothing = dict.fromkeys(("time_s", "is_read", "actuator", "x_mm", NORMAL, TANGENTIAL, ERROR))
         yield where | nothing | {"note": f"{NO_PREDICTION}: {found}"}
         return
     errors, note = _errors(found, coarser.get(solved.case))
@@ -73,8 +73,8 @@ def _rows(scene: Scene, solved: Solved, coarser: Mapping[Case, Solved]) -> Itera
         at = {"time_s": float(time), "is_read": number == 1 + found.reading.time}
         for actuator, x in enumerate(scene.device.actuators.positions):
             tangential, normal = found.actuator_force[number, actuator].tolist()
-            own = {"actuator": 1 + actuator, "x_mm": x, "normal": normal, "tangential": tangential}
-            yield where | at | own | {"error": errors[number], "note": note}
+            own = {"actuator": 1 + actuator, "x_mm": x, NORMAL: normal, TANGENTIAL: tangential}
+            yield where | at | own | {ERROR: errors[number], "note": note}
 
 
 def _errors(found: Solution, coarser: Solved | None) -> tuple[list[float | None], str]:
