@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -17,10 +16,8 @@ from ..prediction.forecast import steps
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
-from ..scene.tissue_law import Kinematics
-from ..store import csv_text
-from .options import add_forms, add_kinematics, add_no_error, add_scene_options, checked_scene
-from .printing import aligned, titled
+from .options import add_forms, add_kinematics, add_no_error, add_scene_options, asked_scene
+from .printing import aligned, print_rows, titled
 
 PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
 COLUMNS = ("condition", "interface", "actuator", "x", "normal", "tangential", "error")
@@ -50,18 +47,13 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve the device and print all forces once they are there. Raises ContactError if there is none."""
-    scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
+    scene = asked_scene(options)
     error = not options.no_error
     with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
         rows = force_rows(scene, error, bar.update)
     if all(row[NORMAL] is None for row in rows):
         raise ContactError(f"nothing could be solved: {rows[0]['note']}")
-    if options.json:
-        print(json.dumps(rows, indent=2))
-    elif options.csv:
-        print(csv_text(rows), end="")
-    else:
-        print(as_table(scene, rows))
+    print_rows(options, rows, lambda: as_table(scene, rows))
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:

@@ -66,7 +66,7 @@ def add_kinematics(parser: argparse.ArgumentParser, what: str) -> None:
 
 def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interface]:
     """The scene, condition and interface of the options. Raises SceneError, UsageError."""
-    scene = checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
+    scene = asked_scene(options)
     condition, interface = scene.device.condition(options.condition), Interface(options.interface)
     if interface not in scene.device.interfaces():
         why = "the device controls force, or `interfaces` in its file skips the frictionless case"
@@ -83,6 +83,11 @@ def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str
     found = existing_file(device)
     config, schemas = model_for(found, options.config), schemas_for(options.schemas)
     return check_device(found, schemas, config, values)
+
+
+def asked_scene(options: argparse.Namespace) -> Scene:
+    """The scene of the options' device, with the kinematics that they ask for. Raises as `checked_scene`."""
+    return checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics))
 
 
 def add_picture(parser: argparse.ArgumentParser, what: str) -> None:

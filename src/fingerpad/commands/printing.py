@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import argparse
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
+from ..store import csv_text
 
 Row = TypeVar("Row", bound=Mapping[str, Any])
 
@@ -17,6 +20,16 @@ GAP = "  "
 def titled(scene: Scene) -> str:
     """The line above a device's table: which device, and with which kinematics."""
     return f"{scene.device.title} ({scene.device.name}), {scene.kinematics} strain"
+
+
+def print_rows(options: argparse.Namespace, rows: Sequence[Row], text: Callable[[], str]) -> None:
+    """Print rows in the form that `options.add_forms` lets ask for, or as text."""
+    if options.json:
+        print(json.dumps(rows, indent=2))
+    elif options.csv:
+        print(csv_text(rows), end="")
+    else:
+        print(text())
 
 
 def in_order(rows: Iterable[Row]) -> list[Row]:

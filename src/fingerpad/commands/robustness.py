@@ -17,8 +17,7 @@ from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
-from ..scene.tissue_law import Kinematics
-from .options import add_kinematics, add_scene_options, checked_scene
+from .options import add_kinematics, add_scene_options, asked_scene, checked_scene
 from .printing import in_order, titled
 from .score_table import as_csv, caveat_lines, require_scores
 
@@ -57,7 +56,7 @@ def run(options: argparse.Namespace) -> None:
 
     Raises ContactError if nothing can be scored as configured, UsageError where there is nothing to order.
     """
-    scene = _distinct(checked_scene(options.device, options).with_kinematics(Kinematics(options.kinematics)))
+    scene = _distinct(asked_scene(options))
     if len(scene.device.conditions) < 2:
         raise UsageError(f"{scene.device.name}: found one stimulus; allowed: two or more, so that scores have an order")
     varied, refused = _varied(scene, options)

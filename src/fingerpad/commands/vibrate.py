@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
@@ -17,11 +16,10 @@ from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
-from ..store import csv_text
 from ..vibration.creep import condense_creep
 from ..vibration.frequency import SLOWLY, Vibrating, condense_vibrating_at, frequency_name, frequency_rows
 from .options import add_forms, add_scene_options, checked_scene
-from .printing import aligned, in_order, titled
+from .printing import aligned, in_order, print_rows, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 3  # of the progress before any score: mesh, compliance, creep
@@ -82,12 +80,7 @@ def run(options: argparse.Namespace) -> None:
             for interface in device.interfaces()
             for row in frequency_rows(scene, condensed, creep, speeds, interface, bar.update)
         ]
-    if options.json:
-        print(json.dumps(rows, indent=2))
-    elif options.csv:
-        print(csv_text(rows), end="")
-    else:
-        print(as_table(scene, rows))
+    print_rows(options, rows, lambda: as_table(scene, rows))
 
 
 def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:

@@ -27,11 +27,8 @@ CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators
 COLUMNS = 3  # devices beside each other
 LABELS = 1.075  # of the finger's half width [1]: from the mid-line to where the layers' names begin
 BONE_LABEL = (0.3, 0.7)  # of the bone's width and height [1]: the point that its name is for
-DIMENSION, MARGIN, TOP = (
-    0.7,
-    1.6,
-    0.3,
-)  # mm from the section to its dimensions, and shown beside and below it, and above
+DIMENSION = 0.7  # mm from the section to its dimensions
+MARGIN, TOP = 1.6, 0.3  # mm shown beside the section and below it, and above
 TINTS = ("#E9C9A3", "#B98553", "#F3C1AC", "#FBEBC4", "#AEBBC8", "#E3B0BE")  # of the layers, which are named as well
 ASIDE, ABOVE = 0.8, 1.7  # mm shown beside the row and above the lowest skin
 REACH = 5.3  # mm from the mid-line to which panels show a row, above which what follows grows with it

@@ -11,11 +11,11 @@ from threadpoolctl import threadpool_limits
 from ..arrays import FloatArray
 from ..contact.solution import Solution
 from ..errors import UnsolvedError
-from ..readouts.accuracy import COARSENING, ORDER
+from ..readouts.accuracy import COARSENING, DIFFERENCE
 from ..readouts.roughness import NO_PREDICTION
 from ..scene.scene import Scene
 from .edges import edge_intervals
-from .scoring import UNKNOWN, Case, Solved, prepared, solve_scene
+from .scoring import UNKNOWN, Case, Solved, attempt, prepared, solve_scene
 
 NORMAL, TANGENTIAL, ERROR = "normal_N_per_mm", "tangential_N_per_mm", "error_N_per_mm"  # columns
 
@@ -30,7 +30,7 @@ def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = la
     be solved has one row, without a time, and a note that says why. error: whether to solve once more, more coarsely;
     without, or if that cannot be done, as the note then says, errors are None. step: called after each of `steps`.
 
-    The error of a force with an order p of convergence is |F_2 - F| / (COARSENING^p - 1). As a difference may vanish by
+    The error of a force is |F_2 - F| / DIFFERENCE. As a difference may vanish by
     chance, the largest of all actuators and both directions at a time is taken.
     """
     with threadpool_limits(1):  # as `forecast`
@@ -41,14 +41,8 @@ def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = la
 
 
 def _solved(scene: Scene, edges: FloatArray, step: Callable[[], object]) -> Iterator[Solved]:
-    """All conditions at all interfaces; none is solved where the finger cannot be meshed or condensed."""
-    try:
-        condensed = prepared(scene, edges)
-    except UnsolvedError as refusal:
-        for interface in scene.device.interfaces():
-            for condition in scene.device.conditions:
-                yield Solved(condition, interface, refusal)
-        return
+    """All conditions at all interfaces, solved on a mesh with edges (k, 2) [mm] as far as they can be."""
+    condensed = attempt(prepared, scene, edges)
     step()
     for each in solve_scene(scene, condensed):
         yield each
@@ -84,5 +78,5 @@ def _errors(found: Solution, coarser: Solved | None) -> tuple[list[float | None]
         return unknown, ""
     if isinstance(coarser.solution, UnsolvedError):
         return unknown, f"{UNKNOWN}{coarser.solution}"
-    off = np.abs(coarser.solution.actuator_force - found.actuator_force).max(axis=(1, 2)) / (COARSENING**ORDER - 1.0)
+    off = np.abs(coarser.solution.actuator_force - found.actuator_force).max(axis=(1, 2)) / DIFFERENCE
     return off.tolist(), ""

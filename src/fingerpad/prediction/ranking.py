@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ..readouts.accuracy import has_error
 from ..readouts.comparison import Relation, Score, relation
 from ..readouts.roughness import KEY
 
@@ -26,7 +27,7 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, int | None]]:
 
 def is_resolved(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     """Whether two scores are there and differ by more than the sum of both errors, which are known."""
-    has_errors = all(each["score"] is not None and each["score_error"] is not None for each in (row, other))
+    has_errors = has_error(row) and has_error(other)
     return has_errors and relation(_score(row), _score(other)) in (Relation.LESS, Relation.MORE)
 
 
@@ -39,9 +40,9 @@ def _rank(row: Mapping[str, Any], rivals: Sequence[Mapping[str, Any]]) -> dict[s
     """The ranks of a row that has a score."""
     exact = Score(row["score"], 0.0)
     rank = 1 + sum(relation(exact, Score(each["score"], 0.0)) is Relation.LESS for each in rivals)
-    if row["score_error"] is None:
+    if not has_error(row):
         return {"rank": rank, "first_rank": None, "last_rank": None}
-    relations = [relation(_score(row), _score(each)) for each in rivals if each["score_error"] is not None]
+    relations = [relation(_score(row), _score(each)) for each in rivals if has_error(each)]
     first = 1 + relations.count(Relation.LESS)
     return {"rank": rank, "first_rank": first, "last_rank": first + relations.count(Relation.NEAR)}
 

@@ -16,7 +16,7 @@ from ..finite.pressing import press
 from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, unscored_rows, unsolved_rows
+from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, unscored_rows
 from ..readouts.strain import FilteredReadouts, Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -187,15 +187,12 @@ def solved_rows(
 
     step: called after condensation and after every condition.
     """
-    try:
-        condensed = prepared(scene, edges)
-    except UnsolvedError as refusal:
-        return unsolved_rows(scene, f"{NO_PREDICTION}: {refusal}"), {}
+    condensed = attempt(prepared, scene, edges)
     step()
     rows: list[dict[str, Any]] = []
     read: dict[Case, ReadSolution] = {}
     for solved in solve_scene(scene, condensed):
-        if isinstance(solved.solution, UnsolvedError):
+        if isinstance(solved.solution, UnsolvedError) or isinstance(condensed, UnsolvedError):
             note = f"{NO_PREDICTION}: {solved.solution}"
             rows += unscored_rows(scene, solved.condition, solved.interface, note)
         else:
@@ -206,21 +203,27 @@ def solved_rows(
     return rows, read
 
 
-def solve_scene(scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()) -> Iterator[Solved]:
-    """All conditions at some interfaces, or all, solved in turn as far as they can be; equal stimuli share one."""
+def solve_scene(
+    scene: Scene, condensed: Condensed | Meshed | UnsolvedError, interfaces: Sequence[Interface] = ()
+) -> Iterator[Solved]:
+    """All conditions at some interfaces, or all, solved in turn as far as they can be, which is not at all where the
+    finger could not be meshed or condensed; equal stimuli share one.
+    """
     for interface in interfaces or scene.device.interfaces():
         found: dict[str, Solution | UnsolvedError] = {}
         pressed: Callable[[Condition], Solution] | UnsolvedError | None = None
         for condition in scene.device.conditions:
             solved_as = scene.solved_as(condition.name).name
             if solved_as not in found:
-                if pressed is None or not scene.model.skips.shared_indentation:
-                    pressed = _attempt(pressed_device, scene, condensed, interface)
-                found[solved_as] = pressed if isinstance(pressed, UnsolvedError) else _attempt(pressed, condition)
+                if isinstance(condensed, UnsolvedError):
+                    pressed = condensed
+                elif pressed is None or not scene.model.skips.shared_indentation:
+                    pressed = attempt(pressed_device, scene, condensed, interface)
+                found[solved_as] = pressed if isinstance(pressed, UnsolvedError) else attempt(pressed, condition)
             yield Solved(condition, interface, found[solved_as])
 
 
-def _attempt(solve: Callable[..., Result], *given: object) -> Result | UnsolvedError:
+def attempt(solve: Callable[..., Result], *given: object) -> Result | UnsolvedError:
     """What is found, or why it cannot be."""
     try:
         return solve(*given)

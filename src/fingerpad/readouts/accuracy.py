@@ -22,6 +22,7 @@ from .strain import FilteredReadouts
 
 COARSENING = 2.0  # [1]; source: sizes go by halves, and 1.5 understated five scores of 54 by more than 2 (decision 23)
 ORDER = 1.5  # of convergence [1]; source: 2 understates more than one in twenty scores of unlike devices (decision 32)
+DIFFERENCE = COARSENING**ORDER - 1.0  # to the coarser solution, over the error [1]
 LEAST = 1e-3  # of a score [1]; source: median of 66 errors against references (decision 25)
 # of a reference [1]: at least 20 times the unknowns, errors a thirtieth at second order; source: 4 times hid bands of
 # strain (decision 22)
@@ -37,7 +38,7 @@ def score_errors(scene: Scene, read: FilteredReadouts, coarser: FilteredReadouts
     for each in Readout:
         filtered = read.filtered(each)
         off = np.interp(read.arc, coarser.arc, coarser.filtered(each)) - filtered
-        estimated = roughness_score(read.arc, off, span) / (COARSENING**ORDER - 1.0)
+        estimated = roughness_score(read.arc, off, span) / DIFFERENCE
         errors[each] = max(estimated, LEAST * roughness_score(read.arc, filtered, span))
     return errors
 

@@ -78,16 +78,6 @@ def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
     ]
 
 
-def unsolved_rows(scene: Scene, note: str) -> list[dict[str, Any]]:
-    """Rows, with no score but a note, for all conditions and interfaces at which the device prescribes motion."""
-    return [
-        row
-        for interface in scene.device.interfaces()
-        for condition in scene.device.conditions
-        for row in unscored_rows(scene, condition, interface, note)
-    ]
-
-
 def unscored_rows(scene: Scene, condition: Condition, interface: Interface, note: str) -> list[dict[str, Any]]:
     """Rows, with no score but a note, for one condition and interface: one a read-out."""
     return [score_row(scene, condition, interface, readout, None, note) for readout in Readout]
