@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.deck import input_deck
 from fingerpad.contact.linear_solution import indent_device
+from fingerpad.contact.problem import contact_problem
 from fingerpad.errors import MeshError, SceneError
 from fingerpad.figures.actuators import draw_actuators
 from fingerpad.scene.bodies import BODIES
@@ -189,3 +190,12 @@ def test_a_body_softer_than_the_tissue_is_pressed_with_hardly_an_increment_halve
     soft = with_body(replace(shipped, material=replace(shipped.material, modulus=modulus)))
     found = indent_device(soft, condensed("device3")[0], body_of(soft), Interface.SHEAR)
     assert found.state.cuts <= halved
+
+
+def test_deformable_actuators_need_their_body_and_rigid_ones_have_none() -> None:
+    """Else they would be pressed as rigid ones, and nobody would know."""
+    (soft, body), (rigid, _) = condensed("device3"), condensed("device2")
+    with pytest.raises(MeshError, match="device3: found no condensed body for deformable actuators"):
+        contact_problem(scene("device3"), soft, None, Interface.SHEAR)
+    with pytest.raises(MeshError, match="device2: found a condensed body for rigid actuators"):
+        contact_problem(scene("device2"), rigid, body, Interface.SHEAR)

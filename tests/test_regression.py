@@ -100,6 +100,19 @@ def test_scores_are_those_recorded(finished: Project) -> None:
 
 
 @pytest.mark.workflow
+def test_curves_of_force_end_where_solutions_begin(finished: Project) -> None:
+    """Of every device and interface: as deep, and as hard, as its conditions are pre-indented."""
+    results = finished.folder / "results"
+    curves = pd.read_csv(results / "indentation.csv").groupby(["device", "interface"])
+    assert len(curves) == 5
+    for (device, interface), end in curves.last().iterrows():
+        path = next((results / "small" / device).glob(f"*/{interface}/solution.npz"))
+        solution = load(path, Solution)
+        assert end["indentation_mm"] == pytest.approx(solution.indentation, rel=TOLERANCE)
+        assert end["force_N_per_mm"] == pytest.approx(solution.pressing[0].sum(), rel=TOLERANCE)
+
+
+@pytest.mark.workflow
 def test_what_the_model_should_show(finished: Project) -> None:
     """The paper's orders of the change of strain come out; some of what it says of strain and of missing shear does
     not, and this list changes when the model does."""

@@ -18,7 +18,7 @@ def main(
     """Follow the small-strain curves, read the others, write all. bodies, pressed: of the devices that have them."""
     rows = []
     curves = {(path.parent.parent.name, path.parent.name): path for path in pressed}
-    actuators = {path.parent.name: path for path in bodies}
+    actuators = {path.stem: path for path in bodies}
     for path, section in zip(devices, condensed, strict=True):
         scene = load_scene(config, path)
         name = scene.device.name

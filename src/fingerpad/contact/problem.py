@@ -28,7 +28,12 @@ SHEAR_ALONE = "; `interfaces: {value: shear, ...}` in the device file skips the 
 def contact_problem(
     scene: Scene, section: CondensedSection, body: CondensedBody | None, interface: Interface
 ) -> ContactProblem:
-    """The contact problem of a scene and an interface. Raises MeshError if an actuator is nearest to no skin node."""
+    """The contact problem of a scene and an interface. body: of deformable actuators, else None. Raises MeshError if
+    that is not so, or an actuator is nearest to no skin node.
+    """
+    if (body is None) != (scene.device.actuators.body is None):
+        found, kind = ("no", "deformable") if body is None else ("a", "rigid")
+        raise MeshError(f"{scene.device.name}: found {found} condensed body for {kind} actuators")
     numerics, law = scene.model.numerics, scene.model.contact
     problem = ContactProblem(
         position=section.position,
