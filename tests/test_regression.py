@@ -100,9 +100,11 @@ def test_scores_are_those_recorded(finished: Project) -> None:
 
 
 @pytest.mark.workflow
-def test_curves_of_force_end_where_solutions_begin(finished: Project) -> None:
+def test_curves_of_force_end_where_solutions_begin(changeable: Project) -> None:
     """Of every device and interface: as deep, and as hard, as its conditions are pre-indented."""
-    results = finished.folder / "results"
+    run = changeable.snakemake("results/indentation.csv")
+    assert run.status == 0, run.text
+    results = changeable.folder / "results"
     curves = pd.read_csv(results / "indentation.csv").groupby(["device", "interface"])
     assert len(curves) == 5
     for (device, interface), end in curves.last().iterrows():
