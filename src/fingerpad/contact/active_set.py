@@ -24,6 +24,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.linalg.lapack import dgesv
 
 from ..arrays import FloatArray
 from .formulation import OPEN, ContactProblem, ContactState, Status, resolved
@@ -109,6 +110,14 @@ class Trial:
 
 
 @dataclass(frozen=True)
+class _Step:
+    """Change (2b,) [mm] of the displacements in a Newton step; whether its equations' determinant is negative."""
+
+    moved: FloatArray
+    turned: bool
+
+
+@dataclass(frozen=True)
 class _Patience:
     """Fewest nodes that asked for another state so far, and iterations since then in which no fewer did."""
 
@@ -164,12 +173,11 @@ def settle(
     residual, turned, searched = float("inf"), False, False
     patience = _Patience(nodes.size + 1)
     for iteration in range(MAX_ITERATIONS - done):
-        matrix, right = _newton_equations(increment, trial, states)
-        step = _solved(matrix, right, states.unknown, 2 * nodes.size)
+        step = _newton_step(increment, trial, states)
         if step is None:
             break
-        turned = turned or (iteration >= PATIENCE and _is_turned(matrix))
-        trial = (_searched if patience.spent else _stepped)(increment, trial, step, states, reference[nodes])
+        turned = turned or (iteration >= PATIENCE and step.turned)
+        trial = (_searched if patience.spent else _stepped)(increment, trial, step.moved, states, reference[nodes])
         slip = trial.place - reference[nodes]
         following = _next_status(increment, trial, slip, states.status, released)
         changed = (following != states.status).nonzero()[0]
@@ -177,7 +185,7 @@ def settle(
         if changed.size == 0:
             # a residual that one more step did not lower is rounding
             if residual <= EACH * problem.tolerance or before <= residual <= problem.tolerance:
-                if _is_turned(matrix):
+                if step.turned:
                     turned = True
                     break
                 return Settled(_obeying(problem, trial, states), states.status, reference, iteration + 1, searched)
@@ -275,19 +283,18 @@ def _newton_equations(increment: PatchProblem, trial: Trial, states: _States) ->
     return transposed.T, right
 
 
-def _solved(matrix: FloatArray, right: FloatArray, unknown: np.ndarray, size: int) -> FloatArray | None:
-    """Change (size,) [mm] of the displacements in a Newton step; None if its equations are singular."""
-    step = np.zeros(size)
-    try:
-        step[unknown] = np.linalg.solve(matrix, right)
-    except np.linalg.LinAlgError:
+def _newton_step(increment: PatchProblem, trial: Trial, states: _States) -> _Step | None:
+    """The Newton step within the given states; None if its equations are singular."""
+    moved = np.zeros(2 * states.status.size)
+    if states.unknown.size == 0:
+        return _Step(moved, turned=False)
+    matrix, right = _newton_equations(increment, trial, states)
+    factors, pivots, found, singular = dgesv(matrix, right, overwrite_a=True, overwrite_b=True)
+    if singular or not np.isfinite(found).all():
         return None
-    return step if np.isfinite(step).all() else None
-
-
-def _is_turned(matrix: FloatArray) -> bool:
-    """Whether the determinant of the states' equations is negative."""
-    return bool(np.linalg.slogdet(matrix)[0] < 0.0)
+    moved[states.unknown] = found
+    exchanges = np.count_nonzero(pivots != np.arange(pivots.size))
+    return _Step(moved, turned=(exchanges + np.count_nonzero(factors.diagonal() < 0.0)) % 2 == 1)
 
 
 def _stepped(increment: PatchProblem, trial: Trial, step: FloatArray, states: _States, reference: FloatArray) -> Trial:
