@@ -50,7 +50,6 @@ rule reference:
     params:
         code=code("reference.py"),
         scene=scored_of,
-        interfaces=interfaces_referenced,
     script:
         "../scripts/reference.py"
 

@@ -286,16 +286,6 @@ def cases(pattern, kinematics=KINEMATICS):
     ]
 
 
-def interfaces_referenced(wildcards):
-    """The interfaces of a reference: with finite kinematics shear alone where all strokes are normal, as without friction
-    most of these want new tangents, many minutes each.
-    """
-    device = scene_of(wildcards).device
-    _, lateral = device.strokes
-    alone = wildcards.kinematics == Kinematics.FINITE and lateral == 0.0
-    return [str(each) for each in ([Interface.SHEAR] if alone else device.interfaces())]
-
-
 def body_of(wildcards):
     """The condensed body of a deformable actuator, or nothing."""
     return f"results/bodies/{wildcards.device}.npz" if scene_of(wildcards).device.actuators.body else []

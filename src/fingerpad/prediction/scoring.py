@@ -105,14 +105,13 @@ def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:
     return Meshed(section, body_of(scene), resampling_to_grid(arc, scene.model.gabor.spacing))
 
 
-def rows_at(
-    scene: Scene, coarsening: float, edges: FloatArray, interfaces: Sequence[Interface] = ()
-) -> list[dict[str, Any]]:
+def rows_at(scene: Scene, coarsening: float, edges: FloatArray) -> list[dict[str, Any]]:
     """Rows of the score table on sizes and increments `coarsening` times the scene's [1], with edges (k, 2) [mm].
-    interfaces: those that are solved, all if none are named. Raises what `prepared` and `predicted_rows` raise.
+
+    Raises what `prepared` and `predicted_rows` raise.
     """
     other = scene.coarsened(coarsening)
-    return predicted_rows(other, prepared(other, edges), interfaces)
+    return predicted_rows(other, prepared(other, edges))
 
 
 def error_rows(
@@ -163,15 +162,13 @@ def _errors_of(
     ]
 
 
-def predicted_rows(
-    scene: Scene, condensed: Condensed | Meshed, interfaces: Sequence[Interface] = ()
-) -> list[dict[str, Any]]:
-    """Rows of the score table for all conditions at some interfaces, or all.
+def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str, Any]]:
+    """Rows of the score table for all conditions at all interfaces.
 
     Raises UnsolvedError.
     """
     rows: list[dict[str, Any]] = []
-    for solved in solve_scene(scene, condensed, interfaces):
+    for solved in solve_scene(scene, condensed):
         if isinstance(solved.solution, UnsolvedError):
             raise solved.solution
         read = read_out(scene, condensed, solved.solution)
