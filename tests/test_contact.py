@@ -184,15 +184,11 @@ def test_a_halved_increment_is_another(length: float, expected: list[float]) -> 
     assert reached.actuator == pytest.approx(lift(problem, 0.0, length))
 
 
-@pytest.mark.parametrize("reach", [0.05, 0.3])
-def test_a_patch_whose_nodes_move_alike_is_inverted(reach: float) -> None:
-    """Halves of halves alone miss unit loads by 0.1 to 10 here, as soft tissue under a stiff skin has it."""
-    x = np.linspace(0.0, 1.0, 100)
-    alike = np.exp(-(((x[:, None] - x) / reach) ** 2)) + 1e-6 * np.eye(x.size)  # condition 1e7 to 1e8
-    compliance = np.kron(alike, np.eye(2))
-    position = np.array([x, np.zeros(x.size)]).T
+def missed_by_a_patch(compliance: FloatArray) -> float:
+    """By how much the stiffness of a patch of all nodes misses unit displacements under a compliance (2n, 2n)."""
+    x = np.linspace(0.0, 1.0, compliance.shape[0] // 2)
     problem = ContactProblem(
-        position=position,
+        position=np.array([x, np.zeros(x.size)]).T,
         compliance=compliance,
         row=ActuatorRow((0.5,), 1.0, 0.0),
         body=None,
@@ -201,10 +197,26 @@ def test_a_patch_whose_nodes_move_alike_is_inverted(reach: float) -> None:
         max_cuts=10,
     )
     order = np.concatenate([2 * np.arange(x.size), 2 * np.arange(x.size) + 1])
-    patch = patch_of(problem, np.arange(x.size), None)
-    unit = compliance[np.ix_(order, order)] @ patch.response.T  # which has one displacement a row
+    response = patch_of(problem, np.arange(x.size), None).response
+    unit = compliance[np.ix_(order, order)] @ response.T  # which has one displacement a row
+    return float(np.abs(unit - np.eye(2 * x.size)).max())
+
+
+@pytest.mark.parametrize("reach", [0.05, 0.3])
+def test_a_patch_whose_nodes_move_alike_is_inverted(reach: float) -> None:
+    """Halves of halves alone miss unit loads by 0.1 to 10 here, as soft tissue under a stiff skin has it."""
+    x = np.linspace(0.0, 1.0, 100)
+    alike = np.exp(-(((x[:, None] - x) / reach) ** 2)) + 1e-6 * np.eye(x.size)  # condition 1e7 to 1e8
     # what elimination with pivots leaves: rounding times the condition
-    assert np.abs(unit - np.eye(2 * x.size)).max() < np.finfo(float).eps * np.linalg.cond(alike)
+    assert missed_by_a_patch(np.kron(alike, np.eye(2))) < np.finfo(float).eps * np.linalg.cond(alike)
+
+
+def test_a_patch_is_inverted_by_halves_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where they are well conditioned nothing falls back on elimination, which would hide that halves are wrong."""
+    monkeypatch.setattr("fingerpad.contact.patch.LOST", np.inf)
+    x = np.linspace(0.0, 1.0, 100)
+    compliance = np.kron(np.exp(-np.abs(x[:, None] - x) / 0.1), np.array([[2.0, 0.3], [0.3, 1.0]]))
+    assert missed_by_a_patch(compliance) < np.finfo(float).eps * np.linalg.cond(compliance)
 
 
 def test_the_front_of_contact_is_where_hertz_has_it() -> None:
