@@ -29,9 +29,10 @@ NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
 }
 EXPECTED = Path(__file__).with_name("expected") / "scores.csv"
 KEY = ["kinematics", "device", "condition", "interface", "readout"]
-# Another processor rounds differently; that may move the end of pre-indentation by its resolution of 1e-4 mm in 1.6 mm
-TOLERANCE = 1e-3
-ERROR_TOLERANCE = 0.1  # of an error of 1 % of a score that moves by TOLERANCE
+# Another processor rounds differently: kernels for one without vectors of 256 bits move scores by 1.6e-7, and their
+# errors by 2.3e-6, at most (measured); the rest is left to processors that were not tried
+TOLERANCE = 1e-5
+ERROR_TOLERANCE = 1e-3
 BOTH = {"figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear"}  # drawn for both kinematics
 
 
