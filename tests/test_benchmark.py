@@ -288,6 +288,11 @@ def test_the_accuracy_page_counts_and_compares() -> None:
     assert "from itself by 3.0 to 3.0 % in the change of strain" in verdict
     lost = {**frames, "calculix": frames["calculix"].assign(case="base")}
     assert "CalculiX did not converge in the case `finer_mesh`" in accuracy_values(lost)["calculix_verdict"]
+    assert "CalculiX has no rows" not in page
+    alone = {**frames, "ladder": frames["ladder"][frames["ladder"]["solver"] == "fingerpad"]}
+    for ladder, named in ((alone, "small and finite"), ({**frames, "ladder": frames["ladder"].iloc[:-1]}, "finite")):
+        told = f"CalculiX has no rows for {named} kinematics: it was not installed, or failed."
+        assert told in str(accuracy_values(ladder)["compared"])
     assert "takes 2.5 times as long as with small strain only" in page
     assert "| both | 95.0 | 10.0 | 9.5 | 3.0 |" in page
 

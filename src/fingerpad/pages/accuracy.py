@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from ..benchmark.ladder import COMPARED_AT, OWN_LADDER
+from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, OWN_LADDER
 from ..calculix.crosscheck import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.accuracy import CASE
@@ -174,9 +174,16 @@ def _of_run_time(timings: pd.DataFrame, ladder: pd.DataFrame, exponents: pd.Data
     return {
         "timings": table(timings[["kinematics", "device", "step", "n", "median_s", "lowest_s", "highest_s"]]),
         "ladder": table(rungs.rename(columns=names)),
-        "compared": _compared(ladder, error),
+        "compared": f"{_missing(ladder)}{_compared(ladder, error)}",
         "exponents": table(exponents),
     }
+
+
+def _missing(ladder: pd.DataFrame) -> str:
+    """For which kinematics CalculiX has no rows, in words; nothing if it has some for all."""
+    climbed = ladder.groupby("kinematics", sort=False)["solver"].agg(lambda solvers: CALCULIX_LADDER in {*solvers})
+    without = " and ".join(climbed.index[~climbed.astype(bool)])
+    return f"CalculiX has no rows for {without} kinematics: it was not installed, or failed.\n\n" if without else ""
 
 
 def _compared(ladder: pd.DataFrame, error: pd.Series) -> str:
