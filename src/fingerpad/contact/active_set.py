@@ -286,7 +286,7 @@ def _newton_equations(increment: PatchProblem, trial: Trial, states: _States) ->
 def _newton_step(increment: PatchProblem, trial: Trial, states: _States) -> _Step | None:
     """The Newton step within the given states; None if its equations are singular."""
     moved = np.zeros(2 * states.status.size)
-    if states.unknown.size == 0:
+    if states.unknown.size == 0:  # all nodes stick; LAPACK takes no empty matrix
         return _Step(moved, turned=False)
     matrix, right = _newton_equations(increment, trial, states)
     factors, pivots, found, singular = dgesv(matrix, right, overwrite_a=True, overwrite_b=True)

@@ -181,8 +181,8 @@ def _of_run_time(timings: pd.DataFrame, ladder: pd.DataFrame, exponents: pd.Data
 
 def _missing(ladder: pd.DataFrame) -> str:
     """For which kinematics CalculiX has no rows, in words; nothing if it has some for all."""
-    climbed = ladder.groupby("kinematics", sort=False)["solver"].agg(lambda solvers: CALCULIX_LADDER in {*solvers})
-    without = " and ".join(climbed.index[~climbed.astype(bool)])
+    climbed = {*ladder.loc[ladder["solver"] == CALCULIX_LADDER, "kinematics"]}
+    without = " and ".join(each for each in ladder["kinematics"].unique() if each not in climbed)
     return f"CalculiX has no rows for {without} kinematics: it was not installed, or failed.\n\n" if without else ""
 
 
