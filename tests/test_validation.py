@@ -459,6 +459,24 @@ def test_a_device_has_friction_and_preload_of_its_own(tmp_path: Path) -> None:
         assert said in message
 
 
+def test_a_row_may_be_uneven_and_lie_beside_the_middle(tmp_path: Path) -> None:
+    """Positions take the place of count and pitch, to the last bit; the offset moves either to the right."""
+    document = yaml.safe_load((DEVICES / "device2.yaml").read_text(encoding="utf-8"))
+    even = check_device(DEVICES / "device2.yaml", SCHEMAS, CONFIG).device.actuators.positions
+
+    def row(positions: list[float] | None, offset: float | None) -> tuple[float, ...]:
+        edits: Edits = {"actuators.offset": DELETED if offset is None else quantity(offset, "mm")}
+        if positions is not None:
+            edits |= {"actuators.count": DELETED, "actuators.pitch": DELETED}
+            edits |= {"actuators.positions": quantity(positions, "mm")}
+        path = write(tmp_path, "mine.yaml", edited(document, edits))
+        return check_device(path, SCHEMAS, CONFIG).device.actuators.positions
+
+    assert row([-3.75, -1.25, 1.25, 3.75], None) == row(None, None) == even
+    assert row(None, 0.5) == tuple(x + 0.5 for x in even)
+    assert row([-3.0, -1.0, 1.5, 3.0], -0.25) == (-3.25, -1.25, 1.25, 2.75)
+
+
 def test_history_passes(tmp_path: Path) -> None:
     document = yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8"))
     scene = check_device(write(tmp_path, "tapper.yaml", edited(document, {"stimulus": HISTORY})), SCHEMAS, CONFIG)

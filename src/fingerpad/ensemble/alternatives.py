@@ -69,8 +69,10 @@ def slug(name: str) -> str:
 
     >>> slug("contact.friction 0.38")
     'contact_friction_0_38'
+    >>> slug("actuators.offset -0.5")
+    'actuators_offset_minus_0_5'
     """
-    return re.sub("[^a-z0-9]+", "_", name.lower()).strip("_")
+    return re.sub("[^a-z0-9]+", "_", name.lower().replace(" -", " minus ")).strip("_")
 
 
 def read_ensemble(path: Path) -> list[Alternative]:

@@ -59,11 +59,11 @@ class Body:
 class ActuatorRow:
     """A row of equal actuators, flat-faced with rounded edges.
 
-    positions: centres x [mm], ascending. width: over the rounded edges [mm]. edge_radius: [mm], 0 for sharp edges,
-    width/2 for a cylinder. body: None for rigid actuators.
+    positions: centres x [mm] from the finger's middle, ascending. width: over the rounded edges [mm]. edge_radius:
+    [mm], 0 for sharp edges, width/2 for a cylinder. body: None for rigid actuators.
 
-    Raises SceneError if there is no actuator, neighbours overlap, a number is not finite, the width is not positive, or
-    edge_radius not between 0 and width/2.
+    Raises SceneError if there is no actuator, positions do not ascend, neighbours overlap, a number is not finite, the
+    width is not positive, or edge_radius not between 0 and width/2.
     """
 
     positions: tuple[float, ...]
@@ -81,6 +81,7 @@ class ActuatorRow:
             f" found {self.edge_radius:g}",
         )
         for left, right in pairwise(self.positions):
+            require(left < right, f"actuators: positions must ascend, found {left:g} mm before {right:g} mm")
             require(
                 right - left >= self.width * (1.0 - ROUNDING),
                 f"actuators: neighbours at x = {left:g} and {right:g} mm overlap: width {self.width:g} mm is more"

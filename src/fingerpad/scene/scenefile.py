@@ -222,9 +222,8 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
         f"{path.stem}: found interfaces: both with control: force; allowed: shear, or leave it out: displacements of"
         " controlled forces are unknown without friction",
     )
-    count = row["count"]
-    positions = tuple((i - (count - 1) / 2.0) * row["pitch"] for i in range(count))
-    actuators = ActuatorRow(positions, row["width"], row["edge_radius"], _body(row["body"]))
+    actuators = ActuatorRow(_positions(row), row["width"], row["edge_radius"], _body(row["body"]))
+    count = len(actuators.positions)
     conditions = KINDS[stimulus["kind"]](stimulus, count, path.parent)
     frequencies = tuple(stimulus.get("frequency_hz", ()))
     cycles = tuple(CYCLES[stimulus["kind"]](stimulus, count)) if stimulus["kind"] in CYCLES else ()
@@ -276,6 +275,20 @@ def _contact_law(given: dict[str, Any]) -> ContactLaw:
         depth=given["depth"],
         force=given["force"],
     )
+
+
+def _positions(row: dict[str, Any]) -> tuple[float, ...]:
+    """Centres [mm] of the actuators of the plain values under `actuators`. Raises SceneError if they are given twice.
+
+    >>> _positions({"count": 2, "pitch": 2.0, "offset": 0.5})
+    (-0.5, 1.5)
+    """
+    twice = [key for key in ("count", "pitch") if "positions" in row and key in row]
+    require(not twice, f"actuators: found positions and {' and '.join(twice)}; allowed: positions, or count and pitch")
+    count = row.get("count", 0)
+    places = row.get("positions") or [(i - (count - 1) / 2.0) * row["pitch"] for i in range(count)]
+    # ASSUME: actuators.offset: where a file says nothing, the finger lies over the middle of the row
+    return tuple(x + row.get("offset", 0.0) for x in places)
 
 
 def _body(given: dict[str, Any]) -> Body | None:

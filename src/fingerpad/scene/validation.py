@@ -268,8 +268,9 @@ def _plain(schema: Schema, value: Any, files: dict[Path, Schema], own: Path) -> 
     So every error comes with all that is said about its key, and with nothing about kinds that were not chosen.
     """
     parts = [_referred(schema["$ref"], files, own)] if "$ref" in schema else []
-    cases = schema.get("allOf", []) if isinstance(value, dict) else []
-    parts += [(case["then"], own) for case in cases if Draft202012Validator(case["if"]).is_valid(value)]
+    given = {} if value is None else value  # a mapping that is not there lacks what an empty one does
+    cases = schema.get("allOf", []) if isinstance(given, dict) else []
+    parts += [(case["then"], own) for case in cases if Draft202012Validator(case["if"]).is_valid(given)]
     rest = {keyword: content for keyword, content in schema.items() if keyword not in ("$ref", "allOf")}
     plain: Schema = {"properties": {}, "required": []}
     for part in (*(_plain(part, value, files, file) for part, file in parts), rest):
