@@ -41,6 +41,7 @@ from fingerpad.prediction.caveats import (
     MANY_CUTS,
     MANY_SEARCHES,
     noted_rows,
+    scene_caveats,
     solution_caveats,
     stimulus_caveats,
 )
@@ -478,6 +479,13 @@ def test_round_actuators_say_where_they_end() -> None:
     assert caveat.startswith("round actuators have no flat face to cover: pre-indentation ends where contact reaches")
     law = replace(domes.model.contact, criterion=Criterion.FORCE)
     assert solution_caveats(replace(domes, model=replace(domes.model, contact=law)), solution) == []
+
+
+def test_no_friction_is_told_where_shear_is_asked_for() -> None:
+    given = scene("device2").model.contact
+    slippery = replace(scene("device2"), model=replace(scene("device2").model, contact=replace(given, friction=0.0)))
+    (told,) = scene_caveats(slippery)
+    assert told.startswith("contact.friction is 0: ")
 
 
 def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:

@@ -217,6 +217,8 @@ def test_measured_device_is_the_one_with_that_history(tmp_path: Path) -> None:
     (condition,) = check_device(path, SCHEMAS, CONFIG).device.conditions
     moved = np.array([[0.01, 0.02, 0.03, 0.04]])
     assert condition.same_stimulus(Condition("tap", "one", 0.0, np.array([1.0]), moved, -moved))
+    with pytest.raises(SceneError, match="settling must leave a time to read of 1, found 1"):
+        Condition("tap", "one", 0.0, np.array([1.0]), moved, -moved, settling=1)
     assert recordings(path) == [tmp_path / "raw" / "tap.csv"]
     assert recordings(SECOND) == []
 

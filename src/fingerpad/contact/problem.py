@@ -50,8 +50,8 @@ def contact_problem(
     missed = np.setdiff1d(np.arange(len(centres)), problem.actuator_of)
     if missed.size:
         raise MeshError(
-            f"{scene.device.name}: no skin node is near the actuator at x = {centres[missed[0]]:g} mm, nor near"
-            f" {missed.size - 1} others of {len(centres)}; try a smaller numerics.face_size"
+            f"{scene.device.name}: no skin node is near the actuator at x = {centres[missed[0]]:g} mm"
+            f" ({missed.size} of {len(centres)} have none); try a smaller numerics.face_size"
         )
     return problem
 

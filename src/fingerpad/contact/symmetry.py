@@ -77,7 +77,9 @@ def half_of(problem: ContactProblem) -> ContactProblem:
 
 
 def unfolded(state: ContactState, problem: ContactProblem) -> ContactState:
-    """The whole state of the half's, which `half_of` made a problem of."""
+    """The whole state of the half's, which `half_of` made a problem of. On the way a node in the middle counted with
+    the half's force, so that `largest_force` may be smaller: dissipation is held to that.
+    """
     force, trend = state.force.copy(), state.trend.copy()
     node = int(problem.position[0, 0] == 0.0)  # how many there are in the middle, which both halves share
     actuator = int(problem.row.positions[0] == 0.0)

@@ -80,7 +80,8 @@ class Equilibrium:
 
     state: of contact. displacement: (size,) of the tissue [mm]. free: (m, 2) displacement of contact nodes without
     contact forces, had the tangent held all the way [mm]. tangents: made so far. defect: largest change of displacement
-    in the last correction of a move, over the largest displacement in it [1], so far.
+    in the last correction of a move, over the largest displacement in it, or in the last iteration of one with new
+    tangents, over the load [1], so far.
     """
 
     state: ContactState
@@ -196,7 +197,7 @@ def _followed_newly(
         displacement=reached.displacement,
         free=rest,
         tangents=start.tangents + reached.tangents,
-        defect=start.defect,
+        defect=max((start.defect, *reached.changes[-1:])),
     )
 
 

@@ -21,9 +21,8 @@ def claims_table(scores: pd.DataFrame, correlations: pd.DataFrame) -> pd.DataFra
     `correlation.correlation_table`, or its CSV read back.
 
     Returns the columns kinematics, claim, kind (see `Kind`), source, holds (see `Holds`) and evidence (a sentence with
-    the numbers). To rise means by more than the sum of both errors; what they can add up to in a correlation is
-    taken to first order. A claim which needs a score or a rating that is not there has no row: it is neither confirmed
-    nor refuted.
+    the numbers). To rise means by more than the sum of both errors. A claim which needs a score or a rating that is not
+    there has no row: it is neither confirmed nor refuted.
     """
     rows = []
     for kinematics in scores["kinematics"].unique():

@@ -6,6 +6,7 @@ range of R² over *all* ratings which agree with the stated order, which needs n
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -49,46 +50,47 @@ PUBLISHED = [column for column in COLUMNS if column.startswith("published")]
 CONSTANT_SCORE = "constant score"
 
 
-def error_in_r(score: FloatArray, rating: FloatArray, error: FloatArray) -> float:
-    """What errors (n,) of scores (n,) can add up to in r with ratings (n,) [1]; not a number if they are not known.
+def angle_of_errors(score: FloatArray, error: FloatArray) -> float:
+    """Angle [rad] by which errors (n,) d of scores (n,) can turn these, centred to S, towards any ratings:
+    arcsin(|d| / |S|) at most, and pi where |d| >= |S|; not a number if errors are not known.
 
-    With x, y centred and scaled to norm 1, |S| the norm of the centred scores and errors d_i, that is to first order
-        sum |y_i - r x_i| d_i / |S|,
-    and no less than what turns the slope, sum |y_i| d_i / |S|, where that is more than |r|.
-
-    >>> round(error_in_r(np.array([1.0, 3.0, 2.0]), np.array([1.0, 2.0, 3.0]), np.full(3, 0.25)), 12)
-    0.25
+    >>> round(float(np.degrees(angle_of_errors(np.array([1.0, 3.0]), np.full(2, 0.5)))), 12)
+    30.0
     """
-    first, turning, r = _moved(score, rating, error)
-    return max(first, turning) if turning > abs(r) else first
+    share = float(np.linalg.norm(error) / np.linalg.norm(score - score.mean()))
+    return math.pi if share >= 1.0 else math.asin(share)
+
+
+def error_in_r(r: float, angle: float) -> float:
+    """What scores that turn by an `angle` [rad] can change in Pearson's r [1], the cosine of theirs with the ratings:
+    max(r - cos(theta + angle), cos(theta - angle) - r) with theta = arccos r. Not a number for such an angle.
+
+    >>> round(error_in_r(0.5, math.pi / 3.0), 12), round(error_in_r(1.0, math.pi / 3.0), 12)
+    (1.0, 0.5)
+    """
+    theta = math.acos(r)
+    lowest, highest = np.cos(np.clip([theta + angle, theta - angle], 0.0, math.pi))
+    return float(max(r - lowest, highest - r))
 
 
 def is_turned(score: FloatArray, rating: FloatArray, error: FloatArray) -> bool:
-    """Whether errors (n,) of scores (n,) can change the sign of the slope with ratings (n,): exactly if
-    sum |y_i| d_i / |S| > |r| (see `error_in_r`). Not where they are not known.
+    """Whether errors (n,) d of scores (n,) can change the sign of the slope with ratings (n,). With y the ratings,
+    centred and scaled to norm 1, and S the centred scores, they can exactly if sum |y_i| d_i > |<S, y>|. Not where they
+    are not known.
     """
-    _, turning, r = _moved(score, rating, error)
-    return turning > abs(r)
+    y = unit(rating)
+    return bool(np.abs(y) @ error > abs(y @ score))
 
 
-def _moved(score: FloatArray, rating: FloatArray, error: FloatArray) -> tuple[float, float, float]:
-    """Both sums of `error_in_r` [1], and r [1]."""
-    x, y, share = unit(score), unit(rating), error / np.linalg.norm(score - score.mean())
-    r = float(x @ y)
-    return float(np.abs(y - r * x) @ share), float(np.abs(y) @ share), r
-
-
-def _range_errors(score: FloatArray, over: RatingRange, error: FloatArray) -> tuple[float, bool]:
-    """What errors (n,) of scores (n,) can add up to in the ends of the range of r, and with generators that they turn;
-    and whether they turn any rating's slope.
+def _is_any_turned(score: FloatArray, over: RatingRange, error: FloatArray) -> bool:
+    """Whether errors (n,) of scores (n,) can change the sign of the slope with any rating in an order.
 
     No rating's slope turns if those of all generators have one sign and none of them turns: sum |y_i| d_i <= |<S, y>|
     then holds for their sums, too. With both signs some rating's slope is zero (r2 then reaches down to it), and any
     error turns that.
     """
-    turned = [rating for rating in over.generators if is_turned(score, rating, error)]
     level = over.r[0] < 0.0 < over.r[1] and over.r2[0] == 0.0 and bool((error > 0.0).any())
-    return max(error_in_r(score, rating, error) for rating in (*over.ratings, *turned)), bool(turned) or level
+    return level or any(is_turned(score, rating, error) for rating in over.generators)
 
 
 def correlation_table(
@@ -103,9 +105,9 @@ def correlation_table(
 
     Returns the columns COLUMNS:
     n: conditions correlated. spread: range of the scores over the mean of their sizes, empty if all are zero.
-    slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what errors of scores can add
-    up to in r (`error_in_r`), and slope_open: 1 where they leave the slope's sign open, else 0; empty if they are not
-    known.
+    slope_sign: of rating on score, -1, 0 or 1. r2: squared Pearson correlation. r_error: what errors of scores can
+    change in r (`error_in_r`), at most, and slope_open: 1 where they leave the slope's sign open, else 0; empty if they
+    are not known.
     r_lowest, r_highest: of r over all ratings that agree with the stated order (`rating_range`), and r2_lowest,
     r2_highest: of R², whichever way the slope then is; range_error and range_open: as r_error,
     the larger of those at both ends of r, and 1 if some rating's slope is open; empty without an order.
@@ -160,10 +162,10 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     distinct = np.bincount(which, x) / np.bincount(which)
     notes = [] if distinct.size == x.size else [f"{distinct.size} of {x.size} conditions are distinct"]
     error = scores["score_error"].to_numpy(float)
-    known = bool(np.isfinite(error).all())
+    known, angle = bool(np.isfinite(error).all()), angle_of_errors(x, error)
     if len(order):
         at_most = order_matrix(list(score.index), order)
-        found |= _over_ratings(x, at_most, error, known)
+        found |= _over_ratings(x, at_most, error, known, angle)
         notes += _contradictions(y, at_most)
     r = float(pearsonr(x, y).statistic)
     mean_rating = np.bincount(which, y) / np.bincount(which)
@@ -171,7 +173,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         **found,
         "slope_sign": int(np.sign(r)),
         "r2": r**2,
-        "r_error": error_in_r(x, y, error),
+        "r_error": error_in_r(r, angle),
         "slope_open": int(is_turned(x, y, error)) if known else None,
         "kendall_tau": float(kendalltau(which, y).statistic),
         "p": float(pearsonr(distinct, mean_rating).pvalue)
@@ -181,15 +183,18 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     }
 
 
-def _over_ratings(score: FloatArray, at_most: np.ndarray, error: FloatArray, known: bool) -> dict[str, Any]:
-    """What all ratings that agree with an order (n, n) give, and how far errors (n,) of scores (n,) move it."""
+def _over_ratings(
+    score: FloatArray, at_most: np.ndarray, error: FloatArray, known: bool, angle: float
+) -> dict[str, Any]:
+    """What all ratings that agree with an order (n, n) give, and how far errors (n,) of scores (n,), which turn these
+    by an angle [rad], move it.
+    """
     over = rating_range(score, at_most)
-    range_error, is_open = _range_errors(score, over, error)
     return {
         **dict(zip(("r_lowest", "r_highest"), over.r, strict=True)),
         **dict(zip(("r2_lowest", "r2_highest"), over.r2, strict=True)),
-        "range_error": range_error,
-        "range_open": int(is_open) if known else None,
+        "range_error": max(error_in_r(each, angle) for each in over.r),
+        "range_open": int(_is_any_turned(score, over, error)) if known else None,
     }
 
 

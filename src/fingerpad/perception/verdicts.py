@@ -30,8 +30,8 @@ class Holds(StrEnum):
 @dataclass(frozen=True)
 class Correlation:
     """Pearson's r [1] over all ratings that may be meant: its lowest and highest value, and those of |r|. error: what
-    errors of scores can add up to in it, infinite if they are not known. is_open: whether they leave the sign of some
-    of them open.
+    errors of scores can change in it at most, infinite if they are not known. is_open: whether they leave the sign of
+    some of them open.
     """
 
     ends: tuple[float, float]
@@ -101,7 +101,7 @@ def is_surrogate(row: Mapping[str, Any]) -> bool:
 
 def r_of(row: Mapping[str, Any]) -> Correlation:
     """Pearson's r [1]. With surrogates it is over all ratings in the stated order, or over all there are if no order is
-    stated. What errors of scores can add up to in it is taken to the first order. A constant score has r = 0.
+    stated. A constant score has r = 0.
     """
     if pd.isna(row["r2"]):
         return Correlation((0.0, 0.0), (0.0, 0.0), error=0.0, is_open=False)

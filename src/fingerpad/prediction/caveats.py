@@ -17,7 +17,7 @@ from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 
-MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: shipped devices have up to 3
+MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: assumption: some; shipped devices have none
 MANY_CUTS = 2  # halved increments [1]; source: shipped devices have up to 2, with finite kinematics
 NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
 # Another time's change over that which is read [1]; source: between the shipped sizes and halves of them the ratio of
@@ -51,8 +51,10 @@ def stimulus_caveats(condition: Condition) -> list[str]:
 
 
 def scene_caveats(scene: Scene) -> list[str]:
-    """Actuators without a face to cover or too narrow for the mesh, and a filter too fine for it."""
+    """No friction, actuators without a face to cover or too narrow for the mesh, and a filter too fine for it."""
     found = []
+    if scene.model.contact.friction == 0.0:
+        found.append("contact.friction is 0: the interface called shear has no friction here either")
     if scene.model.contact.criterion is Criterion.FULL and scene.device.actuators.half_face <= 0.0:
         found.append(
             "round actuators have no flat face to cover: pre-indentation ends where contact reaches the middle of each;"

@@ -44,13 +44,15 @@ def relation(one: Score, other: Score) -> Relation:
 
 
 def classes(scores: FloatArray) -> np.ndarray:
-    """Place (n,) of each score among those that differ, from 0: scores (n,) that only rounding tells apart share one.
+    """Place (n,) of each score among those that differ, from 0: scores (n,) that only rounding tells apart from the
+    next one share its place, as `relation` has it.
 
     >>> classes(np.array([2.0, 1.0, 2.0 + 1e-9, 1.5])).tolist()
     [2, 0, 2, 1]
     """
     order = np.argsort(scores, kind="stable")
-    steps = np.diff(scores[order]) > SAME * np.abs(scores).max(initial=0.0)
+    sizes = np.abs(scores[order])
+    steps = np.diff(scores[order]) > SAME * np.maximum(sizes[1:], sizes[:-1])
     places = np.zeros(scores.size, dtype=np.int64)
     places[order[1:]] = np.cumsum(steps)
     return places

@@ -111,7 +111,8 @@ class Condition:
     starts from rest, so a first row that is not zero is reached from zero. settling: how many of the times pass before
     receptors may be read, as friction remembers how a cycle was begun.
 
-    Raises SceneError if time is empty or does not ascend, or displacements are not finite or of another shape.
+    Raises SceneError if time is empty or does not ascend, settling leaves none of them, or displacements are not finite
+    or of another shape.
     """
 
     name: str
@@ -126,6 +127,10 @@ class Condition:
         where = f"condition {self.name}"
         require(self.time.ndim == 1 and self.time.size >= 1, f"{where}: time must have one row or more")
         require(bool(np.all(np.diff(self.time) > 0)), f"{where}: time must ascend")
+        require(
+            0 <= self.settling < self.time.size,
+            f"{where}: settling must leave a time to read of {self.time.size}, found {self.settling}",
+        )
         for name, array in (("normal", self.normal), ("tangential", self.tangential)):
             require(
                 array.ndim == 2 and array.shape[0] == self.time.size,
