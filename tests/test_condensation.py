@@ -91,7 +91,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     """The recovered field near the receptors has the strain that the condensed map gave."""
     mesh, base = section("device2"), scene("device2")
     solution = solved("device2", "alternate_180", Interface.SHEAR)
-    displacement = recover_displacement(mesh, base, solution.forces)
+    displacement = recover_displacement(mesh, base, solution.force)
     fields = states_fields(base, mesh, displacement)
     assert np.array_equal(fields.displacement, displacement[1:, :, mesh.mesh.t.T.ravel()])  # not of pre-indentation
     found, _ = condensed("device2")
@@ -103,7 +103,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     near = inside[np.argsort(np.hypot(*(fields.corner[:, inside].T - found.receptor[middle]).T))[:6]]
     # corners of the elements at the mid-line point: their spread is the jump between second-order elements
     assert fields.strain[0, near].min() * 0.97 < strain[middle] < fields.strain[0, near].max() * 1.03
-    before = maximum_principal(found.strain @ solution.indented_force.ravel())
+    before = maximum_principal(found.strain @ solution.force[0].ravel())
     change = strain[middle] - before[middle]
     assert change == pytest.approx(solution.reading.change_of_strain[middle], rel=1e-12)  # but for rounding
     assert fields.change[0, near].min() * 0.97 < change < fields.change[0, near].max() * 1.03

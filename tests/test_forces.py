@@ -45,7 +45,7 @@ def test_actuators_bear_what_the_row_is_pressed_with(interface: Interface) -> No
     normal, along = (
         chosen(rows("device2"), way, "alternate_090", interface, read=False) for way in (NORMAL, TANGENTIAL)
     )
-    assert normal.sum() == pytest.approx(solution.indented_force[:, 1].sum(), rel=EQUAL)
+    assert normal.sum() == pytest.approx(solution.force[0, :, 1].sum(), rel=EQUAL)
     assert normal == pytest.approx(normal[::-1], rel=EQUAL)
     assert along == pytest.approx(-along[::-1], rel=EQUAL)
     assert np.any(along != 0.0) == (interface is Interface.SHEAR)

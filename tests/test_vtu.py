@@ -201,7 +201,7 @@ def test_tractions_integrate_to_the_contact_forces(state: int) -> None:
     but for the rounding of sums of some hundred terms.
     """
     solution = solved(DEVICE, CONDITION, Interface.SHEAR)
-    forces = np.stack([solution.indented_force, *solution.force])
+    forces = solution.force
     mesh, skin = section(DEVICE).mesh, section(DEVICE).skin
     on_skin = skin_tractions(section(DEVICE), scene(DEVICE), forces)[state][:, skin]
     assert on_skin.max() > 0.0
@@ -230,7 +230,7 @@ def test_tractions_are_those_across_and_along_a_normal_that_turns() -> None:
 
     contact = linear_states(base, section(DEVICE), found).contact
     assert beyond(contact) < model.numerics.newton_tolerance
-    assert beyond(found.forces) > 1e-3
+    assert beyond(found.force) > 1e-3
     assert np.array_equal(contact[-1] / tissue.weight[:, None], np.stack([found.shear, found.pressure], axis=1))
 
 

@@ -41,7 +41,7 @@ def main(
         read = (each[1 + one.reading.time] for each, one in zip(states, solved, strict=True))
         displacement = np.array([states[0][0], *read])
     else:
-        forces = np.array([solved[0].indented_force, *(each.force[each.reading.time] for each in solved)])
+        forces = np.array([solved[0].force[0], *(each.force[1 + each.reading.time] for each in solved)])
         displacement = recover_displacement(section, scene, forces)
     save(fields, states_fields(scene, section, displacement))
 

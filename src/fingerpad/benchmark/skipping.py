@@ -81,9 +81,9 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     condition = scene.device.conditions[-1]
     solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
     _, recovering = fewest(
-        repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.forces))
+        repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.force))
     )
-    forces, finger = solution.forces, condensed.section
+    forces, finger = solution.force, condensed.section
     _, reading_both = fewest(repeats, lambda: read_receptors(finger.receptor_strain(forces), finger.arc))
     for what, extra in (("full field", recovering), ("one more read-out", reading_both / 2.0)):
         yield {

@@ -30,10 +30,10 @@ class Solution:
     height: of the faces above the lowest point of the undeformed pad after pre-indentation [mm]. indentation: how far
     they rose from first touch on until then [mm]. depth: largest height of an actuator above that at which it first
     touches undeformed skin [mm], at any time. position: (n, 2) of the contact
-    nodes on undeformed skin [mm]. indented_force: (n, 2) [N/mm] after pre-indentation; indented_actuator: (n,) index of
-    the actuator that each may touch there. force: (n_times, n, 2) [N/mm] at the stimulus's times. contact: (1 +
-    n_times, n, 2) shearing and pressing forces [N/mm] then and before, which are `forces` but where the normal turns.
-    actuator_force: (1 + n_times, n_actuators, 2) with which actuators act on the skin then [N/mm], x and y. arc: (m,)
+    nodes on undeformed skin [mm]. After pre-indentation and at the stimulus's times: force: (1 + n_times, n, 2) [N/mm]
+    on the nodes, x and y; contact: (1 + n_times, n, 2) shearing and pressing forces [N/mm], which are the same but
+    where the normal turns; actuator_force: (1 + n_times, n_actuators, 2) with which actuators act on the skin [N/mm],
+    x and y. indented_actuator: (n,) index of the actuator that each node may touch after pre-indentation. arc: (m,)
     receptors [mm]. reading: what they say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,)
     index of the one that a skin node may touch; place: (n,) x of the skin nodes from that actuator's centre [mm];
     status: (n,). iterations, cuts, searches: of the whole path. certificate.
@@ -43,7 +43,6 @@ class Solution:
     indentation: float
     depth: float
     position: FloatArray
-    indented_force: FloatArray
     indented_actuator: np.ndarray
     force: FloatArray
     contact: FloatArray
@@ -74,11 +73,6 @@ class Solution:
         slides = (self.status == Status.SLIP_FORWARD) | (self.status == Status.SLIP_BACKWARD)
         return float(pressing[slides].sum() / total) if (total := pressing.sum()) > 0.0 else math.nan
 
-    @property
-    def forces(self) -> FloatArray:
-        """Forces (1 + n_times, n, 2) [N/mm] after pre-indentation and at the stimulus's times."""
-        return np.concatenate([self.indented_force[None], self.force])
-
 
 def solution(
     problem: ContactProblem,
@@ -100,9 +94,8 @@ def solution(
         indentation=height - touching_height(problem),
         depth=depth(problem, np.array([state.actuator for state in states])),
         position=section.position,
-        indented_force=before.force,
         indented_actuator=before.given,
-        force=np.array([state.force for state in states[1:]]),
+        force=np.array([state.force for state in states]),
         contact=contact,
         arc=section.arc,
         reading=reading,

@@ -60,7 +60,7 @@ def solved_states(scene: Scene, section: SectionMesh, condition: Condition, inte
 
 def linear_states(scene: Scene, section: SectionMesh, solution: Solution) -> States:
     """States of linear tissue, from the contact forces of a solution. Raises what `recover_displacement` raises."""
-    return States(recover_displacement(section, scene, solution.forces), solution.contact)
+    return States(recover_displacement(section, scene, solution.force), solution.contact)
 
 
 def deformed_states(scene: Scene, finger: PressedFinger, condition: Condition) -> States:

@@ -61,7 +61,7 @@ def face_arcs(device: Device, section: CondensedSection, solution: Solution) -> 
     """Where the skin that touches each actuator before the stimulus begins and ends (n_actuators, 2) along the receptor
     line [mm]: at the receptors nearest to its ends in the undeformed section. NaN for an actuator that touches none.
     """
-    touching = solution.indented_force[:, 1] > 0.0
+    touching = solution.force[0, :, 1] > 0.0
     skin, actuator = solution.position[touching], solution.indented_actuator[touching]
     ends = np.full((len(device.actuators.positions), 2), np.nan)
     for number in np.unique(actuator):

@@ -61,7 +61,7 @@ def variant_rows(
             of_strain = partial(measured, measure, material=layer.material)
             for (name, interface), solution in solutions.items():
                 settling = scene.device.condition(name).settling
-                read = read_receptors(section.receptor_strain(solution.forces), section.arc, of_strain, settling)
+                read = read_receptors(section.receptor_strain(solution.force), section.arc, of_strain, settling)
                 for factor in WAVELENGTH_FACTORS:
                     variant = _with_wavelengths(scene, factor)
                     filtered = filtered_readouts(resampling, read.readouts, variant.model.gabor)

@@ -19,8 +19,14 @@ def filtered_readouts(
     """Both read-outs at receptors (m,), resampled to the uniform grid and filtered."""
     grid = resampling.grid
     sampled = {each: resampling.weights @ readouts[each] for each in Readout}
-    filtered = (gabor_filtered(grid, values, gabor.wavelength(key), gabor.sigma) for key, values in sampled.items())
-    return FilteredReadouts(grid, *sampled.values(), *filtered)
+    filtered = {each: gabor_filtered(grid, sampled[each], gabor.wavelength(each), gabor.sigma) for each in Readout}
+    return FilteredReadouts(
+        arc=grid,
+        strain=sampled[Readout.STRAIN],
+        change_of_strain=sampled[Readout.CHANGE_OF_STRAIN],
+        filtered_strain=filtered[Readout.STRAIN],
+        filtered_change_of_strain=filtered[Readout.CHANGE_OF_STRAIN],
+    )
 
 
 def kernel(wavelength: float, sigma: float, spacing: float) -> tuple[FloatArray, FloatArray]:
