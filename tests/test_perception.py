@@ -332,8 +332,8 @@ def test_correlation_of_three_points_in_closed_form() -> None:
     row = make_table(make_scores("device2", [0.0, 2.0, 1.0])).iloc[0]
     assert row["n"] == 3
     assert row["slope_sign"] == 1
-    # errors of 0.25 each may turn scores by arcsin(0.25 sqrt(3) / sqrt(2)), r up from the cosine of 60 degrees or down
-    ends = np.cos(math.pi / 3.0 + np.array([-1.0, 1.0]) * math.asin(0.25 * math.sqrt(1.5)))
+    # errors of 0.25 turn scores most where they become 0.25, 2.25, 0.75; r moves from the cosine of 60 degrees
+    ends = np.cos(math.pi / 3.0 + np.array([-1.0, 1.0]) * math.acos(math.sqrt(12.0 / 13.0)))
     assert row["r_error"] == pytest.approx(max(ends[0] - 0.5, 0.5 - ends[1]))
     assert row["r2"] == pytest.approx(0.25)
     assert row["p"] == pytest.approx(1.0 - 2.0 / math.pi * math.atan(0.5 / math.sqrt(0.75)))
@@ -354,6 +354,19 @@ def test_errors_move_r_by_no_more_than_is_said_and_by_half_of_it(seed: int) -> N
     error = random.uniform(0.5, 1.0, 5) * 10.0 ** random.uniform(-5.0, -0.8)
     moved = np.abs(r_at_corners(score, rating, error) - np.corrcoef(score, rating)[0, 1]).max()
     assert 0.5 < moved / error_of(score, rating, error) <= 1.0
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_angle_of_many_scores_is_no_less_than_that_of_their_corners(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With less than 1.2 times their angle: errors of one size lie nearly across the scores in some corner."""
+    random = np.random.default_rng(seed)
+    score, error = random.uniform(1.0, 2.0, 8), np.full(8, 10.0 ** random.uniform(-4.0, -1.3))
+    exact = angle_of_errors(score, error)
+    monkeypatch.setattr("fingerpad.perception.correlation.MOST_CORNERS", 7)
+    assert exact <= angle_of_errors(score, error) < 1.2 * exact
+    assert angle_of_errors(score, np.full(8, 1.0)) == math.pi
 
 
 def test_errors_move_r_where_it_is_one() -> None:
