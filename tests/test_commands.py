@@ -537,6 +537,12 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
             "  depth: {value: 2.6, unit: mm, source: 'our rig'}\nstimulus:",
             "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there.",
         ),
+        (
+            "\nstimulus:",
+            "\ncontact:\n  criterion: {value: depth, unit: '1', source: 'our rig'}\n"
+            "  depth: {value: 0.9, unit: mm, source: 'our rig'}\nstimulus:",
+            "contact.depth is less than the skin over the outermost faces is high: these may bear nothing.",
+        ),
         ("absolute: {value: 0.188", "absolute: {value: 4.0", "A lateral stroke takes an actuator beside the finger"),
         (
             "amplitude: {value: 0.020",

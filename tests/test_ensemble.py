@@ -122,6 +122,10 @@ def test_the_second_half_cycle_turns_every_displacement_round(tmp_path: Path) ->
         ({"model": [{"key": "a", "values": 1.0, "source": "s"}]}, "allowed: a list"),
         ({"model": [{"key": "a", "times": ["x"], "source": "s"}]}, "allowed: a list, of numbers under times"),
         (
+            {"model": [{"key": "a", "times": [2.0], "source": "s", "kinematics": "small"}]},
+            r"found 'small'; allowed: kinematics: \[small, finite\]",
+        ),
+        (
             {"model": [{"key": key, "values": [9.0], "source": "s"} for key in ("a.b", "a_b")]},
             r"found a\.b 9\.0 and a_b 9\.0, which share a file name",
         ),

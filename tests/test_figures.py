@@ -60,6 +60,7 @@ from fingerpad.scene.numerics import Numerics
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import build_model, read_yaml
+from fingerpad.scene.stimuli import condition_name
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.compliance import CondensedSection
 from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
@@ -99,7 +100,11 @@ PHASED = Device(
     tuple(make_condition(f"{d}_{p:03d}", d, float(p), 3) for d in ("low", "high") for p in (0, 60, 120, 180)),
 )
 FORCED = Device(
-    "forced", "Forced pucks", Control.FORCE, PUCKS, tuple(make_condition(f"all_{p}", "all", p, 2) for p in (0, 90, 180))
+    "forced",
+    "Forced pucks",
+    Control.FORCE,
+    PUCKS,
+    tuple(make_condition(f"all_{p:03d}", "all", p, 2) for p in (0, 90, 180)),
 )
 # histories: two of one dispersion and phase, so that only their names tell them apart; nobody has rated them
 UNRATED = Device(
@@ -110,7 +115,7 @@ UNRATED = Device(
     (make_condition("push", "own", 37.5, 3), make_condition("shove", "own", 37.5, 3, 0.1)),
 )
 PIN = ActuatorRow((0.0,), 1.0, 0.1)
-SINGLE = Device("single", "One pin", Control.DISPLACEMENT, PIN, (make_condition("tap", "lone", 0.0, 1),))
+SINGLE = Device("single", "One pin", Control.DISPLACEMENT, PIN, (make_condition("lone_000", "lone", 0.0, 1),))
 DEVICES = (PHASED, FORCED, UNRATED)
 TITLES = {device.name: device.title for device in DEVICES}
 
@@ -148,7 +153,7 @@ RATINGS = pd.DataFrame(
     columns=["device", "condition", "rating", "kind", "source"],
 )
 ORDER = pd.DataFrame(
-    [("forced", "all_0", "<", "all_90", "made up"), ("forced", "all_90", "<", "all_180", "made up")],
+    [("forced", "all_000", "<", "all_090", "made up"), ("forced", "all_090", "<", "all_180", "made up")],
     columns=["device", "lower", "relation", "higher", "source"],
 )
 PUBLISHED = pd.DataFrame(
@@ -510,7 +515,7 @@ def test_receptor_figure_shows_the_whole_row_though_not_all_of_it_touches() -> N
 
 def test_receptor_figure_explains_what_is_drawn_and_says_what_is_not() -> None:
     """Of a single pin all phases are one stimulus. Legends are read by rows, with dispersions below phases."""
-    taps = [replace(make_condition(f"tap_{p}", "lone", 0.0, 1), phase_deg=p) for p in (0.0, 45.0)]
+    taps = [replace(make_condition(condition_name("lone", p), "lone", 0.0, 1), phase_deg=p) for p in (0.0, 45.0)]
     figure = receptor_figure([make_readouts(replace(SINGLE, conditions=tuple(taps)))], Kinematics.SMALL)
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°", "under a face before the stimulus"]
     assert "n = 2: 45° as 0°" in words(figure)
@@ -663,6 +668,13 @@ def test_arrows_are_in_sight_and_longer_than_their_heads(section: SectionMesh, d
         assert body is None or all(arrow[:, 1].max() < -body.thickness for arrow in drawn)
 
 
+def test_actuators_that_rest_have_no_arrow(section: SectionMesh) -> None:
+    path = np.array([[0.02, 0.0, -0.02]])
+    device = replace(PHASED, conditions=(Condition("rub", "own", 0.0, np.array([1.0]), 0.0 * path, path),))
+    drawn = arrows(section_figure(MODEL, section, [device]).axes[1])
+    assert [float(arrow[:, 0].mean()) for arrow in drawn] == pytest.approx([-2.0, 2.0])
+
+
 @pytest.mark.parametrize(("along", "count"), [(1.0, 1), (-1.0, 2), (0.5, 2), (0.0, 1)])
 def test_a_motion_on_one_diagonal_has_one_arrow(section: SectionMesh, along: float, count: int) -> None:
     moved = [replace(c, normal=c.tangential, tangential=along * c.tangential) for c in PHASED.conditions]
@@ -750,7 +762,7 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     labels = axis_labels(figure)
     assert labels.count(("x (mm)", "Traction (kPa)")) >= 1
     assert len(figure.axes) == 3 * len(shown) + 2
-    assert "Max. principal strain" in labels[-2][1]
+    assert "Max. principal\nstrain" in labels[-2][1]
     assert "Change of\nstrain (%)" in labels[-1][1]
     bar = figure.axes[-1].get_ylim()
     assert bar[0] == -bar[1]
@@ -878,7 +890,7 @@ def test_colours_of_maps_end_by_area_not_by_the_number_of_elements(section: Sect
     still = np.zeros((1, *drawn.shape))
     fields = Fields(drawn, side, side, still, strain.T.reshape(1, -1), np.full((1, drawn.shape[1]), 0.001))
     found = make_solution(make_contact(PIN), PIN, np.full(25, 0.03))
-    figure = strain_map_figure(Scene(MODEL, SINGLE), "lone", fields, {"tap": found})
+    figure = strain_map_figure(Scene(MODEL, SINGLE), "lone", fields, {"lone_000": found})
     assert figure.axes[-2].get_ylim() == pytest.approx((0.0, 5.0))  # per cent
 
 
@@ -992,7 +1004,7 @@ def test_styles_differ_wherever_conditions_do() -> None:
         looks = [styles.series[device.name, c.name] for c in device.conditions]
         assert len({(s.colour, s.marker, str(s.line), s.fill) for s in looks}) == len(looks)
         assert len({s.label for s in looks}) == len(looks)
-    assert styles.series["phased", "low_000"].colour == styles.series["forced", "all_0"].colour
+    assert styles.series["phased", "low_000"].colour == styles.series["forced", "all_000"].colour
 
 
 def test_faces_are_projected_on_the_receptor_line() -> None:

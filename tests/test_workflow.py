@@ -826,6 +826,16 @@ def test_maps_of_names_that_run_together_have_files_of_their_own(
             assert drawn[f"results/figures/map_{kinematics}_{name}-{dispersion}.png"] == name
 
 
+def test_a_draft_beside_the_shipped_devices_blocks_no_other_folder(project: Project, both_scenes: Path) -> None:
+    draft = project.folder / "config/devices/draft.yaml"
+    draft.write_text("title: draft\n", encoding="utf-8")
+    try:
+        run = project.snakemake("-n", "all", "--config", f"scenes={both_scenes}")
+    finally:
+        draft.unlink()
+    assert run.status == 0, run.text
+
+
 def test_a_folder_without_devices_is_named(project: Project, tmp_path: Path) -> None:
     (tmp_path / "devices").mkdir()
     shutil.copy(project.folder / "config/config.yaml", tmp_path)

@@ -33,6 +33,7 @@ TOO_WIDE = (
 # friction
 WIDE = 0.3
 TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
+TOO_SHALLOW = "contact.depth is less than the skin over the outermost faces is high: these may bear nothing."
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 PRESSED = {
@@ -92,6 +93,7 @@ def described(scene: Scene) -> str:
     warned = {
         TOO_WIDE: wide,
         TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
+        TOO_SHALLOW: law.criterion is Criterion.DEPTH and law.depth < rise,
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }

@@ -49,8 +49,8 @@ ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces 
 TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
-    "{counted}, {kinematics}, {when}; displacements to scale. Change: from the pre-indented state,"
-    " at the same points of the tissue. Tractions: linear between nodes."
+    "{counted}, {kinematics}, {when}; displacements to scale. Colours of strain: square-root scale. Change: from the"
+    " pre-indented state, at the same points of the tissue. Tractions: linear between nodes."
 )
 AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
@@ -237,7 +237,7 @@ def _strain(scene: Scene, shown: _Shown) -> _Mapped:
         norm=PowerNorm(0.5, 0.0, _colour_end(shown, shown.strain, COVERED, STEP)),
         colours=COLOURS,
         lines="white",
-        label=f"Max. principal {STRAIN_NAME[scene.kinematics]}\n(%, square-root scale)",
+        label=f"Max. principal\n{STRAIN_NAME[scene.kinematics]} (%)",
         extend="max",
     )
 

@@ -156,7 +156,8 @@ def _draw_device(axes: Axes, section: SectionMesh, device: Device, size: float) 
     _draw_section(axes, section)
     face = np.array([0.0, touching_heights(row, section.mesh.doflocs[:, section.skin].T).min()])
     draw_actuators(axes, row, np.tile(face, (len(row.positions), 1)), DEPTH * size)
-    for x in row.positions:
+    moves = np.any([each.moves.any(axis=(0, 2)) for each in device.conditions], axis=0)
+    for x in np.asarray(row.positions)[moves]:
         middle = face + np.array([x, -_arrow_depth(row, size)])
         for direction, heads in _directions(device):
             half = ARROW * size / 2.0 * np.array(direction)

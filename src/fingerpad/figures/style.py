@@ -22,6 +22,7 @@ from matplotlib.patches import Patch
 
 from ..files import replacing
 from ..scene.device import Device
+from ..scene.stimuli import condition_name
 from ..words import plain, shortened
 
 if TYPE_CHECKING:
@@ -183,12 +184,12 @@ def device_titles(devices: Iterable[Device]) -> dict[str, str]:
 def condition_styles(conditions: Iterable[Shown], drawn: Collection[Shown] | None = None) -> Styles:
     """Styles of conditions, each of which may come more than once. drawn: those that are; all if not given.
 
-    Phases share colour and marker across devices, dispersions line and filling. Where a device has two conditions of
-    one dispersion and phase (histories, say) each of its conditions is drawn in its own colour and called by its name.
+    Phases share colour and marker across devices, dispersions line and filling. Where a device has a condition that is
+    not called by its dispersion and phase (a history, say) each of its conditions is drawn in its own colour and called
+    by its name.
     """
     shown = list(dict.fromkeys(conditions))
-    alike = Counter((one.device, one.dispersion, one.phase_deg) for one in shown)
-    by_name = {device for (device, _, _), count in alike.items() if count > 1}
+    by_name = {one.device for one in shown if one.condition != condition_name(one.dispersion, one.phase_deg)}
     spreads = Counter(device for device, _ in {(one.device, one.dispersion) for one in shown})
     phases = sorted({one.phase_deg for one in shown if one.device not in by_name})
     dispersions = list(

@@ -68,7 +68,8 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
         _check_name(path, line, "device", device, conditions_by_device)
         if not conditions_by_device[device]:
             continue
-        _check_name(path, line, "condition", condition, conditions_by_device[device])
+        about = f"conditions of {device} as its file has them"
+        _check_name(path, line, "condition", condition, conditions_by_device[device], about)
         _check_name(path, line, "kind", kind, [*RatingKind])
         rating = number(row["rating"])
         if not (math.isfinite(rating) and rating >= 0.0):
@@ -104,7 +105,8 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
         if not conditions_by_device[row["device"]]:
             continue
         for column in ("lower", "higher"):
-            _check_name(path, line, column, row[column], conditions_by_device[row["device"]])
+            about = f"conditions of {row['device']} as its file has them"
+            _check_name(path, line, column, row[column], conditions_by_device[row["device"]], about)
         _check_name(path, line, "relation", row["relation"], [*StatedRelation])
         rows.append(dict(row))
     table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
@@ -178,9 +180,9 @@ def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, 
     return rows
 
 
-def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str]) -> None:
+def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str], about: str = "") -> None:
     if found not in allowed:
-        raise _error(path, line, column, found, list(allowed))
+        raise RatingError(told(path, line, column, found, list(allowed)) + (f" ({about})" if about else ""))
 
 
 def _error(path: Path, line: int, column: str, found: str, allowed: Sequence[str]) -> RatingError:

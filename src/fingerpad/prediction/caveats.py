@@ -83,19 +83,28 @@ def state_caveats(scene: Scene, depth: float, strain: FloatArray) -> list[str]:
     return found
 
 
-def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
-    """Those of the scene and of the state that is read; no pre-indentation to speak of; actuators without force where
-    it ends or off the skin, a peak that another time comes near to, many increments that were cut or did not settle at
-    once, and figures of the certificate near their limits.
+def pressing_caveats(pressing: FloatArray) -> list[str]:
+    """Actuators without force after pre-indentation, and off the skin later, by their pressing forces (1 + n_times,
+    n_actuators) [N/mm] then.
     """
-    certificate, pressing = solution.certificate, solution.pressing
-    found = state_caveats(scene, solution.depth, solution.reading.strain) + scene_caveats(scene)
-    if scene.model.contact.criterion is Criterion.TOUCH and solution.indentation <= BARELY:
-        found.append(f"all actuators touch at once, so that pre-indentation ends at first touch: {PRESS_AS_ASKED}")
+    found = []
     if idle := _numbers(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
         found.append(f"actuators that leave the skin, counted from the left: {left}; positive normal points into it")
+    return found
+
+
+def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
+    """Those of the scene, of the state that is read and of what presses; no pre-indentation to speak of, a peak that
+    another time comes near to, many increments that were cut or did not settle at once, and figures of the certificate
+    near their limits.
+    """
+    certificate = solution.certificate
+    found = state_caveats(scene, solution.depth, solution.reading.strain) + scene_caveats(scene)
+    if scene.model.contact.criterion is Criterion.TOUCH and solution.indentation <= BARELY:
+        found.append(f"all actuators touch at once, so that pre-indentation ends at first touch: {PRESS_AS_ASKED}")
+    found += pressing_caveats(solution.pressing)
     if solution.reading.rival_peak > RIVAL:
         found.append(
             f"at another time strain changes by {solution.reading.rival_peak:.1%} as much, in a different pattern:"

@@ -59,7 +59,8 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
             time = np.arange(1, settling + CYCLE_STEPS + 1) / CYCLE_STEPS
             displacement = stimulus["amplitude"] * np.sin(2.0 * math.pi * time[:, None] + np.radians(lead))
         moves = _directed(stimulus, displacement)
-        conditions.append(Condition(_named(dispersion, phase), dispersion, float(phase), time, *moves, settling))
+        name = condition_name(dispersion, phase)
+        conditions.append(Condition(name, dispersion, float(phase), time, *moves, settling))
     return conditions
 
 
@@ -68,14 +69,15 @@ def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     cycles = []
     for dispersion, phase, lead in _leads(stimulus, count):
         amplitude: ComplexArray = stimulus["amplitude"] * np.exp(1j * np.radians(lead))
-        cycles.append(Cycle(_named(dispersion, phase), dispersion, float(phase), *_directed(stimulus, amplitude)))
+        name, moves = condition_name(dispersion, phase), _directed(stimulus, amplitude)
+        cycles.append(Cycle(name, dispersion, float(phase), *moves))
     return cycles
 
 
-def _named(dispersion: str, phase: float) -> str:
+def condition_name(dispersion: str, phase: float) -> str:
     """A condition's name: its dispersion and phase difference [deg], with as many digits as tell it from all others.
 
-    >>> _named("low", 90), _named("low", 22.5)
+    >>> condition_name("low", 90), condition_name("low", 22.5)
     ('low_090', 'low_022_5')
     """
     whole, _, fraction = np.format_float_positional(phase, trim="-").partition(".")
@@ -97,7 +99,7 @@ def alternating(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[C
     """Actuators at their absolute displacement and shares of the relative one in turn (paper, Table 1)."""
     return [
         Condition(
-            _named(ALTERNATE, row["phase"]),
+            condition_name(ALTERNATE, row["phase"]),
             ALTERNATE,
             float(row["phase"]),
             np.array([1.0]),
@@ -113,7 +115,7 @@ def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
     for row in stimulus["rows"]:
         amplitude: ComplexArray = _alternating(row, stimulus["relative_to"], count).astype(np.complex128)
         moves = _directed(stimulus, amplitude)
-        cycles.append(Cycle(_named(ALTERNATE, row["phase"]), ALTERNATE, float(row["phase"]), *moves))
+        cycles.append(Cycle(condition_name(ALTERNATE, row["phase"]), ALTERNATE, float(row["phase"]), *moves))
     return cycles
 
 

@@ -56,6 +56,7 @@ WORDS: Mapping[str, str] = {
     **{"minLength": "at least {} long", "maxLength": "at most {} characters", "minProperties": "at least {} long"},
 }
 RANKS: Mapping[str, int] = {"required": 0, "additionalProperties": 0, "type": 1}  # else 2
+SOURCE_RANK = 3  # of what is wrong with a source: values and units come first
 
 
 def check_config(path: Path, schema_dir: Path, values: Mapping[str, Any] = NO_VALUES) -> Model:
@@ -289,6 +290,8 @@ def _plain(schema: Schema, value: Any, files: dict[Path, Schema], own: Path) -> 
 def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -> Iterator[Problem]:
     """The problems, in words, that lie behind one error of the schema."""
     key, found, rank = list(error.absolute_path), error.instance, RANKS.get(error.validator, 2)
+    if key and key[-1] == "source":
+        rank = SOURCE_RANK
     about = schema["description"]  # the nearest description on the way to the key
     for step in error.absolute_schema_path:
         schema = schema[step]

@@ -15,10 +15,11 @@ import numpy as np
 from ..arrays import FloatArray
 from ..contact.certificate import certify
 from ..contact.depth import depth, require_tissue
+from ..contact.formulation import actuator_force
 from ..contact.linear_solution import Indented, indent_device
 from ..contact.problem import named
 from ..errors import ContactError, InertiaError, UnsolvedError
-from ..prediction.caveats import scene_caveats, state_caveats
+from ..prediction.caveats import pressing_caveats, scene_caveats, state_caveats
 from ..prediction.scoring import Condensed
 from ..readouts.gabor import filtered_readouts
 from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
@@ -132,8 +133,10 @@ def _outcome(
             effect = inertia_effect(scene, slipping(vibration), at.still, at.moving)
             _require_no_inertia(scene, frequency, effect)
         deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
-        note = "; ".join([*state_caveats(scene, deepest, read), *scene_caveats(scene)])
-        return Outcome(_vibration_scores(scene, condensed, vibration), effect, note)
+        states = (indented.state, *vibration.states)
+        pressing = np.array([actuator_force(indented.problem, each.force, each.given)[:, 1] for each in states])
+        told = [*state_caveats(scene, deepest, read), *scene_caveats(scene), *pressing_caveats(pressing)]
+        return Outcome(_vibration_scores(scene, condensed, vibration), effect, "; ".join(told))
     except ContactError as error:
         return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
 
