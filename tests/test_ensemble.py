@@ -317,3 +317,8 @@ def test_the_scenes_as_configured_have_their_own_errors() -> None:
     both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
     assert len(both) == len(expected)
     np.testing.assert_allclose(both["r_error"], both["r_error_expected"], rtol=1e-9)
+
+
+def test_a_member_may_be_for_some_kinematics_alone() -> None:
+    small = replace(FRICTION, kinematics=(Kinematics.SMALL,))
+    assert member_scores([scene("device2")], Kinematics.FINITE, small, FIRST) == []
