@@ -20,7 +20,7 @@ NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
     "Device 3: the change of strain correlates very well.": "undecided",
     "Device 1 without shear: the change of strain still correlates very well.": "undecided",
     "Device 1 without shear: the strain still correlates very poorly.": "undecided",
-    "Device 2: the strain correlates well.": "no",
+    "Device 2: the strain correlates well.": "undecided",
     "Device 1: the strain correlates very poorly.": "undecided",
     "Device 3: the strain correlates negatively.": "undecided",
     "Device 2 without shear: the change of strain correlates weakly.": "no",

@@ -701,18 +701,6 @@ def assert_refused(project: Project, target: str, *said: str) -> None:
     assert project.files("results") == before
 
 
-def test_broken_shipped_device_is_named_whichever_scenes_are_computed(
-    project: Project, coarse_scenes: Path, tmp_path: Path
-) -> None:
-    """Ratings may be of shipped devices, so that these are read as well."""
-    broken = Project(shutil.copytree(project.folder, tmp_path / "broken"))
-    broken.edit(DEVICE, lambda text: text.replace("stimulus:", "stimuli:"))
-    run = broken.snakemake("-n", "all", *into(tmp_path / "there", coarse_scenes))
-    assert run.status != 0
-    assert f"{DEVICE}: stimuli: found an unknown key" in run.text
-    assert "KeyError" not in run.text
-
-
 def test_unknown_device_is_refused(finished: Project) -> None:
     known = "device1, device2, device3"
     assert_refused(finished, "results/small/devise2/mesh.npz", "'devise2'", known, "did you mean 'device2'?")
@@ -827,6 +815,7 @@ def test_maps_of_names_that_run_together_have_files_of_their_own(
 
 
 def test_a_draft_beside_the_shipped_devices_blocks_no_other_folder(project: Project, both_scenes: Path) -> None:
+    """Shipped devices are read for their ratings alone, whichever scenes are computed."""
     draft = project.folder / "config/devices/draft.yaml"
     draft.write_text("title: draft\n", encoding="utf-8")
     try:
