@@ -541,7 +541,7 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
             "\nstimulus:",
             "\ncontact:\n  criterion: {value: depth, unit: '1', source: 'our rig'}\n"
             "  depth: {value: 0.9, unit: mm, source: 'our rig'}\nstimulus:",
-            "contact.depth is less than the skin over the outermost faces is high: these may bear nothing.",
+            "contact.depth is less than the height of the skin over the outermost faces: these may bear nothing.",
         ),
         ("absolute: {value: 0.188", "absolute: {value: 4.0", "A lateral stroke takes an actuator beside the finger"),
         (

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact.formulation import actuator_force, switch_friction
+from ..contact.formulation import actuator_forces, switch_friction
 from ..errors import ContactError
 from ..finite.deformed_path import move
 from ..finite.deformed_solution import pressed_finger, receptor_logarithmic_strain
@@ -67,7 +67,7 @@ def deformed_outcome(
         raise ContactError("corrections do not settle, and new tangents would be without the penalties' springs")
     ends = before, reached
     strains = [receptor_logarithmic_strain(finger.gradient, each.displacement) for each in ends]
-    forces = np.array([actuator_force(problem, each.state.force, each.state.given) for each in ends])
+    forces = actuator_forces(problem, [each.state for each in ends])
     return outcome_of(scene, pressed.section.arc, strains, forces)
 
 

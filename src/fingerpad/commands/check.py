@@ -33,7 +33,7 @@ TOO_WIDE = (
 # friction
 WIDE = 0.3
 TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
-TOO_SHALLOW = "contact.depth is less than the skin over the outermost faces is high: these may bear nothing."
+TOO_SHALLOW = "contact.depth is less than the height of the skin over the outermost faces: these may bear nothing."
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 PRESSED = {

@@ -204,6 +204,11 @@ def actuator_force(problem: ContactProblem, force: FloatArray, given: np.ndarray
     return found
 
 
+def actuator_forces(problem: ContactProblem, states: Sequence[ContactState]) -> FloatArray:
+    """`actuator_force` (n_states, n_actuators, 2) [N/mm] in several states."""
+    return np.array([actuator_force(problem, state.force, state.given) for state in states])
+
+
 def shearing_and_pressing(problem: ContactProblem, states: Sequence[ContactState]) -> FloatArray:
     """Shearing and pressing forces (n_states, n, 2) [N/mm] of several states."""
     found = [resolved(problem, state.force, profile(problem.row, state.place)[1]) for state in states]

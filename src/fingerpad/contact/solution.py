@@ -17,7 +17,7 @@ from .formulation import (
     ContactProblem,
     ContactState,
     Status,
-    actuator_force,
+    actuator_forces,
     shearing_and_pressing,
     touching_height,
 )
@@ -101,7 +101,7 @@ def solution(
         reading=reading,
         pressure=contact[1 + reading.time, :, 1] / section.weight,
         shear=contact[1 + reading.time, :, 0] / section.weight,
-        actuator_force=np.array([actuator_force(problem, state.force, state.given) for state in states]),
+        actuator_force=actuator_forces(problem, states),
         actuator=shown.given,
         place=shown.place,
         status=shown.status,

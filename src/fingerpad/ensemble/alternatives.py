@@ -103,8 +103,8 @@ def read_ensemble(path: Path) -> list[Alternative]:
             if not isinstance(choices, list) or ("times" in entry and not all(map(is_number, choices))):
                 raise SceneError(f"{where}: found {choices!r:.60}; allowed: a list, of numbers under times")
             key, source, kinematics = str(entry["key"]), str(entry["source"]), entry.get("kinematics", [*Kinematics])
-            if not isinstance(kinematics, list) or not set(kinematics) <= set(Kinematics):
-                raise SceneError(f"{where}: found {kinematics!r:.60}; allowed: kinematics: [{', '.join(Kinematics)}]")
+            if not isinstance(kinematics, list) or not kinematics or any(x not in [*Kinematics] for x in kinematics):
+                raise SceneError(f"{where}: found {kinematics!r:.60}; allowed: a list of {', '.join(Kinematics)}")
             for choice in choices:
                 value, times = (None, float(choice)) if "times" in entry else (choice, None)
                 found.append(Alternative(part, key, value, times, source, tuple(map(Kinematics, kinematics))))

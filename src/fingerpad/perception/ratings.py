@@ -68,8 +68,7 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
         _check_name(path, line, "device", device, conditions_by_device)
         if not conditions_by_device[device]:
             continue
-        about = f"conditions of {device} as its file has them"
-        _check_name(path, line, "condition", condition, conditions_by_device[device], about)
+        _check_condition(path, line, "condition", condition, device, conditions_by_device)
         _check_name(path, line, "kind", kind, [*RatingKind])
         rating = number(row["rating"])
         if not (math.isfinite(rating) and rating >= 0.0):
@@ -105,8 +104,7 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
         if not conditions_by_device[row["device"]]:
             continue
         for column in ("lower", "higher"):
-            about = f"conditions of {row['device']} as its file has them"
-            _check_name(path, line, column, row[column], conditions_by_device[row["device"]], about)
+            _check_condition(path, line, column, row[column], row["device"], conditions_by_device)
         _check_name(path, line, "relation", row["relation"], [*StatedRelation])
         rows.append(dict(row))
     table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
@@ -180,9 +178,18 @@ def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, 
     return rows
 
 
-def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str], about: str = "") -> None:
+def _check_condition(
+    path: Path, line: int, column: str, found: str, device: str, conditions_by_device: Mapping[str, Sequence[str]]
+) -> None:
+    try:
+        _check_name(path, line, column, found, conditions_by_device[device])
+    except RatingError as error:
+        raise RatingError(f"{error} (conditions of {device} as its file has them)") from None
+
+
+def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str]) -> None:
     if found not in allowed:
-        raise RatingError(told(path, line, column, found, list(allowed)) + (f" ({about})" if about else ""))
+        raise _error(path, line, column, found, list(allowed))
 
 
 def _error(path: Path, line: int, column: str, found: str, allowed: Sequence[str]) -> RatingError:

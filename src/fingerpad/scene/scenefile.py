@@ -285,10 +285,14 @@ def _positions(row: dict[str, Any]) -> tuple[float, ...]:
     """
     twice = [key for key in ("count", "pitch") if "positions" in row and key in row]
     require(not twice, f"actuators: found positions and {' and '.join(twice)}; allowed: positions, or count and pitch")
-    count = row.get("count", 0)
-    places = row.get("positions") or [(i - (count - 1) / 2.0) * row["pitch"] for i in range(count)]
+    places = row["positions"] if "positions" in row else _evenly(row["count"], row["pitch"])
     # ASSUME: actuators.offset: where a file says nothing, the finger lies over the middle of the row
     return tuple(x + row.get("offset", 0.0) for x in places)
+
+
+def _evenly(count: int, pitch: float) -> list[float]:
+    """Centres [mm] of so many actuators, a pitch [mm] apart, about zero."""
+    return [(i - (count - 1) / 2.0) * pitch for i in range(count)]
 
 
 def _body(given: dict[str, Any]) -> Body | None:

@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..contact.certificate import certify
 from ..contact.depth import depth, require_tissue
-from ..contact.formulation import actuator_force
+from ..contact.formulation import actuator_forces
 from ..contact.linear_solution import Indented, indent_device
 from ..contact.problem import named
 from ..errors import ContactError, InertiaError, UnsolvedError
@@ -133,8 +133,7 @@ def _outcome(
             effect = inertia_effect(scene, slipping(vibration), at.still, at.moving)
             _require_no_inertia(scene, frequency, effect)
         deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
-        states = (indented.state, *vibration.states)
-        pressing = np.array([actuator_force(indented.problem, each.force, each.given)[:, 1] for each in states])
+        pressing = actuator_forces(indented.problem, [indented.state, *vibration.states])[:, :, 1]
         told = [*state_caveats(scene, deepest, read), *scene_caveats(scene), *pressing_caveats(pressing)]
         return Outcome(_vibration_scores(scene, condensed, vibration), effect, "; ".join(told))
     except ContactError as error:
