@@ -46,11 +46,11 @@ from .style import (
 
 WIDTHS = (NARROW, MIDDLE, WIDE)  # mm, of figures with one, two or three panels beside each other
 ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
-TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 22.0  # mm: a traction panel; labels of a block; legend and title
+TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 26.0  # mm: a traction panel; labels of a block; legend and title
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
-    "{counted}, {kinematics}, {when}; displacements to scale. Colours of strain: square-root scale. Change: from the"
-    " pre-indented state, at the same points of the tissue. Tractions: linear between nodes."
+    "{counted}, {kinematics}, {when}; displacements to scale. Strain: square-root scale. Change: from the pre-indented"
+    " state, at the same points of tissue. Tractions: linear between nodes."
 )
 AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
