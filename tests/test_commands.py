@@ -701,7 +701,7 @@ def test_ranks_that_errors_leave_open_are_ranges() -> None:
     found = ranks(rows)
     assert [each["rank"] for each in found] == [5, 3, 1, 1, 4]
     printed = as_table(scene("device2"), [row | rank for row, rank in zip(rows, found, strict=True)]).splitlines()[-5:]
-    assert [line.split()[-1] for line in printed] == ["3-4", "3-4", "1", "1", "4"]
+    assert [line.split()[-1] for line in printed] == ["3-4", "3-4", "1", "1", "4?"]
 
 
 def test_caveats_that_differ_in_a_share_are_told_as_one() -> None:
@@ -775,6 +775,26 @@ def test_interrupted_predictions_keep_what_is_there(
     said = capsys.readouterr().out
     rows = json.loads(said) if form == "--json" else list(csv.DictReader(io.StringIO(said)))
     assert [row["readout"] for row in rows] == [row["readout"] for row in quick]
+
+
+def test_predict_computes_the_conditions_asked_for(
+    checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In the file's order, each once, as vibrations, too; one that a device has not is refused before any is solved."""
+    taken: list[Scene] = []
+    monkeypatch.setattr(predicting, "forecast", lambda scene, *given: taken.append(scene) or quick)
+    wanted = ["--condition", "alternate_180", "--condition", "alternate_000", "--condition", "alternate_180"]
+    assert main(["predict", *wanted, "config/devices/device2.yaml"]) == 0
+    assert main(["predict", "config/devices/device2.yaml"]) == 0
+    some, every = (scene.device for scene in taken)
+    assert [each.name for each in some.conditions] == ["alternate_000", "alternate_180"]
+    assert [each.name for each in some.cycles] == ["alternate_000", "alternate_180"]
+    assert len(every.conditions) == len(every.cycles) == 3
+    taken.clear()
+    wrong = ["--condition", "alternate_18", "config/devices/device2.yaml", "config/devices/device3.yaml"]
+    assert main(["predict", *wrong]) == 2
+    assert "no condition 'alternate_18'" in capsys.readouterr().err
+    assert not taken
 
 
 def test_predict_takes_values_in_turn(

@@ -121,13 +121,6 @@ def test_the_second_half_cycle_turns_every_displacement_round(tmp_path: Path) ->
         ({"model": [{"key": "contact.friction", "values": [1.0]}]}, r"model\[0\]: found .*; allowed: the keys key"),
         ({"model": [{"key": "a", "values": 1.0, "source": "s"}]}, "allowed: a list"),
         ({"model": [{"key": "a", "times": ["x"], "source": "s"}]}, "allowed: a list, of numbers under times"),
-        *(
-            (
-                {"model": [{"key": "a", "times": [2.0], "source": "s", "kinematics": kinematics}]},
-                r"found .*; allowed: a list of small, finite",
-            )
-            for kinematics in ("small", [], ["large"], [["small"]])
-        ),
         (
             {"model": [{"key": key, "values": [9.0], "source": "s"} for key in ("a.b", "a_b")]},
             r"found a\.b 9\.0 and a_b 9\.0, which share a file name",
@@ -320,8 +313,3 @@ def test_the_scenes_as_configured_have_their_own_errors() -> None:
     both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
     assert len(both) == len(expected)
     np.testing.assert_allclose(both["r_error"], both["r_error_expected"], rtol=1e-9)
-
-
-def test_a_member_may_be_for_some_kinematics_alone() -> None:
-    small = replace(FRICTION, kinematics=(Kinematics.SMALL,))
-    assert member_scores([scene("device2")], Kinematics.FINITE, small, FIRST) == []

@@ -17,7 +17,7 @@ from fingerpad.scene.device import ActuatorRow
 from fingerpad.tissue import mesh as mesh_of
 from fingerpad.tissue.actuator_body import condense_body
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
-from fingerpad.tissue.mesh import load_section, mesh_section, mesh_strip, nominal_edges, save_section
+from fingerpad.tissue.mesh import load_section, merged, mesh_section, mesh_strip, nominal_edges, save_section
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
 from scenes import scene, section, solved
@@ -85,7 +85,7 @@ def test_sizes_are_as_asked() -> None:
     middle = nodes[0, 1::2]
     start, stop = edge_intervals(base).T
     on_pad = nodes[1, 1::2] < base.model.finger.height / 2
-    at_edge = on_pad & np.any((np.abs(middle)[:, None] > start) & (np.abs(middle)[:, None] < stop), axis=1)
+    at_edge = on_pad & np.any((middle[:, None] > start) & (middle[:, None] < stop), axis=1)
     under = on_pad & (np.abs(middle) < max(row.positions) + row.width / 2)
     assert at_edge.any()
     assert length[at_edge].max() <= numerics.edge_size
@@ -232,7 +232,7 @@ def test_an_interface_that_is_out_of_reach_has_no_say_where_edges_are(monkeypatc
     """The other's are as they are, and without another nobody looks widely. Where a path is lost, all may be."""
     base = scene("device2")
     nominal = nominal_edges(base.device.actuators)
-    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    wide = nominal + REACH * np.array([-1.0, 1.0])
     both, press = edge_intervals(base), edges._pressed_state
 
     def refusing(error: type[ContactError], *refused: Interface) -> np.ndarray:
@@ -261,21 +261,21 @@ def test_edges_end_up_in_their_intervals(name: str) -> None:
     row, (start, stop) = base.device.actuators, edge_intervals(base.with_conditions([condition])).T
     centre = row.positions + condition.tangential[found.reading.time]
     ends = np.add.outer(centre, [-row.width / 2.0, -row.half_face, row.half_face, row.width / 2.0])
-    undeformed = np.abs(np.interp(ends, found.place + centre[found.actuator], found.position[:, 0]))[..., None]
+    undeformed = np.interp(ends, found.place + centre[found.actuator], found.position[:, 0])[..., None]
     inside = (undeformed >= start - MEASURED) & (undeformed <= stop + MEASURED)
     assert inside.any(axis=-1).all()
 
 
 def test_an_interval_within_another_takes_nothing_from_it() -> None:
     both = np.array([[0.1, 0.9], [0.2, 0.3], [1.5, 1.6]])
-    assert edges._joined(both).tolist() == [[0.1, 0.9], [1.5, 1.6]]
+    assert merged(both).tolist() == [[0.1, 0.9], [1.5, 1.6]]
 
 
 def test_without_a_coarse_mesh_edges_are_sought_widely() -> None:
     """A mesh four times as coarse as this one has pins that no node is near."""
     given = scene("device2").coarsened(6.0)
     nominal = nominal_edges(given.device.actuators)
-    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    wide = nominal + REACH * np.array([-1.0, 1.0])
     assert np.array_equal(edge_intervals(given), wide)
     assert not np.array_equal(edge_intervals(scene("device2")), wide)
 

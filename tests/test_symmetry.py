@@ -43,6 +43,12 @@ def with_row(row: ActuatorRow, device: str = "device2") -> Scene:
     return replace(base, device=found).coarsened(2.0)
 
 
+def aside(row: ActuatorRow) -> list[Scene]:
+    """A row on tissue that deforms much, and its mirror image."""
+    image = replace(row, positions=tuple(-x for x in reversed(row.positions)))
+    return [with_row(each).with_kinematics(Kinematics.FINITE) for each in (row, image)]
+
+
 @pytest.mark.parametrize(
     ("device", "interface"),
     [("device2", Interface.SHEAR), ("device2", Interface.FRICTIONLESS), ("device3", Interface.SHEAR)],
@@ -113,6 +119,32 @@ def test_deformed_tissue_is_pressed_by_halves_with_a_pin_in_the_middle(interface
     assert np.abs(halves.section.compliance - whole.section.compliance).max() < SHARE * scale
     assert np.abs(halves.free - whole.free).max() < LENGTH
     assert halves.curve[-1] == pytest.approx(whole.curve[-1], rel=SHARE)
+
+
+@pytest.mark.parametrize("positions", [(0.35,), (0.305, 4.0), (-2.6, -1.3, 0.8)])
+def test_deformed_halves_of_a_row_that_does_not_mirror_meet(positions: tuple[float, ...]) -> None:
+    """Each half is refined for its own edges, wherever they lie by the mid-line: its elements bound on nothing but
+    outline and bone. The mesh of the mirrored row is the mirror image.
+    """
+    row = ActuatorRow(positions, 0.6, 0.1)
+    found, image = (mesh_section(base, nominal_edges(base.device.actuators)) for base in aside(row))
+    ends = found.mesh.doflocs[:, found.mesh.facets[:, found.mesh.boundary_facets()]]
+    assert not np.all(ends[0] == 0.0, axis=0).any()
+    assert not found.mirrors
+    nodes, images = found.mesh.doflocs, image.mesh.doflocs * MIRROR[:, None]
+    assert np.array_equal(nodes[:, np.lexsort(nodes)], images[:, np.lexsort(images)])
+    assert found.unknowns < mesh_section(with_row(row), nominal_edges(row)).unknowns
+
+
+def test_tissue_deformed_aside_mirrors_what_is_deformed_on_the_other_side() -> None:
+    """A row of two pins to the right of the finger's middle, and its mirror image, each on a mesh of its own."""
+    found, image = (
+        press(base, mesh_section(base, nominal_edges(base.device.actuators)), None, Interface.SHEAR)
+        for base in aside(ActuatorRow((-0.4, 1.6), 1.2, 0.15))
+    )
+    assert found.section.position[:, 0].mean() > 0.0
+    assert np.abs(found.state.actuator - image.state.actuator[::-1] * MIRROR).max() < LENGTH
+    assert np.abs(found.state.force - image.state.force[::-1] * MIRROR).max() < SHARE * found.state.force.max()
 
 
 def test_soft_pucks_with_a_node_between_them_are_pressed_whole() -> None:

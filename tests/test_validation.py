@@ -475,6 +475,7 @@ def test_a_row_may_be_uneven_and_lie_beside_the_middle(tmp_path: Path) -> None:
     assert row([-3.75, -1.25, 1.25, 3.75], None) == row(None, None) == even
     assert row(None, 0.5) == tuple(x + 0.5 for x in even)
     assert row([-3.0, -1.0, 1.5, 3.0], -0.25) == (-3.25, -1.25, 1.25, 2.75)
+    assert row([0.0, 2.1, 4.2, 6.3], -3.15) == (-3.15, -1.05, 1.05, 3.15)  # rounding does not keep it from mirroring
 
 
 def test_history_passes(tmp_path: Path) -> None:

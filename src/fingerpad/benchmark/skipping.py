@@ -8,8 +8,6 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from ..arrays import FloatArray
 from ..contact.linear_solution import indent_device, stimulate
 from ..fields.recovery import recover_displacement
@@ -28,6 +26,7 @@ from .timing import fewest
 Row = dict[str, Any]
 
 
+MIRRORED = ("halved_condensation", "mirrored_half")  # of rows that mirror alone
 NOT_FINITE = ("halved_condensation", "frictionless_path")  # nothing is condensed at rest, and every path is followed
 
 
@@ -112,7 +111,7 @@ def _finds_something(switch: str, scene: Scene) -> bool:
         return len(device.distinct_conditions) < len(device.conditions)
     if switch == "shared_indentation":
         return len(device.conditions) > 1
-    if switch == "mirrored_half" and not np.allclose(device.actuators.positions, -np.flip(device.actuators.positions)):
+    if switch in MIRRORED and not device.actuators.mirrors:
         return False
     if switch == "frictionless_path" and Interface.FRICTIONLESS not in device.interfaces():
         return False

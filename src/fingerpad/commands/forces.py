@@ -16,7 +16,15 @@ from ..prediction.forecast import steps
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
-from .options import add_forms, add_kinematics, add_no_error, add_scene_options, asked_scene
+from .options import (
+    add_conditions,
+    add_forms,
+    add_kinematics,
+    add_no_error,
+    add_scene_options,
+    asked_scene,
+    with_asked_conditions,
+)
 from .printing import aligned, print_rows, titled
 
 PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
@@ -41,13 +49,14 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
     add_forms(parser, "a list of objects, one an actuator, condition and time", "the same as a table for programs")
     add_no_error(parser)
+    add_conditions(parser)
     add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
     add_scene_options(parser)
 
 
 def run(options: argparse.Namespace) -> None:
     """Solve the device and print all forces once they are there. Raises ContactError if there is none."""
-    scene = asked_scene(options)
+    scene = with_asked_conditions(asked_scene(options), options)
     error = not options.no_error
     with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
         rows = force_rows(scene, error, bar.update)

@@ -21,6 +21,7 @@ from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..scene.variation import unit_of
 from .options import (
+    add_conditions,
     add_forms,
     add_kinematics,
     add_no_error,
@@ -31,19 +32,21 @@ from .options import (
     picture_of,
     require_effect,
     variations,
+    with_asked_conditions,
 )
 from .score_table import as_csv, as_table, named, require_scores
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
 discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
-read-out; where errors leave it open, both ends stand there (1-3). Below the table stands what else to know before
-believing it.
+read-out; where errors leave it open, both ends stand there (1-3), without errors a question mark. Below the table
+stands what else to know before believing it.
 
 examples:
   fingerpad predict config/devices/device2.yaml
   fingerpad predict --no-error config/devices/*.yaml
   fingerpad predict --kinematics finite config/devices/device2.yaml
+  fingerpad predict --condition alternate_000 --condition alternate_180 config/devices/device2.yaml
   fingerpad predict --json config/devices/device2.yaml > device2.json
   fingerpad predict --vary contact.friction=0.3,0.6,1.0 config/devices/device2.yaml
   fingerpad predict --vary actuators.pitch=1.5,2,2.5,3 -o pitch.png config/devices/device2.yaml
@@ -57,6 +60,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("devices", type=Path, nargs="+", metavar="FILE", help="device, as in config/devices")
     add_forms(parser, "a list of objects, one a score", "the columns of results/scores.csv, ranks and caveats")
     add_no_error(parser)
+    add_conditions(parser)
     add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
     add_variation(parser)
     add_picture(parser, "draw the scores against the values of the key that --vary gives several")
@@ -74,7 +78,10 @@ def run(options: argparse.Namespace) -> None:
     key = _drawn_key(options.devices, varied) if picture else ""
     is_text = not (options.json or options.csv)
     devices = [
-        [checked_scene(device, options, values).with_kinematics(kinematics) for values in varied]
+        [
+            with_asked_conditions(checked_scene(device, options, values), options).with_kinematics(kinematics)
+            for values in varied
+        ]
         for device in options.devices
     ]
     require_effect(varied, [scene for own in devices for scene in own])

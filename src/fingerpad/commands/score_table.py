@@ -115,9 +115,13 @@ def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
 
 
 def _ranked(row: Mapping[str, Any]) -> str:
-    """The rank of a row's score, or the first and the last that errors leave it; nothing without a score."""
+    """The rank of a row's score, or the first and the last that errors leave it; in question without an error, nothing
+    without a score.
+    """
     if row["rank"] is None:
         return ""
+    if row["first_rank"] is None:
+        return f"{row['rank']}?"
     first, last = row["first_rank"], row["last_rank"]
     return str(row["rank"]) if first == last else f"{first}-{last}"
 

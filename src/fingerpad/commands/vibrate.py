@@ -18,7 +18,7 @@ from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from ..vibration.creep import condense_creep
 from ..vibration.frequency import SLOWLY, Vibrating, condense_vibrating_at, frequency_name, frequency_rows
-from .options import add_forms, add_scene_options, checked_scene
+from .options import add_conditions, add_forms, add_scene_options, checked_scene, with_asked_conditions
 from .printing import aligned, in_order, print_rows, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
@@ -32,6 +32,7 @@ frequency there is one. "slow" is a cycle in which tissue is always relaxed. No 
 examples:
   fingerpad vibrate config/devices/device2.yaml
   fingerpad vibrate config/devices/device2.yaml --frequency 25 60
+  fingerpad vibrate config/devices/device2.yaml --condition alternate_180
   fingerpad vibrate --csv config/devices/device2.yaml > device2.csv
 """
 
@@ -44,6 +45,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--frequency", type=hertz, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
     )
+    add_conditions(parser)
     add_forms(parser, "a list of objects, one a score", "the columns of results/frequency.csv")
     add_scene_options(parser)
 
@@ -60,7 +62,7 @@ def hertz(text: str) -> float:
 
 def run(options: argparse.Namespace) -> None:
     """Vibrate the device, and print all scores once they are there."""
-    scene = asked(checked_scene(options.device, options), options.frequency)
+    scene = asked(with_asked_conditions(checked_scene(options.device, options), options), options.frequency)
     device = scene.device
     total = STEPS + len(device.frequencies)
     total += len(device.interfaces()) * len(device.cycles) * (1 + len(device.frequencies))

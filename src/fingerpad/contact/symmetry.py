@@ -41,7 +41,7 @@ def mirrors(problem: ContactProblem) -> bool:
     x, positions = problem.position[:, 0], np.asarray(problem.row.positions)
     return bool(
         np.array_equal(problem.position[::-1] * MIRROR, problem.position)
-        and np.array_equal(-positions[::-1], positions)
+        and problem.row.mirrors
         and (problem.body is None or (_body_mirrors(problem.body) and np.all(positions != 0.0) and np.all(x != 0.0)))
     )
 

@@ -18,7 +18,6 @@ from ..errors import SceneError
 from ..files import write_text
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
-from ..scene.tissue_law import Kinematics
 from ..scene.validation import is_number
 from ..scene.variation import Document, by_number, no_such_value, quantities_of, with_value
 
@@ -31,16 +30,13 @@ PARTS = ("model", "devices")
 
 @dataclass(frozen=True)
 class Alternative:
-    """What an assumption might be as well: a value that takes the place of the one at a key, or a factor [1] on it.
-    kinematics: with which the ensemble has it.
-    """
+    """What an assumption might be as well: a value that takes the place of the one at a key, or a factor [1] on it."""
 
     part: str
     key: str
     value: Any
     times: float | None
     source: str
-    kinematics: tuple[Kinematics, ...] = tuple(Kinematics)
 
     @property
     def name(self) -> str:
@@ -82,8 +78,8 @@ def slug(name: str) -> str:
 def read_ensemble(path: Path) -> list[Alternative]:
     """The alternatives in a file, in its order.
 
-    Raises SceneError if it holds anything but lists of key, values or times, source, and kinematics if not all, under
-    PARTS, or if members would have one file name.
+    Raises SceneError if it holds anything but lists of key, values or times, and source under PARTS, or if members
+    would have one file name.
     """
     document = read_yaml(path)
     if unknown := [key for key in document if key not in PARTS]:
@@ -92,22 +88,18 @@ def read_ensemble(path: Path) -> list[Alternative]:
     for part, entries in document.items():
         for number, entry in enumerate(entries if isinstance(entries, list) else [entries]):
             where = f"{path}: {part}[{number}]"
-            if not isinstance(entry, dict) or entry.keys() - {"kinematics"} not in (
+            if not isinstance(entry, dict) or entry.keys() not in (
                 {"key", "values", "source"},
                 {"key", "times", "source"},
             ):
-                raise SceneError(
-                    f"{where}: found {entry!r:.60}; allowed: the keys key, values or times, source, and kinematics"
-                )
+                raise SceneError(f"{where}: found {entry!r:.60}; allowed: the keys key, values or times, and source")
             choices = entry.get("values", entry.get("times"))
             if not isinstance(choices, list) or ("times" in entry and not all(map(is_number, choices))):
                 raise SceneError(f"{where}: found {choices!r:.60}; allowed: a list, of numbers under times")
-            key, source, kinematics = str(entry["key"]), str(entry["source"]), entry.get("kinematics", [*Kinematics])
-            if not isinstance(kinematics, list) or not kinematics or any(x not in [*Kinematics] for x in kinematics):
-                raise SceneError(f"{where}: found {kinematics!r:.60}; allowed: a list of {', '.join(Kinematics)}")
+            key, source = str(entry["key"]), str(entry["source"])
             for choice in choices:
                 value, times = (None, float(choice)) if "times" in entry else (choice, None)
-                found.append(Alternative(part, key, value, times, source, tuple(map(Kinematics, kinematics))))
+                found.append(Alternative(part, key, value, times, source))
     files = Counter(slug(each.name) for each in found)
     if shared := [each.name for each in found if files[slug(each.name)] > 1]:
         raise SceneError(

@@ -23,12 +23,8 @@ MEMBER = ["kinematics", "half_cycle", "varied"]  # columns that tell members apa
 def member_scores(
     scenes: Sequence[Scene], kinematics: Kinematics, alternative: Alternative | None, half_cycle: str
 ) -> list[dict[str, Any]]:
-    """Rows of the score table of a member behind MEMBER, none if it has other kinematics; what cannot be solved has no
-    score, and its note says why.
-    """
+    """Rows of the score table of a member behind MEMBER; what cannot be solved has none, and its note says why."""
     rows: list[dict[str, Any]] = []
-    if alternative and kinematics not in alternative.kinematics:
-        return rows
     for scene in (each.with_kinematics(kinematics) for each in scenes if kinematics in each.computed):
         rows += solved_rows(scene, edge_intervals(scene))[0]
         rows += unpredicted_rows(scene)

@@ -25,7 +25,7 @@ from ..store import read_rows, write_rows
 from ..tissue.actuator_body import body_of
 from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.condensation import condense_section
-from ..tissue.mesh import SectionMesh, mesh_section, nominal_edges
+from ..tissue.mesh import SectionMesh, merged, mesh_section, nominal_edges
 
 COLUMNS = ("start_mm", "stop_mm")  # of a table of intervals
 COARSER = 4.0  # times [1] the sizes and strides of the scene; source: intervals then agree to 0.003 mm with small
@@ -49,14 +49,14 @@ def load_edges(path: Path) -> FloatArray:
 
 
 def edge_intervals(scene: Scene) -> FloatArray:
-    """Intervals (k, 2) of |x| [mm] on the undeformed skin over which rounded edges lie in any condition.
+    """Intervals (k, 2) of x [mm] on the undeformed skin over which rounded edges lie in any condition.
 
     If there is no coarse mesh, or a path is lost on it, the nominal intervals and REACH around them. An interface whose
     criterion of pre-indentation is out of reach, on a finer coarse mesh as well, has no say; if all are such, the
     nominal intervals alone.
     """
     nominal = nominal_edges(scene.device.actuators)
-    wide = np.maximum(nominal + REACH * np.array([-1.0, 1.0]), 0.0)
+    wide = nominal + REACH * np.array([-1.0, 1.0])
     found, failures = list[FloatArray](), list[ContactError]()
     for times in (COARSER, COARSER / 2.0):
         failures.clear()
@@ -71,8 +71,7 @@ def edge_intervals(scene: Scene) -> FloatArray:
     if not found:
         return nominal
     start, stop = np.min([each[:, 0] for each in found], axis=0), np.max([each[:, 1] for each in found], axis=0)
-    both = np.stack([start, stop], axis=1)
-    return _joined(np.concatenate([both, -both[:, ::-1]]))
+    return merged(np.stack([start, stop], axis=1))
 
 
 def _states(
@@ -122,15 +121,3 @@ def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
     now, before = state.place + centre[state.given], problem.position[:, 0]
     edges = [(-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)]
     return np.array([np.interp(each + np.array(edge), now, before) for each in centre for edge in edges])
-
-
-def _joined(intervals: FloatArray) -> FloatArray:
-    """Intervals (k, 2) of |x| [mm], those that overlap joined."""
-    positive = np.maximum(intervals[intervals[:, 1] > 0.0], 0.0)
-    joined: list[list[float]] = []
-    for start, stop in positive[np.argsort(positive[:, 0])]:
-        if joined and start <= joined[-1][1]:
-            joined[-1][1] = max(joined[-1][1], float(stop))
-        else:
-            joined.append([float(start), float(stop)])
-    return np.array(joined)

@@ -93,6 +93,11 @@ class ActuatorRow:
         """Radius of the edges as they are modelled [mm]: that of sharp ones is SHARP_RADIUS."""
         return max(self.edge_radius, SHARP_RADIUS)
 
+    @property
+    def mirrors(self) -> bool:
+        """Whether actuators stand in places that are their own mirror image about the finger's middle."""
+        return self.positions == tuple(-x for x in reversed(self.positions))
+
     def nearest(self, x: FloatArray) -> np.ndarray:
         """Index (n,) of the actuator whose centre is nearest to each place (n,) [mm]."""
         return np.asarray(np.argmin(np.abs(x[:, None] - np.asarray(self.positions)), axis=1))

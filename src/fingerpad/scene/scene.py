@@ -102,8 +102,10 @@ class Scene:
         return replace(self, model=replace(self.model, tissue=tissue))
 
     def with_conditions(self, conditions: Iterable[Condition]) -> Scene:
-        """The scene with other conditions of its device."""
-        return replace(self, device=replace(self.device, conditions=tuple(conditions)))
+        """The scene with other conditions of its device; as vibrations those that it has under these names."""
+        kept = tuple(conditions)
+        cycles = tuple(cycle for cycle in self.device.cycles if any(cycle.name == each.name for each in kept))
+        return replace(self, device=replace(self.device, conditions=kept, cycles=cycles))
 
     def with_numerics(self, numerics: Numerics) -> Scene:
         """The scene with other numerics."""

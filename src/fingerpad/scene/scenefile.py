@@ -38,6 +38,7 @@ MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumptio
 KINEMATICS = {"both": tuple(Kinematics), "small": (Kinematics.SMALL,)}  # what files call them
 TABS = "; indent with spaces"
 QUOTES = "; text with a colon or a comma needs quotes"  # what is wrong most often where a flow mapping is not one
+DECIMALS = 12  # of a place [mm]; keeps rounding from telling a row that mirrors from one that does not
 REMEMBERED = 16  # texts of files [1]; source: config, two schemas and some devices
 LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema allows takes as much
 
@@ -282,12 +283,14 @@ def _positions(row: dict[str, Any]) -> tuple[float, ...]:
 
     >>> _positions({"count": 2, "pitch": 2.0, "offset": 0.5})
     (-0.5, 1.5)
+    >>> _positions({"positions": [0.0, 2.1, 4.2], "offset": -2.1})
+    (-2.1, 0.0, 2.1)
     """
     twice = [key for key in ("count", "pitch") if "positions" in row and key in row]
     require(not twice, f"actuators: found positions and {' and '.join(twice)}; allowed: positions, or count and pitch")
     places = row["positions"] if "positions" in row else _evenly(row["count"], row["pitch"])
     # ASSUME: actuators.offset: where a file says nothing, the finger lies over the middle of the row
-    return tuple(x + row.get("offset", 0.0) for x in places)
+    return tuple(round(x + row.get("offset", 0.0), DECIMALS) for x in places)
 
 
 def _evenly(count: int, pitch: float) -> list[float]:

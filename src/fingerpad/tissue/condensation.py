@@ -41,7 +41,7 @@ def section_stiffness(
 
 
 def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
-    """Condense the finger to contact nodes and receptor line, by halves (`halves`).
+    """Condense the finger to contact nodes and receptor line, where it mirrors by halves (`halves`).
 
     Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError as
     `contact_tractions`.
@@ -53,8 +53,8 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
 
 
 def parts_of(section: SectionMesh, scene: Scene, tractions: Tractions) -> Parts:
-    """What is condensed of a section: its right half, or with that skip off the whole of it."""
-    halved = scene.model.skips.halved_condensation
+    """What is condensed of a section: its right half if it mirrors, or with that skip off the whole of it."""
+    halved = scene.model.skips.halved_condensation and section.mirrors
     return right_half(section, tractions) if halved else whole(section, tractions)
 
 

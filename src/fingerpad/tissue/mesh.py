@@ -3,8 +3,8 @@
 The section is meshed in logical coordinates (s, zeta): s runs along the outline from the pad's lowest point to the
 dorsal mid-line, zeta from the skin (0) to the bone. Down to the finger's parallel depth zeta is the depth [mm] along
 the outline's inward normal; from there to the bone it is that depth plus the fraction of the way [1]. Layer
-interfaces are lines of constant zeta, so refining in logical space keeps the mesh conforming. Only one half is
-meshed; the other is its mirror image, to the last bit.
+interfaces are lines of constant zeta, so refining in logical space keeps the mesh conforming. Both halves are refined
+from one grid, each for the edges as it sees them; where they see the same they are mirror images, to the last bit.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from ..scene.device import ActuatorRow
 from ..scene.finger import Finger
 from ..scene.numerics import Numerics
 from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
 from ..store import load_arrays, save_arrays
 from .compliance import MIRROR
 
@@ -61,6 +62,12 @@ class SectionMesh:
     def unknowns(self) -> int:
         """Number of displacement components of all nodes."""
         return 2 * int(self.mesh.doflocs.shape[1])
+
+    @property
+    def mirrors(self) -> bool:
+        """Whether the mesh is its own mirror image about x = 0, to the last bit."""
+        nodes, images = self.mesh.doflocs, self.mesh.doflocs * MIRROR[:, None]
+        return np.array_equal(nodes[:, np.lexsort(nodes)], images[:, np.lexsort(images)])
 
     def interfaces(self) -> np.ndarray:
         """Facets (k,) between two layers."""
@@ -104,33 +111,39 @@ class _Outline:
 def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
     """Mesh of the finger's section, graded towards the actuators' edges and the receptor line.
 
-    edges: (k, 2) intervals of |x| [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
+    edges: (k, 2) intervals of x [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
     size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
     0), of the scene's kinematics. On the skin under the row it is at most face_size + growth * depth, and at most
-    receptor_size + growth * distance at the receptor line. The mesh is refined for both signs of x, and so symmetric.
+    receptor_size + growth * distance at the receptor line.
+
+    The mesh mirrors where the row does. With small kinematics it does so for every row, and is refined under the images
+    of its edges, too: the section is then condensed by halves, which saves more than these elements cost (decision 40).
 
     Raises MeshError if an element is inverted, more than MAX_ELEMENTS are asked for, or MAX_REFINEMENTS leave some too
     large.
     """
-    model = scene.model
-    outline = _Outline(model.finger)
-    logical = _base(outline, model.numerics)
+    row, outline = scene.device.actuators, _Outline(scene.model.finger)
+    under = np.array([[row.positions[0] - row.width / 2.0, row.positions[-1] + row.width / 2.0]])
+    right, left = _Graded(edges, under), _Graded(-edges[:, ::-1], -under[:, ::-1])
+    mirrored = row.mirrors or scene.kinematics is Kinematics.SMALL
+    sides = [_both(right, left)] if mirrored else [right, left]
+    halves = [_base(outline, scene.model.numerics)] * len(sides)
     for _ in range(MAX_REFINEMENTS):
-        corners = outline.physical(logical.p)[:, logical.t]
-        size = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
-        wanted = _size(scene, edges, corners.mean(axis=1), logical.p[1, logical.t].mean(axis=0))
-        marked = np.flatnonzero(size > wanted * (1.0 + SIZE_SLACK))
-        if marked.size == 0:
+        marked = [
+            np.union1d(_too_large(scene, outline, half, side), _coarser_on_mid_line(half, other))
+            for half, side, other in zip(halves, sides, reversed(halves), strict=True)
+        ]
+        if not any(each.size for each in marked):
             break
-        logical = logical.refined(marked)
-        if 2 * logical.t.shape[1] > MAX_ELEMENTS:
+        halves = [half.refined(each) if each.size else half for half, each in zip(halves, marked, strict=True)]
+        if sum(half.t.shape[1] for half in (halves[0], halves[-1])) > MAX_ELEMENTS:
             raise MeshError(
                 f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try thicker layers,"
                 f" or larger {scene.model.numerics.edge_key(scene.kinematics)}, face_size, receptor_size or growth"
             )
     else:
         raise MeshError(f"{scene.device.name}: {MAX_REFINEMENTS} refinements leave elements larger than asked for")
-    return _mirrored(scene, outline, logical)
+    return _joined(scene, outline, halves[0], halves[-1])
 
 
 def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
@@ -241,25 +254,78 @@ def _subdivided(lines: FloatArray, largest: float) -> FloatArray:
 
 
 def nominal_edges(row: ActuatorRow) -> FloatArray:
-    """Intervals (k, 2) of |x| [mm] under the rounded edges of a row, where undeformed skin lies."""
-    outer = np.abs(np.add.outer(np.asarray(row.positions), np.array([-1.0, 1.0]) * row.width / 2.0)).ravel()
-    inner = np.abs(np.add.outer(np.asarray(row.positions), np.array([-1.0, 1.0]) * row.half_face)).ravel()
-    return np.unique(np.round(np.sort(np.stack([inner, outer], axis=1), axis=1), ROUNDED), axis=0)
+    """Intervals (k, 2) of x [mm] under the rounded edges of a row, where undeformed skin lies."""
+    edges = [(-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)]
+    return np.unique(np.round(np.add.outer(row.positions, edges).reshape(-1, 2), ROUNDED), axis=0)
 
 
-def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray) -> FloatArray:
+@dataclass(frozen=True)
+class _Graded:
+    """What a half is graded towards, as that half sees it: intervals (k, 2) of x [mm] at edges, and under rows."""
+
+    edges: FloatArray
+    under: FloatArray
+
+
+def _both(one: _Graded, other: _Graded) -> _Graded:
+    """What a half is graded towards that stands for both."""
+    pairs = (one.edges, other.edges), (one.under, other.under)
+    both = (merged(np.concatenate(pair)) for pair in pairs)
+    # of an interval and its image the one on the right is nearer
+    return _Graded(*(intervals[intervals[:, 1] > 0.0] for intervals in both))
+
+
+def merged(intervals: FloatArray) -> FloatArray:
+    """Intervals (k, 2), ascending, those that overlap as one.
+
+    >>> merged(np.array([[0.5, 2.0], [4.0, 5.0], [0.0, 1.0]]))
+    array([[0., 2.],
+           [4., 5.]])
+    """
+    found: list[list[float]] = []
+    for start, stop in intervals[np.argsort(intervals[:, 0])]:
+        if found and start <= found[-1][1]:
+            found[-1][1] = max(found[-1][1], float(stop))
+        else:
+            found.append([float(start), float(stop)])
+    return np.array(found)
+
+
+def _too_large(scene: Scene, outline: _Outline, half: MeshTri, side: _Graded) -> np.ndarray:
+    """Elements of a half, as if it were the right one, that are larger than asked for."""
+    corners = outline.physical(half.p)[:, half.t]
+    size = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
+    wanted = _size(scene, side, corners.mean(axis=1), half.p[1, half.t].mean(axis=0))
+    return np.flatnonzero(size > wanted * (1.0 + SIZE_SLACK))
+
+
+def _coarser_on_mid_line(half: MeshTri, other: MeshTri) -> np.ndarray:
+    """Elements of a half with a side on the mid-line in whose middle the other half has a node."""
+    on_line = _on_mid_line(half)[half.t]
+    beside = np.flatnonzero(on_line.sum(axis=0) == 2)
+    middle = np.mean(half.p[:, half.t[:, beside]], axis=1, where=on_line[:, beside])
+    nodes = other.p[:, _on_mid_line(other)]
+    return np.asarray(beside[(middle[:, :, None] == nodes[:, None]).all(axis=0).any(axis=1)])
+
+
+def _on_mid_line(half: MeshTri) -> np.ndarray:
+    """Which nodes of a logical half lie on the mid-line, at the pad or at the back."""
+    return np.asarray((half.p[0] == 0.0) | (half.p[0] == half.p[0].max()))
+
+
+def _size(scene: Scene, side: _Graded, centre: FloatArray, zeta: FloatArray) -> FloatArray:
     """Largest allowed element size (n,) [mm] at element centres (2, n) [mm] of logical depth zeta (n,)."""
-    finger, numerics, row = scene.model.finger, scene.model.numerics, scene.device.actuators
-    start, stop = edges.T[..., None]
-    x = np.clip(np.abs(centre[0]), start, stop)
-    to_edge = np.min(np.hypot(np.abs(centre[0]) - x, centre[1] - finger.skin_height(x)), axis=0)
-    outermost = max(abs(position) for position in row.positions) + row.width / 2.0
+    finger, numerics = scene.model.finger, scene.model.numerics
+    start, stop = side.edges.T[..., None]
+    x = np.clip(centre[0], start, stop)
+    to_edge = np.min(np.hypot(centre[0] - x, centre[1] - finger.skin_height(x)), axis=0)
+    first, last = side.under.T[..., None]
     depth = np.minimum(zeta, finger.parallel_depth) + np.maximum(zeta - finger.parallel_depth, 0.0) * (
         finger.pad_thickness - finger.parallel_depth
     )
     # dorsal tissue is far from the pad, however near its skin
     depth = np.where(centre[1] > finger.height / 2.0, centre[1], depth)
-    beyond = np.maximum(np.abs(centre[0]) - outermost, 0.0)
+    beyond = np.min(np.abs(centre[0] - np.clip(centre[0], first, last)), axis=0)
     to_face = np.hypot(depth, beyond)
     to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)
     edge_size, edge_zone = numerics.edges(scene.kinematics)
@@ -274,32 +340,29 @@ def _size(scene: Scene, edges: FloatArray, centre: FloatArray, zeta: FloatArray)
     return size
 
 
-def _mirrored(scene: Scene, outline: _Outline, logical: MeshTri) -> SectionMesh:
-    """The whole section from its logical half, curved, with its layers and named lines."""
+def _joined(scene: Scene, outline: _Outline, right: MeshTri, left: MeshTri) -> SectionMesh:
+    """The section from its logical halves, which agree on the mid-line: curved, with its layers and named lines."""
     finger = scene.model.finger
-    half_points = logical.p
-    end = half_points[0].max()
-    on_axis = (half_points[0] == 0.0) | (half_points[0] == end)
-    right = outline.physical(half_points)
-    right[0, on_axis] = 0.0
-    count = half_points.shape[1]
-    twin = np.where(on_axis, np.arange(count), -1)
-    twin[~on_axis] = count + np.arange(np.count_nonzero(~on_axis))
-    points = np.hstack([right, right[:, ~on_axis] * MIRROR[:, None]])
-    half_of = np.concatenate([np.arange(count), np.flatnonzero(~on_axis)])
-    straight = MeshTri(points, np.hstack([logical.t, twin[logical.t]]))
-    mesh = MeshTri2.from_mesh(straight)
+    common, beside = np.flatnonzero(_on_mid_line(right)), np.flatnonzero(~_on_mid_line(left))
+    on_left = np.empty(left.p.shape[1], dtype=np.int64)  # nodes of the section that those of the left half are
+    on_left[beside] = right.p.shape[1] + np.arange(beside.size)
+    own = np.flatnonzero(_on_mid_line(left))
+    on_left[own[np.lexsort(left.p[:, own])]] = common[np.lexsort(right.p[:, common])]
+    points = np.hstack([outline.physical(right.p), outline.physical(left.p[:, beside]) * MIRROR[:, None]])
+    points[0, common] = 0.0
+    logical = np.hstack([right.p, left.p[:, beside]])
+    mesh = MeshTri2.from_mesh(MeshTri(points, np.hstack([right.t, on_left[left.t]])))
 
     ends = mesh.facets
-    middle = half_points[:, half_of[ends]].mean(axis=1)
+    middle = logical[:, ends].mean(axis=1)
     curved = outline.physical(middle)
     sign = np.sign(points[0, ends].sum(axis=0))
     curved[0] *= sign
     mesh = replace(mesh, doflocs=np.hstack([points, curved]))
 
-    along = np.concatenate([half_points[0, half_of], middle[0]])
+    along = np.concatenate([logical[0], middle[0]])
     s = np.sign(mesh.doflocs[0]) * along
-    zeta = np.concatenate([half_points[1, half_of], middle[1]])
+    zeta = np.concatenate([logical[1], middle[1]])
     nail = (np.pi - outline.angle_of_arc(finger.nail_width / 2.0)) * outline.semi_axes[0]
 
     layer, names = _layers(finger, along[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)

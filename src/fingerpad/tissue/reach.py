@@ -14,8 +14,9 @@ MAX_CONTACT = 4000  # skin nodes that may come into contact [1]; source: their c
 
 def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     """Tractions on the skin that an actuator can reach: under a face, or within a margin and the stroke of one, as skin
-    that is pressed farther goes farther sideways too; and on its mirror image. Where no face gets near the mid-line its
-    node is left out: hats beside it are then one half's alone, and soft actuators are pressed by halves as well.
+    that is pressed farther goes farther sideways too; if the mesh mirrors, on its mirror image, too. Where no face gets
+    near the mid-line its node is left out: hats beside it are then one half's alone, and soft actuators are pressed by
+    halves as well.
 
     Raises MeshError if no element lies there, or more than MAX_CONTACT nodes.
     """
@@ -32,7 +33,7 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
             f"{scene.device.name}: no element of the skin lies within reach of an actuator; try a smaller"
             " numerics.face_size"
         )
-    tractions = linear_tractions(section.skin, points, near | near[::-1])
+    tractions = linear_tractions(section.skin, points, near | near[::-1] if section.mirrors else near)
     if tractions.weight.size > MAX_CONTACT:
         raise MeshError(
             f"{scene.device.name}: {tractions.weight.size} skin nodes may come into contact, more than {MAX_CONTACT};"
