@@ -39,8 +39,8 @@ from .score_table import as_csv, as_table, named, require_scores
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
 discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
-read-out; where errors leave it open, both ends stand there (1-3), without errors a question mark. Below the table
-stands what else to know before believing it.
+read-out; a range such as 1-3 means that errors leave it open, a question mark that no error was computed. Below the
+table stands what else to know before believing it.
 
 examples:
   fingerpad predict config/devices/device2.yaml

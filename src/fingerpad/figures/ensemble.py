@@ -29,7 +29,7 @@ MARKS: dict[Holds, dict[str, Any]] = {
 CAPTION = (
     "n = {count} members: in each one assumption is varied, as named below, or none. Left mark of a pair:"
     " first half-cycle of the stimulus, right: second. No mark: a path that could not be followed, or no prediction."
-    " (weaker): follows from what the paper says."
+    " (weaker): asks less than the paper says."
     " Ratings: ordinal surrogates where data/ratings.csv calls them so."
 )
 

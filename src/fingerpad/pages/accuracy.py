@@ -11,14 +11,15 @@ from ..calculix.crosscheck import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.accuracy import CASE
 from ..readouts.roughness import KEY
+from ..scene.tissue_law import Kinematics
 from ..words import PERCENT
 from .filling import digits, percent, table
 
 AIM = 0.005  # error [1] that every score should keep; source: the project's aim
 BOUND = 2.0  # times the stated error [1] within which the true one should lie
 FINEST = "finer_mesh"  # case of the comparison with CalculiX that has the finest mesh, with small kinematics
-RUBBING = "rubbing"  # begins the names of cases with friction from the first touch and small kinematics, as scores have
-ITSELF = f"CalculiX in {RUBBING}"  # what CalculiX is compared with in the others of these cases
+# what begins the names of cases with friction from the first touch, as scores have
+RUBBING = {Kinematics.SMALL: "rubbing", Kinematics.FINITE: "finite_rubbing"}
 CALCULIX_COLUMNS = [
     "strain_indented",
     "pressing_indented",
@@ -126,17 +127,25 @@ def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
 
 def _of_rubbing(compared: pd.DataFrame) -> str:
     """How far the programs differ where friction acts from the first touch, and CalculiX from itself, in words."""
-    rows = compared[compared["case"].str.startswith(RUBBING)]
-    own, itself = rows[rows["against"] == ContactModel.OWN], rows[rows["against"] == ITSELF]
-    if own.empty or itself.empty:
-        return f"With friction from the first touch (`{RUBBING}`) CalculiX did not converge."
+    found = " ".join(_of_rubbing_with(kinematics, compared) for kinematics in Kinematics)
     return (
-        f"In that case friction is switched on after pre-indentation. With friction from the first touch, **as shipped"
-        f" scores have it** (`{RUBBING}` and what follows it), fingerpad differs by {_range(own, 'strain_actuated')} in"
-        f" strain, {_range(own, 'change_of_strain')} in the change of strain and"
+        "In that case friction is switched on after pre-indentation. With friction from the first touch, **as shipped"
+        f" scores have it**, CalculiX has not converged, and cannot tell which of the two is nearer. {found}"
+    )
+
+
+def _of_rubbing_with(kinematics: Kinematics, compared: pd.DataFrame) -> str:
+    """The same with one kinematics, in a sentence."""
+    name = RUBBING[kinematics]
+    rows = compared[compared["case"].str.startswith(name)]
+    own, itself = rows[rows["against"] == ContactModel.OWN], rows[rows["against"] == f"CalculiX in {name}"]
+    if own.empty or itself.empty:
+        return f"With {kinematics} strain (`{name}`) it found no solution."
+    return (
+        f"With {kinematics} strain (`{name}` and what follows it) fingerpad differs by"
+        f" {_range(own, 'strain_actuated')} in strain, {_range(own, 'change_of_strain')} in the change of strain and"
         f" {_range(own, 'score_change_of_strain')} in its score, and CalculiX with another mesh or other increments"
-        f" from itself by {_range(itself, 'change_of_strain')} in the change of strain: there it has not converged, and"
-        " cannot tell which of the two is nearer."
+        f" from itself by {_range(itself, 'change_of_strain')} in the change of strain."
     )
 
 

@@ -45,7 +45,7 @@ VERY_WELL = math.sqrt(0.876)  # |r| [1]; source: paper: Results, the lowest R² 
 
 
 class Kind(StrEnum):
-    """Whether the paper makes a statement, or makes a stronger one from which it follows."""
+    """Whether the paper makes a statement, or one that asks less stands in its spirit."""
 
     STATED = "stated"
     WEAKER = "weaker"
@@ -319,7 +319,7 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("Device 2: the change of strain rises 0° < 90° < 180°.", _ORDER, _change_rises("device2", PHASES)),
     Statement(
         "Device 3: the change of strain rises 180° < 0° < 90°.",
-        "paper: Results; the Introduction once has 0° highest",
+        "paper: Results; a sentence of the Introduction contradicts itself: 0° highest, the peak at 90°",
         _change_rises("device3", (180.0, 0.0, 90.0)),
     ),
     Statement(
