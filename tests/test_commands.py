@@ -297,7 +297,7 @@ def test_a_score_whose_error_cannot_be_had_is_given_without_it() -> None:
     given = replace(base, device=device, model=replace(base.model, contact=contact))
     shear = [row for row in forecast(given) if row["interface"] == "shear"]
     assert all(row["score"] > 0.0 and row["score_error"] is None for row in shear)
-    (caveat,) = {caveat for row in shear for caveat in row["caveats"] if caveat.startswith("error unknown")}
+    ((*_, caveat),) = {tuple(row["caveats"]) for row in shear}  # one sentence each, that of the error last
     assert caveat.startswith("error unknown: on a mesh of 2 times the sizes, device=device2, condition=alternate_180")
     said = f"caveat: alternate_180 (shear, strain and change_of_strain): {caveat}"
     assert said in as_table(given, shear)
@@ -858,7 +858,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
         scores = [1.0, 2.0, 3.0] if friction > 0.5 else [3.0, 2.0, 1.0]
         return [ROW | {"condition": condition.name, "kinematics": str(scene.kinematics),
                        "score": score if first else None, "score_error": 0.1 if error else None,
-                       "note": "deep" if first else "no prediction: too far", "caveats": ["deep", "close"]}
+                       "note": "deep; odd" if first else "no prediction: too far", "caveats": ["deep", "odd"]}
                 for condition, score in zip(scene.device.conditions, scores, strict=True)]  # fmt: skip
 
     monkeypatch.setattr(varying, "forecast", forecast_one)
@@ -877,7 +877,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
         "  alternate_000 < alternate_090 holds in 0 of 1; reversed with contact.friction 0.3;"
         " no prediction with stimulus.half_cycle second\n"
     )
-    assert "\ncaveat: all conditions (shear, strain): deep\n" in said and "close" not in said
+    assert "\ncaveat: all conditions (shear, strain): deep\ncaveat: all conditions (shear, strain): odd\n" in said
     assert "\nwithout effect: contact.friction 0.9, actuators.pitch times 1.1, kinematics finite\n" in said
     assert "\nstimulus.half_cycle second: no prediction: too far\n" in said
     assert "\nleft out: actuators.pitch times 0.1: config/devices/device2.yaml" in said
@@ -981,6 +981,11 @@ def test_values_in_turn_are_those_of_edited_files(coarse: Path) -> None:
     edited = predict("config/devices/device2.yaml", error=False)
     assert table["actuators.pitch"].tolist() == [2.2] * len(edited) + [2.4] * len(edited)
     assert table["score"][len(edited) :].tolist() == edited["score"].tolist()
+
+
+def test_a_force_without_effect_is_refused_in_python_too() -> None:
+    with pytest.raises(UsageError, match=r"contact\.force, which has no effect where contact\.criterion is 'full'"):
+        predict(DEVICES / "device2.yaml", vary={"contact.force": [0.1, 0.2]})
 
 
 def test_prediction_with_unknown_kinematics_is_refused() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
+import io
 import operator
 import re
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 import yaml
 from jsonschema import Draft202012Validator
@@ -332,17 +334,17 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "dispersion with a reserved name": (
         {"stimulus.dispersions": {"value": quantity([0, 1, 0, 1], "1")}},
         "stimulus.dispersions",
-        ["the name value", "none of value, source, nan and null"],
+        ["the name value", "none of value, source, false, inf, infinity, nan, null and true"],
     ),
     "dispersion that would be taken for a quantity": (
         {"stimulus.dispersions": {"source": quantity([0, 1, 0, 1], "1")}},
         "stimulus.dispersions",
-        ["the name source", "none of value, source, nan and null"],
+        ["the name source", "none of value, source, false, inf, infinity, nan, null and true"],
     ),
     "dispersion that tables would take for missing": (
         {"stimulus.dispersions": {"nan": quantity([0, 1, 0, 1], "1")}},
         "stimulus.dispersions",
-        ["the name nan", "none of value, source, nan and null"],
+        ["the name nan", "none of value, source, false, inf, infinity, nan, null and true"],
     ),
     "too few group indices": (
         {"stimulus.dispersions.low.value": [0, 1, 0]},
@@ -630,15 +632,16 @@ def test_file_name_that_is_no_device_name(tmp_path: Path, name: str, meant: str)
         assert [part for part in parts if part not in message] == []
 
 
-@pytest.mark.parametrize("name", ["nan", "null"])
-def test_device_that_tables_would_take_for_missing(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize("name", ["nan", "null", "inf", "infinity", "true", "false"])
+def test_device_that_tables_would_take_for_something_else(tmp_path: Path, name: str) -> None:
     (tmp_path / f"{name}.yaml").write_bytes((DEVICES / "device1.yaml").read_bytes())
-    with pytest.raises(
-        SceneError, match=f"file name: found {name}.yaml; allowed: a name other than nan, null, then .yaml"
-    ):
+    other = "a name other than false, inf, infinity, nan, null, true"
+    with pytest.raises(SceneError, match=f"file name: found {name}.yaml; allowed: {other}, then .yaml"):
         known_devices(tmp_path)
-    with pytest.raises(SceneError, match=f"NAME: found {name}; allowed: a name other than nan, null"):
+    with pytest.raises(SceneError, match=f"NAME: found {name}; allowed: {other}"):
         require_new_name(name)
+    column = pd.read_csv(io.StringIO(f"device\n{name}\n"))["device"]
+    assert column.to_list() != [name]
 
 
 def subschemas(node: Any) -> Iterator[dict[str, Any]]:

@@ -14,7 +14,7 @@ from .csvrows import listed
 from .errors import UsageError
 from .prediction.forecast import forecast
 from .scene.tissue_law import Kinematics
-from .scene.validation import check_device
+from .scene.validation import check_device, require_effect
 from .scene.variation import NO_VALUES, variants
 
 
@@ -33,7 +33,7 @@ def predict(
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
     "finite". config: the config.yaml beside the device file's folder if not given, or else that of the checkout around
     the working folder, as are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no
-    such kinematics.
+    such kinematics, or if what is varied has no effect (`require_effect`).
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
@@ -43,6 +43,7 @@ def predict(
     model = model_for(Path(device), Path(config) if config else None)
     folder = schemas_for(Path(schemas) if schemas else None)
     cases = [(values, check_device(Path(device), folder, model, values)) for values in variants(vary)]
+    require_effect([values for values, _ in cases], [scene for _, scene in cases])
     rows = [
         values | row
         for values, scene in cases

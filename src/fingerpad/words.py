@@ -53,8 +53,11 @@ def shortened(name: str, most: int = LONGEST_LABEL) -> str:
 
     >>> shortened("every_second_actuator_090")
     'every_s…ator_090'
+    >>> shortened("medium_090", 1)
+    '…'
     """
-    return name if len(name) <= most else f"{name[: most - 1 - most // 2]}…{name[-(most // 2) :]}"
+    end = most // 2
+    return name if len(name) <= most else f"{name[: max(most - 1 - end, 0)]}…{name[len(name) - end :]}"
 
 
 def counted(conditions: Sequence[Any]) -> str:

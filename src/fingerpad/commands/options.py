@@ -15,7 +15,7 @@ from ..checkout import find_checkout, model_for, schemas_for
 from ..csvrows import listed
 from ..errors import UsageError
 from ..files import require_folder
-from ..scene.contact_law import Criterion, Interface
+from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..scene.scenefile import read_values
@@ -170,18 +170,6 @@ def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
             raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")
         vary.setdefault(key.strip(), []).extend(values)
     return variants(vary)
-
-
-def require_effect(varied: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> None:
-    """Raise UsageError if a depth or a force is varied where pre-indentation ends at neither."""
-    criteria = {scene.model.contact.criterion for scene in scenes}
-    for criterion in (Criterion.DEPTH, Criterion.FORCE):
-        key = f"contact.{criterion}"
-        if criterion not in criteria and any(key in values for values in varied):
-            raise UsageError(
-                f"--vary: found {key}, which has no effect where contact.criterion is {listed(sorted(criteria))};"
-                f" add --vary contact.criterion={criterion}"
-            )
 
 
 def existing_file(device: Path) -> Path:

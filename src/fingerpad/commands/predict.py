@@ -19,6 +19,7 @@ from ..prediction.orders import orders
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
+from ..scene.validation import require_effect
 from ..scene.variation import unit_of
 from .options import (
     add_conditions,
@@ -30,7 +31,6 @@ from .options import (
     add_variation,
     checked_scene,
     picture_of,
-    require_effect,
     variations,
     with_asked_conditions,
 )

@@ -134,11 +134,7 @@ def _told(
         yield f"\n{interface}, {readout}"
         yield from map(_as_line, orders)
     yield ""
-    # which scores lie close the orders say
-    noted = [
-        {**row, "caveats": [row["note"]]} for row in in_order(configured) if row["score"] is not None and row["note"]
-    ]
-    yield from caveat_lines(scene, noted)
+    yield from caveat_lines(scene, [row for row in in_order(configured) if row["score"] is not None])
     if idle:
         yield f"without effect: {', '.join(idle)}"
     for name, rows in members.items():

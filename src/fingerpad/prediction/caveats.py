@@ -124,12 +124,16 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     return found
 
 
+def caveats_of(scene: Scene, condition: Condition, solution: Solution) -> list[str]:
+    """Those of a stimulus and of its solution, a sentence each."""
+    return stimulus_caveats(condition) + solution_caveats(scene, solution)
+
+
 def noted_rows(
     scene: Scene, condition: Condition, interface: Interface, solution: Solution, read: FilteredReadouts
 ) -> list[dict[str, Any]]:
     """Rows of the score table for a solution and its filtered read-outs, with caveats as their note."""
-    caveats = stimulus_caveats(condition) + solution_caveats(scene, solution)
-    return score_rows(scene, condition, interface, read, "; ".join(caveats))
+    return score_rows(scene, condition, interface, read, "; ".join(caveats_of(scene, condition, solution)))
 
 
 def _numbers(which: np.ndarray) -> str:

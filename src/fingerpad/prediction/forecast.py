@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from ..readouts.accuracy import with_error, with_errors
+from ..readouts.accuracy import case_of, with_error, with_errors
 from ..readouts.roughness import unpredicted_rows
+from ..scene.contact_law import Interface
 from ..scene.device import Control
 from ..scene.scene import Scene
+from .caveats import caveats_of
 from .edges import edge_intervals
 from .ranking import ranks
-from .scoring import ReadSolution, error_rows, solved_rows
+from .scoring import Case, ReadSolution, error_rows, solved_rows
 
 SILENT = "the device controls forces: its displacements without friction are unknown"
 LEFT_OUT = "skipped by `interfaces` in the device file"
@@ -37,11 +39,22 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     found = [*rows, *silent]
     table = with_errors(found, checks) if error else [with_error(row, None) for row in found]
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
-    caveats = [[row["note"]] if row["note"] else [] for row in table[: len(rows)]] + [[why] for _ in silent]
+    caveats = [_caveats(scene, row, read, checks) for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
         row | rank | _contact(read.get((row["condition"], row["interface"]))) | {"caveats": own}
         for row, rank, own in zip(table, ranks(table), caveats, strict=True)
     ]
+
+
+def _caveats(
+    scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution], checks: Sequence[Mapping[str, Any]]
+) -> list[str]:
+    """What to know of a row: the caveats of its solution and why its error is unknown, or why it has no score."""
+    case = row["condition"], Interface(row["interface"])
+    if case not in read:
+        return [row["note"]]
+    unknown = [check["note"] for check in checks if check["note"] and case_of(check) == case_of(row)]
+    return caveats_of(scene, scene.device.condition(case[0]), read[case].solution) + unknown
 
 
 def _contact(read: ReadSolution | None) -> dict[str, float | None]:

@@ -14,7 +14,7 @@ import operator
 import re
 import sys
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from decimal import Decimal
 from pathlib import Path
@@ -22,7 +22,8 @@ from typing import Any
 
 import yaml
 
-from ..errors import SceneError
+from ..csvrows import listed
+from ..errors import SceneError, UsageError
 from ..imports import without
 from .contact_law import Criterion
 from .scene import Model, Scene
@@ -38,7 +39,8 @@ Problem = tuple[int, str]  # how fundamental (0 is the most), and the line that 
 
 MOST_REPORTED = 5  # problems in one message [1]
 LONGEST_NAME = 64  # characters of a device's name [1]; source: as in the schemas
-RESERVED = {"nan", "null"}  # source: tables that are read with pandas take them for missing
+# source: tables that are read with pandas take them for missing, and columns of nothing else for numbers and truths
+RESERVED = {"false", "inf", "infinity", "nan", "null", "true"}
 NAME = f"small letters, digits and underscores that begin with a letter, at most {LONGEST_NAME}"
 YAML_ENDINGS = {".yaml", ".yml"}
 LONGEST_SHOWN = 60  # characters of a found value in a message [1]
@@ -108,6 +110,18 @@ def _idle_preloads(document: dict[str, Any], schema: Schema, criterion: Criterio
             about = schema["properties"]["contact"]["properties"][key]["description"]
             found = f"a value without effect, as contact.criterion is {criterion}"
             yield _problem(2, f"contact.{key}", found, f"one beside contact.criterion: {key}", about=about)
+
+
+def require_effect(varied: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> None:
+    """Raise UsageError if a depth or a force is varied where pre-indentation ends at neither."""
+    criteria = {scene.model.contact.criterion for scene in scenes}
+    for criterion in (Criterion.DEPTH, Criterion.FORCE):
+        key = f"contact.{criterion}"
+        if criterion not in criteria and any(key in values for values in varied):
+            raise UsageError(
+                f"vary: found {key}, which has no effect where contact.criterion is {listed(sorted(criteria))};"
+                f" vary contact.criterion, too: {criterion}"
+            )
 
 
 def known_devices(folder: Path) -> list[str]:
