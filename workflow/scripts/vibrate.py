@@ -9,28 +9,18 @@ from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from fingerpad.tissue.mesh import load_section
-from fingerpad.vibration.creep import condense_creep
-from fingerpad.vibration.frequency import condense_vibrating_at, frequency_rows
+from fingerpad.vibration.frequency import vibration_rows
 
 
 def main(
     config: Path, device: Path, mesh: Path, condensed: Path, body: Path | None, resampling: Path, scores: Path
 ) -> None:
-    """Read mesh and compliance, condense what creeps and what inertia changes, vibrate, write the rows."""
+    """Read mesh and compliance, vibrate, write the rows."""
     scene, section = load_scene(config, device), load_section(mesh)
     shared = Condensed(
         load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
     )
-    creep = condense_creep(section, scene)
-    speeds = [None, *(condense_vibrating_at(section, scene, each) for each in scene.device.frequencies)]
-    write_rows(
-        scores,
-        [
-            row
-            for interface in scene.device.interfaces()
-            for row in frequency_rows(scene, shared, creep, speeds, interface)
-        ],
-    )
+    write_rows(scores, vibration_rows(scene, section, shared))
 
 
 if __name__ == "__main__":

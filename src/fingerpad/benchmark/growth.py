@@ -13,7 +13,7 @@ from ..contact.linear_solution import indent_device, stimulate
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import condense_scene
 from ..scene.contact_law import Criterion, Interface
-from ..scene.device import ActuatorRow, Condition
+from ..scene.device import ActuatorRow, Condition, evenly
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section
 from .timing import exponent, fewest
@@ -64,8 +64,7 @@ def exponents(rows: Sequence[Row]) -> list[Row]:
 
 def row_of(scene: Scene, count: int) -> Scene:
     """The scene with a row of `count` narrow actuators that must all touch; every other one moves up."""
-    centred = PITCH * (np.arange(count) - (count - 1) / 2.0)
-    row = ActuatorRow(tuple(float(x) for x in centred), WIDTH, EDGE_RADIUS)
+    row = ActuatorRow(evenly(count, PITCH), WIDTH, EDGE_RADIUS)
     stroke = np.where(np.arange(count)[None, :] % 2 == 0, 0.0, STROKE)
     condition = Condition(
         name="up",

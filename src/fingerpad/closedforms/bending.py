@@ -18,7 +18,7 @@ from functools import cached_property, partial
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from skfem import Basis, ElementTriP2, ElementVector, MeshTri, MeshTri2
+from skfem import Basis, MeshTri, MeshTri2
 from skfem.helpers import grad
 
 from ..arrays import FloatArray
@@ -126,7 +126,7 @@ def bent(poisson: float, divisions: int) -> list[Comparison]:
     """Errors of displacement, its gradient and the mean stress in L2."""
     found = bend(poisson, divisions)
     exact = Sector(found.material, STRAIN)
-    fine = Basis(found.basis.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
+    fine = displacement_basis(found.basis.mesh, order=EXACT_ORDER)
     place, root = np.asarray(fine.global_coordinates()), np.sqrt(fine.dx)
     field = fine.interpolate(found.displacement)
     pairs = {

@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from skfem import Basis, ElementTriP2, ElementVector, LinearForm
+from skfem import LinearForm
 from skfem.helpers import ddot, grad
 
 from ..arrays import FloatArray
@@ -58,7 +58,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[:, None])
     basis = displacement_basis(section.mesh)
     dofs = node_dofs(basis)
-    fine = Basis(section.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
+    fine = displacement_basis(section.mesh, order=EXACT_ORDER)
     place = np.asarray(fine.global_coordinates())
     stress = first_stress(tissue, large_gradient(place))
 

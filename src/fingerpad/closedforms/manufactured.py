@@ -10,13 +10,13 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from skfem import Basis, ElementTriP2, ElementVector, LinearForm
+from skfem import LinearForm
 from skfem.helpers import ddot, eye, sym_grad, trace
 
 from ..arrays import FloatArray
 from ..scene.scene import Scene
 from ..tissue.condensation import section_stiffness
-from ..tissue.elasticity import lame
+from ..tissue.elasticity import displacement_basis, lame
 from ..tissue.mesh import mesh_section, nominal_edges
 from .comparison import Comparison, compare, on_spacings
 from .equilibrium import linear_equilibrium
@@ -51,7 +51,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     same = uniform(scene, spacing)
     section = mesh_section(same, nominal_edges(same.device.actuators))
     matrix, dofs = section_stiffness(section, scene)
-    basis = Basis(section.mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
+    basis = displacement_basis(section.mesh, order=EXACT_ORDER)
     finger = scene.model.finger
     layers = np.array([lame(layer.material) for layer in finger.layers])
     lam, mu = layers[section.layer].T[..., None]

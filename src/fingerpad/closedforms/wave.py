@@ -46,7 +46,7 @@ def wave(poisson: float, divisions: int) -> list[Comparison]:
     moved = computed_displacement(basis, material)
     gradient = gradient_at(mesh, moved[node_dofs(basis)], basis.X).reshape(2, 2, mesh.nelements, -1)
     means = element_means(basis, (lam + mu) * (gradient[0, 0] + gradient[1, 1]))
-    fine = Basis(mesh, ElementVector(ElementTriP2()), intorder=EXACT_ORDER)
+    fine = displacement_basis(mesh, order=EXACT_ORDER)
     place, root = np.asarray(fine.global_coordinates()), np.sqrt(fine.dx)
     found = recover_linear(basis, np.zeros(means.size), means, place) * root
     name, grid = f"Pressure wave, nu = {poisson:g}", (SIDE / divisions, int(basis.N))

@@ -16,13 +16,12 @@ from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
-from ..vibration.creep import condense_creep
-from ..vibration.frequency import SLOWLY, Vibrating, condense_vibrating_at, frequency_name, frequency_rows
+from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows
 from .options import add_conditions, add_forms, add_scene_options, checked_scene, with_asked_conditions
 from .printing import aligned, in_order, print_rows, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
-STEPS = 3  # of the progress before any score: mesh, compliance, creep
+STEPS = 2  # of the progress before vibrations: mesh, compliance
 DESCRIPTION = """\
 Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
 creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
@@ -63,25 +62,13 @@ def hertz(text: str) -> float:
 def run(options: argparse.Namespace) -> None:
     """Vibrate the device, and print all scores once they are there."""
     scene = asked(with_asked_conditions(checked_scene(options.device, options), options), options.frequency)
-    device = scene.device
-    total = STEPS + len(device.frequencies)
-    total += len(device.interfaces()) * len(device.cycles) * (1 + len(device.frequencies))
-    with tqdm(total=total, desc=device.name, leave=False, disable=None) as bar, threadpool_limits(1):
+    total = STEPS + steps(scene)
+    with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()
         condensed = condense_mesh(scene, section)
         bar.update()
-        creep = condense_creep(section, scene)
-        bar.update()
-        speeds: list[Vibrating | None] = [None]
-        for frequency in device.frequencies:
-            speeds.append(condense_vibrating_at(section, scene, frequency))
-            bar.update()
-        rows = [
-            row
-            for interface in device.interfaces()
-            for row in frequency_rows(scene, condensed, creep, speeds, interface, bar.update)
-        ]
+        rows = vibration_rows(scene, section, condensed, bar.update)
     print_rows(options, rows, lambda: as_table(scene, rows))
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..scene.device import nearest
 from .formulation import OPEN, ContactProblem, ContactState, centres
 from .profile import profile
 
@@ -59,8 +60,7 @@ def given_to(problem: ContactProblem, state: ContactState, given: np.ndarray) ->
 def nearest_now(problem: ContactProblem, state: ContactState) -> np.ndarray:
     """Index (n,) of the actuator whose centre is nearest along x to where each node is now."""
     centre = state.actuator[:, 0] + problem.row.positions
-    between = (centre[1:] + centre[:-1]) / 2.0
-    return np.asarray(np.searchsorted(between, state.place + centre[state.given]))
+    return nearest(centre, state.place + centre[state.given])
 
 
 def overlapped(problem: ContactProblem, state: ContactState, allowed: float) -> np.ndarray:

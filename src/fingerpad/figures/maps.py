@@ -265,9 +265,7 @@ def _colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) 
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     area = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
     means = values.reshape(len(values), -1, 3).mean(axis=2)
-    order = np.argsort(means, axis=None)
-    share = np.cumsum(np.tile(area, len(means))[order])
-    value = means.ravel()[order][np.searchsorted(share, covered / PERCENT * share[-1])]
+    value = np.percentile(means, covered, weights=np.tile(area, (len(means), 1)), method="inverted_cdf")
     return step * max(math.ceil(PERCENT * float(value) / step), 1)
 
 

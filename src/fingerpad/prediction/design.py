@@ -8,6 +8,7 @@ of its own. A second condensation, whose elements are twice as large, gives ever
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,9 +19,10 @@ from ..errors import ContactError
 from ..readouts.accuracy import COARSENING, score_errors, with_error
 from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Interface
-from ..scene.device import ActuatorRow, Condition, Control, Device
+from ..scene.device import ActuatorRow, Condition, Control, Device, evenly
 from ..scene.readout import Readout
 from ..scene.scene import Model, Scene
+from ..scene.stimuli import ALTERNATE, phased
 from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import mesh_section
 from .caveats import noted_rows
@@ -72,8 +74,7 @@ class Answer:
 
 def pins_at_rest(model: Model, count: int, pitch: float, width: float, edge_radius: float) -> Scene:
     """A row of rigid pins [mm], evenly spaced. Raises SceneError if they overlap or numbers are out of range."""
-    positions = tuple((number - (count - 1) / 2.0) * pitch for number in range(count))
-    row = ActuatorRow(positions, width, edge_radius)
+    row = ActuatorRow(evenly(count, pitch), width, edge_radius)
     return Scene(model, Device(NAME, NAME, Control.DISPLACEMENT, row, (_condition(count, 0.0, 0.0, True),)))
 
 
@@ -127,17 +128,16 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
 
 def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) -> Condition:
     """The state at the first pin's peak."""
-    path = np.where(np.arange(count) % 2 == 0, amplitude, amplitude * np.cos(np.deg2rad(phase_deg)))[None, :]
-    still = np.zeros_like(path)
-    normal, tangential = (still, path) if lateral else (path, still)
-    return Condition(
-        name=NAME,
-        dispersion="alternate",
-        phase_deg=phase_deg,
-        time=np.array([1.0]),
-        normal=normal,
-        tangential=tangential,
-    )
+    stimulus = {
+        "dispersions": {ALTERNATE: [number % 2 for number in range(count)]},
+        "phases": [phase_deg],
+        "amplitude": amplitude,
+        "direction": "lateral" if lateral else "normal",
+        "half_cycle": "first",
+        "playback": "snapshot",
+    }
+    (condition,) = phased(stimulus, count, Path())
+    return replace(condition, name=NAME)
 
 
 def _moved(row: PressedRow, condition: Condition) -> Answer:

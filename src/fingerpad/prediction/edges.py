@@ -119,5 +119,4 @@ def _under_edges(problem: ContactProblem, state: ContactState) -> FloatArray:
     """Intervals (2 n_actuators, 2) of undeformed x [mm] of the skin that lies over the rounded edges."""
     row, centre = problem.row, problem.row.positions + state.actuator[:, 0]
     now, before = state.place + centre[state.given], problem.position[:, 0]
-    edges = [(-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)]
-    return np.array([np.interp(each + np.array(edge), now, before) for each in centre for edge in edges])
+    return np.interp(np.add.outer(centre, row.edges), now, before).reshape(-1, 2)

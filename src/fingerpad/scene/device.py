@@ -100,12 +100,36 @@ class ActuatorRow:
 
     def nearest(self, x: FloatArray) -> np.ndarray:
         """Index (n,) of the actuator whose centre is nearest to each place (n,) [mm]."""
-        return np.asarray(np.argmin(np.abs(x[:, None] - np.asarray(self.positions)), axis=1))
+        return nearest(np.asarray(self.positions), x)
 
     @property
     def half_face(self) -> float:
         """Half width of the flat part of the face, between the edges as they are modelled [mm]."""
         return self.width / 2.0 - self.corner_radius
+
+    @property
+    def edges(self) -> FloatArray:
+        """Where each rounded edge begins and ends (2, 2), the left one first, from an actuator's centre [mm]."""
+        outer, inner = self.width / 2.0, self.half_face
+        return np.array([[-outer, -inner], [inner, outer]])
+
+
+def evenly(count: int, pitch: float) -> tuple[float, ...]:
+    """Centres [mm] of so many actuators, a pitch [mm] apart, about zero.
+
+    >>> evenly(3, 2.5)
+    (-2.5, 0.0, 2.5)
+    """
+    return tuple((i - (count - 1) / 2.0) * pitch for i in range(count))
+
+
+def nearest(centres: FloatArray, x: FloatArray) -> np.ndarray:
+    """Index (n,) of the ascending centre (k,) [mm] that is nearest to each place (n,) [mm].
+
+    >>> nearest(np.array([-1.0, 1.0]), np.array([-3.0, 0.5]))
+    array([0, 1])
+    """
+    return np.asarray(np.searchsorted((centres[1:] + centres[:-1]) / 2.0, x))
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from ..errors import SceneError
 from ..requirements import require
 from .bodies import BODIES
 from .contact_law import ContactLaw, Criterion, TurningNormal
-from .device import ActuatorRow, Body, Control, Device
+from .device import ActuatorRow, Body, Control, Device, evenly
 from .finger import Finger, Layer, Material
 from .numerics import Numerics, Skips
 from .readout import GaborFilter, ReadoutRule, Side
@@ -288,14 +288,9 @@ def _positions(row: dict[str, Any]) -> tuple[float, ...]:
     """
     twice = [key for key in ("count", "pitch") if "positions" in row and key in row]
     require(not twice, f"actuators: found positions and {' and '.join(twice)}; allowed: positions, or count and pitch")
-    places = row["positions"] if "positions" in row else _evenly(row["count"], row["pitch"])
+    places = row["positions"] if "positions" in row else evenly(row["count"], row["pitch"])
     # ASSUME: actuators.offset: where a file says nothing, the finger lies over the middle of the row
     return tuple(round(x + row.get("offset", 0.0), DECIMALS) for x in places)
-
-
-def _evenly(count: int, pitch: float) -> list[float]:
-    """Centres [mm] of so many actuators, a pitch [mm] apart, about zero."""
-    return [(i - (count - 1) / 2.0) * pitch for i in range(count)]
 
 
 def _body(given: dict[str, Any]) -> Body | None:

@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import SceneError
 from ..scene.contact_law import ContactLaw, Criterion, TurningNormal
-from ..scene.device import ActuatorRow, Body, Condition, Control, Device
+from ..scene.device import ActuatorRow, Body, Condition, Control, Device, evenly
 from ..scene.finger import Finger, Layer, Material
 from ..scene.numerics import Numerics, Skips
 from ..scene.readout import GaborFilter, ReadoutRule, Side
@@ -231,7 +231,7 @@ def _row(rng: np.random.Generator, span: float) -> ActuatorRow:
     count = min(int(_decades(rng, (ACTUATORS[0], ACTUATORS[1] + 1.0))), most)
     filled = FILLED[1] if rng.random() < LIMIT_SHARE else rng.uniform(*FILLED)
     pitch = span / (count - 1 + filled)
-    row = ActuatorRow(tuple((i - (count - 1) / 2.0) * pitch for i in range(count)), filled * pitch, 0.0)
+    row = ActuatorRow(evenly(count, pitch), filled * pitch, 0.0)
     return _finished(rng, row)
 
 

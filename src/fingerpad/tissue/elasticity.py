@@ -6,8 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity, kron
-from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
-from skfem.helpers import ddot, dot, eye, sym_grad, trace
+from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, FacetBasis, MeshTri2
+from skfem.generic_utils import OrientedBoundary
+from skfem.helpers import dot
+from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from ..arrays import FloatArray
 from ..scene.finger import Material
@@ -15,7 +17,6 @@ from .compliance import GRADIENT
 
 QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
 MASS_ORDER = 4  # exact on straight second-order elements: phi (2) x phi (2); degree count
-FACET_ENDS = np.array([[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 0.0], [0.0, 1.0]]])  # of a triangle
 GAUSS_POINTS = (1.0 + np.array([-1.0, 1.0]) / np.sqrt(3.0)) / 2.0  # on a facet of length 1 [1]
 
 
@@ -25,31 +26,26 @@ def lame(material: Material) -> tuple[float, float]:
     >>> lame(Material(1.0, 0.0))
     (0.0, 0.5)
     """
-    modulus, nu = material.modulus, material.poisson
-    return modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), modulus / (2.0 * (1.0 + nu))
+    first, second = lame_parameters(material.modulus, material.poisson)
+    return first, second
 
 
 def displacement_basis(
-    mesh: MeshTri2, elements: np.ndarray | None = None, points: tuple[FloatArray, FloatArray] | None = None
+    mesh: MeshTri2,
+    elements: np.ndarray | None = None,
+    points: tuple[FloatArray, FloatArray] | None = None,
+    order: int = QUADRATURE_ORDER,
 ) -> Basis:
     """Basis of second-order displacements on a second-order mesh (isoparametric), or on some of its elements.
 
-    points: where it is evaluated, as reference coordinates (2, n) and weights (n,), if not for assembly.
+    points: where it is evaluated, as reference coordinates (2, n) and weights (n,), if not by quadrature of an order.
     """
-    element = ElementVector(ElementTriP2())
-    return Basis(mesh, element, intorder=QUADRATURE_ORDER, quadrature=points, elements=elements)
+    return Basis(mesh, ElementVector(ElementTriP2()), intorder=order, quadrature=points, elements=elements)
 
 
 def node_dofs(basis: Basis) -> np.ndarray:
     """Unknowns (2, n_nodes) of the nodes in the order of `mesh.doflocs`: vertices, then edge midpoints."""
     return np.hstack([basis.nodal_dofs, basis.facet_dofs])
-
-
-@BilinearForm
-def _elastic_energy(u, v, w):  # type: ignore[no-untyped-def]  # skfem's forms are untyped
-    strain = sym_grad(u)
-    stress = w.lam * eye(trace(strain), 2) + 2.0 * w.mu * strain
-    return ddot(stress, sym_grad(v))
 
 
 def stiffness(basis: Basis, materials: Sequence[Material], element_material: np.ndarray) -> csc_matrix:
@@ -58,10 +54,8 @@ def stiffness(basis: Basis, materials: Sequence[Material], element_material: np.
     K_ij = ∫ sigma(phi_j) : eps(phi_i) dA with sigma = lambda tr(eps) I + 2 mu eps. element_material: (n_elements,)
     index into `materials`, over the basis's elements.
     """
-    constants = np.array([lame(material) for material in materials])[element_material]
-    points = basis.X.shape[-1]
-    lam, mu = (np.repeat(constants[:, [k]], points, axis=1) for k in (0, 1))
-    return csc_matrix(_elastic_energy.assemble(basis, lam=lam, mu=mu))
+    lam, mu = np.array([lame(material) for material in materials])[element_material].T[..., None]
+    return csc_matrix(linear_elasticity(lam, mu).assemble(basis))
 
 
 @BilinearForm
@@ -74,7 +68,7 @@ def mass(mesh: MeshTri2, elements: np.ndarray | None, density: float) -> csc_mat
 
     M_ij = rho ∫ phi_i . phi_j dA.
     """
-    basis = Basis(mesh, ElementVector(ElementTriP2()), intorder=MASS_ORDER, elements=elements)
+    basis = displacement_basis(mesh, elements, order=MASS_ORDER)
     return csc_matrix(density * _kinetic_energy.assemble(basis))
 
 
@@ -99,30 +93,16 @@ def facet_gradient(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndar
     Returns positions (2, n_points) [mm], n_points = 2 n_facets ordered by facet, and the map
     (4 n_points, n_unknowns) to du_x/dx, du_x/dy, du_y/dx, du_y/dy [1], point by point.
     """
-    rows, columns, entries = [], [], []
-    positions = np.empty((2, facets.size, 2))
-    local = np.argmax(mesh.t2f[:, element_of_facet] == facets, axis=0)
-    for which, (start, stop) in enumerate(FACET_ENDS):
-        chosen = np.flatnonzero(local == which)
-        if chosen.size == 0:
-            continue
-        points = np.outer(start, 1.0 - GAUSS_POINTS) + np.outer(stop, GAUSS_POINTS)
-        basis = displacement_basis(mesh, element_of_facet[chosen], (points, np.full(2, 0.5)))
-        positions[:, chosen, :] = np.asarray(basis.global_coordinates())
-        point = 2 * chosen[:, None] + np.arange(2)
-        for function in range(basis.Nbfun):
-            gradient = np.asarray(basis.basis[function][0].grad)
-            for component, value in enumerate(gradient.reshape(GRADIENT, *point.shape)):
-                rows.append((GRADIENT * point + component).ravel())
-                columns.append(np.broadcast_to(basis.element_dofs[function][:, None], point.shape).ravel())
-                entries.append(value.ravel())
-    size = GRADIENT * 2 * facets.size
-    unknowns = 2 * mesh.doflocs.shape[1]
-    found = csr_matrix(
-        (np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(size, unknowns)
-    )
+    sides = OrientedBoundary(facets, (mesh.f2t[1, facets] == element_of_facet).astype(int))
+    points = GAUSS_POINTS[None], np.full(2, 0.5)
+    basis = FacetBasis(mesh, ElementVector(ElementTriP2()), facets=sides, quadrature=points)
+    gradient = np.array([function.grad for (function,) in basis.basis]).reshape(basis.Nbfun, GRADIENT, -1, 2)
+    rows = np.arange(2 * GRADIENT * facets.size).reshape(-1, 2, GRADIENT).transpose(2, 0, 1)
+    columns = basis.element_dofs[:, None, :, None]
+    index = (np.broadcast_to(each, gradient.shape).ravel() for each in (rows, columns))
+    found = csr_matrix((gradient.ravel(), tuple(index)), shape=(rows.size, 2 * mesh.doflocs.shape[1]))
     found.eliminate_zeros()
-    return positions.reshape(2, -1), found
+    return np.asarray(basis.global_coordinates()).reshape(2, -1), found
 
 
 def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:

@@ -255,8 +255,7 @@ def _subdivided(lines: FloatArray, largest: float) -> FloatArray:
 
 def nominal_edges(row: ActuatorRow) -> FloatArray:
     """Intervals (k, 2) of x [mm] under the rounded edges of a row, where undeformed skin lies."""
-    edges = [(-row.width / 2.0, -row.half_face), (row.half_face, row.width / 2.0)]
-    return np.unique(np.round(np.add.outer(row.positions, edges).reshape(-1, 2), ROUNDED), axis=0)
+    return np.unique(np.round(np.add.outer(row.positions, row.edges).reshape(-1, 2), ROUNDED), axis=0)
 
 
 @dataclass(frozen=True)
@@ -399,8 +398,7 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tup
 
 def _require_valid(mesh: MeshTri2, name: str) -> None:
     """Raise MeshError if the map of any element has a non-positive Jacobian at its corners or midpoints."""
-    gradient = mesh.mapping().DF(NODES)
-    determinant = gradient[0, 0] * gradient[1, 1] - gradient[0, 1] * gradient[1, 0]
+    determinant = mesh.mapping().detDF(NODES)
     sign = np.sign(determinant[:, :1])
     bad = np.flatnonzero(np.any(determinant * sign <= 0.0, axis=1))
     if bad.size:

@@ -20,7 +20,7 @@ from ..contact.linear_solution import Indented, indent_device
 from ..contact.problem import named
 from ..errors import ContactError, InertiaError, UnsolvedError
 from ..prediction.caveats import pressing_caveats, scene_caveats, state_caveats
-from ..prediction.scoring import Condensed
+from ..prediction.scoring import Condensed, attempt
 from ..readouts.gabor import filtered_readouts
 from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
 from ..readouts.strain import maximum_principal, without_rounding
@@ -28,12 +28,11 @@ from ..scene.contact_law import Interface
 from ..scene.device import Cycle
 from ..scene.readout import Readout
 from ..scene.scene import Scene
-from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import SectionMesh
 from ..words import PERCENT
-from .creep import Creep
+from .creep import Creep, condense_creep
 from .cycling import Vibration, vibrate
-from .inertia import condense_vibrating, highest_frequency, inertia_effect, slipping, stuck
+from .inertia import Vibrating, condense_vibrating, highest_frequency, inertia_effect, slipping, stuck
 
 SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed
 
@@ -48,15 +47,6 @@ def frequency_name(frequency: float) -> str:
 
 
 @dataclass(frozen=True)
-class Vibrating:
-    """The finger at one frequency. frequency: [Hz]. still, moving: condensed without its mass and with it."""
-
-    frequency: float
-    still: CondensedSection
-    moving: CondensedSection
-
-
-@dataclass(frozen=True)
 class Outcome:
     """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1], None where it is not known;
     note: why there is no prediction, or what to beware of.
@@ -67,10 +57,30 @@ class Outcome:
     note: str
 
 
-def condense_vibrating_at(section: SectionMesh, scene: Scene, frequency: float) -> Vibrating:
-    """The finger at a frequency [Hz]. Raises what `condense_vibrating` raises."""
-    densities = (0.0, scene.model.vibration.density)
-    return Vibrating(frequency, *(condense_vibrating(section, scene, frequency, each) for each in densities))
+def vibration_rows(
+    scene: Scene, section: SectionMesh, condensed: Condensed, step: Callable[[], object] = lambda: None
+) -> list[dict[str, Any]]:
+    """Rows of the frequency table of a scene, of slow cycles first. section, condensed: of the scene. step: called
+    after each of `steps`. Raises MeshError, CondensationError.
+    """
+    creep = condense_creep(section, scene)
+    step()
+    speeds: list[Vibrating | None] = [None]
+    for frequency in scene.device.frequencies:
+        speeds.append(condense_vibrating(section, scene, frequency))
+        step()
+    return [
+        row
+        for interface in scene.device.interfaces()
+        for row in frequency_rows(scene, condensed, creep, speeds, interface, step)
+    ]
+
+
+def steps(scene: Scene) -> int:
+    """How often `vibration_rows` calls its `step`."""
+    device = scene.device
+    speeds = 1 + len(device.frequencies)
+    return speeds * (1 + len(device.interfaces()) * len(device.cycles))
 
 
 def frequency_rows(
@@ -85,7 +95,7 @@ def frequency_rows(
 
     Where inertia matters, or a path cannot be followed, there is a note instead of a score.
     """
-    indented = _indented(scene, condensed, interface)
+    indented = attempt(indent_device, scene, condensed.section, condensed.body, interface)
     shares_equal = scene.model.skips.equal_stimuli
     rows = []
     found: dict[tuple[object, float], Outcome] = {}
@@ -95,21 +105,13 @@ def frequency_rows(
             frequency = at.frequency if at else SLOWLY
             if (stimulus, frequency) not in found:
                 found[stimulus, frequency] = (
-                    indented
-                    if isinstance(indented, Outcome)
+                    Outcome({}, None, f"{NO_PREDICTION}: {indented}")
+                    if isinstance(indented, UnsolvedError)
                     else _outcome(scene, condensed, creep, indented, cycle, at)
                 )
             rows += [_row(scene, cycle, frequency, interface, each, found[stimulus, frequency]) for each in Readout]
             step()
     return rows
-
-
-def _indented(scene: Scene, condensed: Condensed, interface: Interface) -> Indented | Outcome:
-    """The device pressed onto the finger, or what becomes of all conditions if it cannot be."""
-    try:
-        return indent_device(scene, condensed.section, condensed.body, interface)
-    except UnsolvedError as error:
-        return Outcome({}, None, f"{NO_PREDICTION}: {error}")
 
 
 def _outcome(

@@ -10,7 +10,8 @@ from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from ..tissue.mesh import SectionMesh
 from .creep import condense_creep
-from .frequency import condense_vibrating_at, frequency_rows
+from .frequency import frequency_rows
+from .inertia import condense_vibrating
 
 
 def _relaxation_variants(scene: Scene) -> dict[str, Scene]:
@@ -45,7 +46,7 @@ def variant_rows(scene: Scene, section: SectionMesh, condensed: Condensed, frequ
             variant,
             condensed,
             condense_creep(section, variant),
-            [condense_vibrating_at(section, variant, frequency)],
+            [condense_vibrating(section, variant, frequency)],
             Interface.SHEAR,
         )
     ]

@@ -31,17 +31,25 @@ from .cycling import Vibration
 MARGIN = 0.9  # of a frequency that is advised [1]; source: at 105 Hz, advised for 150 Hz, inertia was a tenth beyond
 
 
-def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float, density: float) -> CondensedSection:
-    """The finger condensed at a frequency [Hz], with tissue of a density [t/mm3]. Raises MeshError as
-    `contact_tractions`, CondensationError.
-    """
+@dataclass(frozen=True)
+class Vibrating:
+    """The finger at one frequency. frequency: [Hz]. still, moving: condensed without its mass and with it."""
+
+    frequency: float
+    still: CondensedSection
+    moving: CondensedSection
+
+
+def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float) -> Vibrating:
+    """The finger at a frequency [Hz]. Raises MeshError as `contact_tractions`, CondensationError."""
     speed = 2.0 * math.pi * frequency
     stiff = stiffened(scene, 1j * speed)
     tractions = contact_tractions(section, stiff)
     parts = parts_of(section, stiff, tractions)
     matrix, _ = section_stiffness(section, stiff, parts.elements)
-    moving = csc_matrix(matrix - speed**2 * mass(section.mesh, parts.elements, density))
-    return condense_parts(section, stiff, tractions, parts, moving)
+    inertia = speed**2 * mass(section.mesh, parts.elements, scene.model.vibration.density)
+    both = (csc_matrix(each) for each in (matrix, matrix - inertia))
+    return Vibrating(frequency, *(condense_parts(section, stiff, tractions, parts, each) for each in both))
 
 
 @dataclass(frozen=True)
