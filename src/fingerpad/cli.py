@@ -63,7 +63,10 @@ def _parser(first: Sequence[str]) -> argparse.ArgumentParser:
     for name, summary in COMMANDS.items():
         command = commands.add_parser(name, help=summary, formatter_class=argparse.RawDescriptionHelpFormatter)
         if name in first:
-            import_module(f".commands.{name}", __package__).add(command)
+            module = import_module(f".commands.{name}", __package__)
+            command.description = module.DESCRIPTION
+            command.set_defaults(run=module.run)
+            module.add(command)
     return parser
 
 

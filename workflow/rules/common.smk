@@ -127,6 +127,11 @@ def files_with(kinematics):
     return [file_of(name) for name in DEVICES_WITH[kinematics]]
 
 
+def titles_of(names):
+    """The titles of some devices by name."""
+    return {name: SCENE[name].device.title for name in names}
+
+
 def kinematics_of(wildcards):
     """The wildcard kinematics, or those that a figure's ending names; without either small."""
     return wildcards.get("kinematics", MODES[wildcards.get("mode", "")])

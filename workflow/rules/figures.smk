@@ -101,9 +101,6 @@ rule figure_receptors:
 
 rule figure_correlation:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(lambda w: files_with(mode_of(w))),
-        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         ratings=DATA / "ratings.csv",
         correlations="results/correlations.csv",
@@ -117,7 +114,7 @@ rule figure_correlation:
     params:
         code=code("figure_correlation.py"),
         kinematics=mode_of,
-        titles=lambda w: [SCENE[name].device.title for name in DEVICES_WITH[mode_of(w)]],
+        titles=lambda w: titles_of(DEVICES_WITH[mode_of(w)]),
         conditions=KNOWN,
     script:
         "../scripts/figure_correlation.py"
@@ -125,9 +122,6 @@ rule figure_correlation:
 
 rule figure_ablation:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(lambda w: files_with(mode_of(w))),
-        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         correlations="results/correlations.csv",
     output:
@@ -141,16 +135,13 @@ rule figure_ablation:
         code=code("figure_ablation.py"),
         kinematics=mode_of,
         turning=lambda w: any(turns(name, mode_of(w)) for name in DEVICES_WITH[mode_of(w)]),
-        titles=lambda w: [SCENE[name].device.title for name in DEVICES_WITH[mode_of(w)]],
+        titles=lambda w: titles_of(DEVICES_WITH[mode_of(w)]),
     script:
         "../scripts/figure_ablation.py"
 
 
 rule figure_kinematics:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
         curves="results/indentation.csv",
     output:
@@ -162,7 +153,7 @@ rule figure_kinematics:
         ENVIRONMENT
     params:
         code=code("figure_kinematics.py"),
-        titles=[SCENE[name].device.title for name in DEVICES],
+        titles=titles_of(DEVICES),
     script:
         "../scripts/figure_kinematics.py"
 
@@ -262,9 +253,6 @@ if SLIDING:
 
     rule figure_shear:
         input:
-            config=ancient(CONFIG),
-            device=ancient(file_of(EXAMPLE)),
-            recordings=ancient(RECORDINGS[EXAMPLE]),
             scores="results/scores.csv",
             ratings=DATA / "ratings.csv",
             correlations="results/correlations.csv",
@@ -279,6 +267,7 @@ if SLIDING:
             code=code("figure_shear.py"),
             kinematics=mode_of,
             turning=lambda w: turns(EXAMPLE, mode_of(w)),
+            device=EXAMPLE,
             title=SCENE[EXAMPLE].device.title,
             conditions=KNOWN,
         script:

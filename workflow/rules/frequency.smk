@@ -105,6 +105,6 @@ rule figure_frequency:
         ENVIRONMENT
     params:
         code=code("figure_frequency.py"),
-        titles=[SCENE[name].device.title for name in VIBRATING],
+        titles=titles_of(VIBRATING),
     script:
         "../scripts/figure_frequency.py"

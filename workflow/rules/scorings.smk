@@ -79,6 +79,6 @@ rule figure_phases:
         ENVIRONMENT
     params:
         code=code("figure_phases.py"),
-        titles=[SCENE[name].device.title for name in PHASED],
+        titles=titles_of(PHASED),
     script:
         "../scripts/figure_phases.py"

@@ -1,1 +1,1 @@
-"""The subcommands of `fingerpad`, a module each: what it takes (`add`) and what it does."""
+"""The subcommands of `fingerpad`, a module each: its description, what it takes (`add`) and what it does (`run`)."""

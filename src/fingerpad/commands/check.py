@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 import numpy as np
 from tqdm import tqdm
@@ -13,7 +12,7 @@ from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
 from ..words import several
-from .options import add_picture, add_scene_options, checked_scene, picture_of
+from .options import add_device, add_picture, add_scene_options, checked_scene, picture_of
 
 DESCRIPTION = """\
 Check a device file: keys, units, ranges, and whether the device fits the finger. Errors name the file, the key, the
@@ -47,9 +46,7 @@ STEPS = 3  # of the progress: mesh, figure, picture
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
-    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    add_device(parser)
     add_picture(parser, "draw the section with the actuators under it")
     add_scene_options(parser)
 

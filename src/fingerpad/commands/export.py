@@ -34,8 +34,6 @@ example:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
     add_case_options(parser, "small strains, or large ones (NLGEOM) with the config's tissue law")
     parser.add_argument("-o", "--output", required=True, type=Path, metavar="FILE", help="deck to write")
     add_scene_options(parser)

@@ -31,8 +31,6 @@ examples:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
     add_case_options(parser, "small displacements and strains, or finite ones")
     parser.add_argument(
         "-o", "--output", required=True, type=Path, metavar="FILE", help=f"file to write ({', '.join(ENDINGS)})"

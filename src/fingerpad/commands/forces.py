@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
@@ -18,6 +17,7 @@ from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from .options import (
     add_conditions,
+    add_device,
     add_forms,
     add_kinematics,
     add_no_error,
@@ -44,9 +44,7 @@ examples:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
-    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    add_device(parser)
     add_forms(parser, "a list of objects, one an actuator, condition and time", "the same as a table for programs")
     add_no_error(parser)
     add_conditions(parser)

@@ -27,8 +27,6 @@ examples:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
     parser.add_argument("name", metavar="NAME", help="small letters, digits and underscores; begins with a letter")
     parser.add_argument(
         "--from", dest="source", required=True, metavar="DEVICE", help="a device in config/devices, or a device file"

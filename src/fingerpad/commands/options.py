@@ -44,9 +44,14 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_device(parser: argparse.ArgumentParser) -> None:
+    """The device file."""
+    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+
+
 def add_case_options(parser: argparse.ArgumentParser, kinematics: str) -> None:
     """One condition of a device; `kinematics` says what there is to choose between."""
-    parser.add_argument("device", type=Path, metavar="DEVICE_FILE", help="device, as in config/devices")
+    add_device(parser)
     parser.add_argument("--condition", required=True, metavar="NAME", help="condition of the device")
     parser.add_argument(
         "--interface", required=True, choices=[each.value for each in Interface], help="friction or none"

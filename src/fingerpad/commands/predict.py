@@ -55,8 +55,6 @@ examples:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
     parser.add_argument("devices", type=Path, nargs="+", metavar="FILE", help="device, as in config/devices")
     add_forms(parser, "a list of objects, one a score", "the columns of results/scores.csv, ranks and caveats")
     add_no_error(parser)

@@ -17,7 +17,7 @@ from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
-from .options import add_kinematics, add_scene_options, asked_scene, checked_scene
+from .options import add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
 from .printing import in_order, titled
 from .score_table import as_csv, caveat_lines, require_scores
 
@@ -37,9 +37,7 @@ examples:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
-    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    add_device(parser)
     parser.add_argument("--csv", action="store_true", help="print all scores, with what is varied in the first column")
     add_kinematics(parser, "of the tissue, as configured; the other is one of the assumptions")
     parser.add_argument(

@@ -6,7 +6,6 @@ import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
-from pathlib import Path
 from typing import Any
 
 from threadpoolctl import threadpool_limits
@@ -17,7 +16,7 @@ from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows
-from .options import add_conditions, add_forms, add_scene_options, checked_scene, with_asked_conditions
+from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene, with_asked_conditions
 from .printing import aligned, in_order, print_rows, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
@@ -38,9 +37,7 @@ examples:
 
 def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.set_defaults(run=run)
-    parser.description = DESCRIPTION
-    parser.add_argument("device", type=Path, metavar="FILE", help="device, as in config/devices")
+    add_device(parser)
     parser.add_argument(
         "--frequency", type=hertz, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
     )

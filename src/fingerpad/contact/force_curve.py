@@ -12,12 +12,10 @@ from ..arrays import FloatArray
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
-from .formulation import ContactProblem, ContactState, rest, touching_height
+from .formulation import ContactProblem, ContactState, touching_height
 from .increment import solve_increment
-from .indentation import raise_until
-from .patch import Patch
+from .linear_solution import raised
 from .path import Carried, SolveIncrement, State
-from .problem import increments
 from .symmetry import part_of
 
 RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction
@@ -73,11 +71,8 @@ def curve_rows(device: str, interface: Interface, kinematics: Kinematics, curve:
 
 
 def small_strain_curve(scene: Scene, problem: ContactProblem) -> FloatArray:
-    """The curve (k, 2) of a scene with small kinematics. Raises as `raise_until`."""
+    """The curve (k, 2) of a scene with small kinematics. Raises ContactError."""
     states: list[ContactState] = []
-    part = part_of(problem) if scene.model.skips.mirrored_half else problem
-    touch = touching_height(part)
-    solve: SolveIncrement[ContactState, Patch | None] = recording(solve_increment, states.append)
-    limit, (count, _) = scene.model.finger.pad_thickness, increments(scene, part)
-    end = raise_until(part, scene.model.contact, count, limit, rest(part, touch), solve)
-    return curve_of(states, touch, end) * [1.0, part.images]
+    part = part_of(problem, scene.model.skips.mirrored_half)
+    end = raised(scene, part, recording(solve_increment, states.append))
+    return curve_of(states, touching_height(part), end) * [1.0, part.images]

@@ -12,6 +12,7 @@ from ..scene.contact_law import ContactLaw, Criterion
 from .criterion import END_TOLERANCE, missed, missing_of, wanted
 from .formulation import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
+from .patch import Patch
 from .path import Carried, SolveIncrement, advance
 
 State = TypeVar("State", bound=ContactState)
@@ -23,10 +24,17 @@ SHALLOW = 0.1
 LEAST_STEP = 1e-6  # mm; source: a hundredth of END_STEP, so that no step drowns in rounding
 
 
-def indent(problem: ContactProblem, law: ContactLaw, increments: int, limit: float) -> ContactState:
-    """Raise all actuators together until the law's criterion holds, on linear tissue. Raises as `raise_until`."""
-    start = rest(problem, touching_height(problem))
-    return raise_until(problem, law, increments, limit, start, solve_increment)
+def indent(
+    problem: ContactProblem,
+    law: ContactLaw,
+    increments: int,
+    limit: float,
+    solve: SolveIncrement[ContactState, Patch | None] = solve_increment,
+) -> ContactState:
+    """Raise all actuators together from first touch until the law's criterion holds, on linear tissue. Raises as
+    `raise_until`.
+    """
+    return raise_until(problem, law, increments, limit, rest(problem, touching_height(problem)), solve)
 
 
 def raise_until(

@@ -21,7 +21,7 @@ from .patch import Patch
 from .path import SolveIncrement, advance
 from .problem import contact_problem, increments, named_pressing, named_stimulus
 from .solution import Solution, solution
-from .symmetry import indent_by_halves
+from .symmetry import part_of, unfolded
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,17 @@ class Indented:
 
 def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
     """State after pre-indentation: the same for all conditions of a device and interface. Raises ContactError."""
-    solve = indent_by_halves if scene.model.skips.mirrored_half else indent
-    count, _ = increments(scene, problem)
-    return solve(problem, scene.model.contact, count, scene.model.finger.pad_thickness)
+    part = part_of(problem, scene.model.skips.mirrored_half)
+    state = raised(scene, part)
+    return state if part is problem else unfolded(state, part)
+
+
+def raised(
+    scene: Scene, part: ContactProblem, solve: SolveIncrement[ContactState, Patch | None] = solve_increment
+) -> ContactState:
+    """State of what of a row is pressed (`part_of`) after pre-indentation. solve: an increment. Raises ContactError."""
+    count, _ = increments(scene, part)
+    return indent(part, scene.model.contact, count, scene.model.finger.pad_thickness, solve)
 
 
 def follow_condition(

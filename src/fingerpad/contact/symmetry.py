@@ -13,25 +13,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..scene.contact_law import ContactLaw
 from ..tissue.compliance import MIRROR, CondensedBody
 from .formulation import ContactProblem, ContactState, Status
-from .indentation import indent
 
 ALIKE = 1e-10  # of the largest compliance [1]; source: rounding of a condensation leaves 1e-12
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])
 
 
-def indent_by_halves(problem: ContactProblem, law: ContactLaw, increments: int, limit: float) -> ContactState:
-    """`indentation.indent`, on the right half alone where the problem mirrors. Raises ContactError."""
-    part = part_of(problem)
-    state = indent(part, law, increments, limit)
-    return state if part is problem else unfolded(state, part)
-
-
-def part_of(problem: ContactProblem) -> ContactProblem:
-    """What of a row is pressed: the right half where the problem mirrors, else all of it."""
-    return fold(problem) if mirrors(problem) else problem
+def part_of(problem: ContactProblem, halved: bool) -> ContactProblem:
+    """What of a row is pressed: where that may be halved and the problem mirrors the right half, else all of it."""
+    return fold(problem) if halved and mirrors(problem) else problem
 
 
 def mirrors(problem: ContactProblem) -> bool:

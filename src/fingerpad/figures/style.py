@@ -176,11 +176,6 @@ def conditions_of(devices: Iterable[Device]) -> list[Shown]:
     return [Shown(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
 
 
-def device_titles(devices: Iterable[Device]) -> dict[str, str]:
-    """Title of each device by its name."""
-    return {device.name: device.title for device in devices}
-
-
 def condition_styles(conditions: Iterable[Shown], drawn: Collection[Shown] | None = None) -> Styles:
     """Styles of conditions, each of which may come more than once. drawn: those that are; all if not given.
 
