@@ -29,7 +29,7 @@ from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import Vibration, displacement, vibrate
 from fingerpad.vibration.frequency import certified_vibration, cyclic_readouts, frequency_rows
-from fingerpad.vibration.frequency_variants import variant_rows as relaxation_rows
+from fingerpad.vibration.frequency_variants import relaxation_rows
 from fingerpad.vibration.inertia import condense_vibrating, inertia_effect, slipping, stuck
 from fingerpad.vibration.viscoelasticity import retardation_times, stiffening
 from scenes import scene

@@ -9,7 +9,7 @@ from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from fingerpad.tissue.mesh import load_section
-from fingerpad.vibration.frequency_variants import variant_rows
+from fingerpad.vibration.frequency_variants import relaxation_rows
 
 
 def main(
@@ -27,7 +27,7 @@ def main(
     shared = Condensed(
         load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
     )
-    write_rows(table, variant_rows(scene, load_section(mesh), shared, frequency))
+    write_rows(table, relaxation_rows(scene, load_section(mesh), shared, frequency))
 
 
 if __name__ == "__main__":

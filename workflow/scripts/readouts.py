@@ -5,7 +5,7 @@ from pathlib import Path
 
 from fingerpad.contact.solution import Solution
 from fingerpad.jobs import logged
-from fingerpad.prediction.variants import agreement, on_both_sides, variant_rows
+from fingerpad.prediction.other_readouts import agreement, on_both_sides, readout_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
@@ -35,7 +35,7 @@ def main(
             for condition in scene.device.conditions
             for interface in scene.device.interfaces()
         }
-        found = list(variant_rows(scene, sections, solved))
+        found = list(readout_rows(scene, sections, solved))
         rows += found
         compared_rows += agreement(found, scene.model.readout.side)
     write_rows(table, rows)

@@ -13,8 +13,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.formulation import ContactState, rest, touching_height
-from ..contact.increment import solve_increment
-from ..contact.path import advance
+from ..contact.path import follow
 from ..contact.problem import contact_problem
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
@@ -49,7 +48,7 @@ def plain_scores(
         for step in range(1, count + 1):
             condensed = condense_section(section, scene)
             problem = replace(problem, compliance=condensed.compliance)
-            state, _ = advance(problem, state, start + step / count * (target - start), 1, None, solve_increment)
+            state = follow(problem, state, start + step / count * (target - start), 1)
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
     readouts = read_receptors(condensed.receptor_strain(forces), condensed.arc, settling=condition.settling).readouts

@@ -68,7 +68,7 @@ def score_rows(
 
 
 def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
-    """Rows, with no score, for the interfaces at which the device prescribes no motion."""
+    """Rows, with no score, for the interfaces left out: motion is not prescribed there, or the file says so."""
     silent = [interface for interface in Interface if interface not in scene.device.interfaces()]
     return [
         row

@@ -35,7 +35,7 @@ def _relaxation_variants(scene: Scene) -> dict[str, Scene]:
     }
 
 
-def variant_rows(scene: Scene, section: SectionMesh, condensed: Condensed, frequency: float) -> list[dict[str, Any]]:
+def relaxation_rows(scene: Scene, section: SectionMesh, condensed: Condensed, frequency: float) -> list[dict[str, Any]]:
     """Rows of the frequency table for shear at a frequency [Hz] under other assumptions on how tissue relaxes, each
     with its `assumption`. Raises what `condense_creep` and `condense_vibrating_at` raise.
     """

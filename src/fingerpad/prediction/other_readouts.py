@@ -44,7 +44,7 @@ def on_both_sides(scene: Scene, own: CondensedSection, mesh: SectionMesh) -> dic
     return {configured: own, other: there}
 
 
-def variant_rows(
+def readout_rows(
     scene: Scene,
     sections: Mapping[Side, CondensedSection],
     solutions: Mapping[tuple[str, Interface], Solution],

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fingerpad.prediction.variants import (
+from fingerpad.prediction.other_readouts import (
     VARIANT,
     WAVELENGTH_FACTORS,
     agreement,
     on_both_sides,
-    variant_rows,
+    readout_rows,
 )
 from fingerpad.readouts.gabor import filtered_readouts
 from fingerpad.readouts.measures import Measure
@@ -34,7 +34,7 @@ def rows() -> list[dict[str, Any]]:
     solutions = {
         (c.name, Interface.SHEAR): solved(DEVICE, c.name, Interface.SHEAR) for c in scene(DEVICE).device.conditions
     }
-    return list(variant_rows(scene(DEVICE), {Side.DERMIS: condensed(DEVICE)[0]}, solutions))
+    return list(readout_rows(scene(DEVICE), {Side.DERMIS: condensed(DEVICE)[0]}, solutions))
 
 
 def test_every_variant_is_scored_once() -> None:
@@ -79,7 +79,7 @@ def test_variants_are_read_when_a_stimulus_has_settled() -> None:
     strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential, 1)
     given = replace(base, device=replace(base.device, conditions=(strokes,), cycles=()))
     solution = solve(DEVICE, strokes, Interface.FRICTIONLESS)
-    found = variant_rows(given, {Side.DERMIS: condensed(DEVICE)[0]}, {("strokes", Interface.FRICTIONLESS): solution})
+    found = readout_rows(given, {Side.DERMIS: condensed(DEVICE)[0]}, {("strokes", Interface.FRICTIONLESS): solution})
     usual = [row for row in found if row["measure"] == Measure.MAXIMUM_PRINCIPAL and row["wavelength_factor"] == 1.0]
     resampling = resampling_to_grid(solution.arc, given.model.gabor.spacing)
     read = filtered_readouts(resampling, solution.reading.readouts, given.model.gabor)
@@ -115,7 +115,7 @@ def test_stress_is_that_of_the_side_on_which_strain_is_read() -> None:
     """One and the same strain on both sides, of which the layers differ in stiffness."""
     name = scene(DEVICE).device.conditions[-1].name
     solutions = {(name, Interface.SHEAR): solved(DEVICE, name, Interface.SHEAR)}
-    found = list(variant_rows(scene(DEVICE), dict.fromkeys(Side, condensed(DEVICE)[0]), solutions))
+    found = list(readout_rows(scene(DEVICE), dict.fromkeys(Side, condensed(DEVICE)[0]), solutions))
     for measure, differs in ((Measure.MAXIMUM_PRINCIPAL, False), (Measure.VON_MISES, True)):
         one, other = (
             [row["score"] for row in found if (row["measure"], row["side"]) == (measure, side)] for side in Side
