@@ -6,8 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity, kron
-from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, FacetBasis, MeshTri2
-from skfem.generic_utils import OrientedBoundary
+from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
 from skfem.helpers import dot
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
@@ -17,6 +16,7 @@ from .compliance import GRADIENT
 
 QUADRATURE_ORDER = 2  # exact for constant stress on curved second-order elements: grad (1) x adj J (1); degree count
 MASS_ORDER = 4  # exact on straight second-order elements: phi (2) x phi (2); degree count
+FACET_ENDS = np.array([[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0, 0.0], [0.0, 1.0]]])  # of a triangle
 GAUSS_POINTS = (1.0 + np.array([-1.0, 1.0]) / np.sqrt(3.0)) / 2.0  # on a facet of length 1 [1]
 
 
@@ -88,21 +88,36 @@ def facet_gradient(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndar
     """Displacement gradient on facets, as a linear map of the displacement.
 
     It is read at the two Gauss points of every facet, in the given adjacent element (facets carry two: this
-    chooses the side). Gauss points are where the gradients of second-order elements are most accurate.
+    chooses the side). Gauss points are where the gradients of second-order elements are most accurate. They are placed
+    here, as scikit-fem's `FacetBasis` finds them by Newton's method, which is lost in distorted elements.
 
     Returns positions (2, n_points) [mm], n_points = 2 n_facets ordered by facet, and the map
     (4 n_points, n_unknowns) to du_x/dx, du_x/dy, du_y/dx, du_y/dy [1], point by point.
     """
-    sides = OrientedBoundary(facets, (mesh.f2t[1, facets] == element_of_facet).astype(int))
-    points = GAUSS_POINTS[None], np.full(2, 0.5)
-    basis = FacetBasis(mesh, ElementVector(ElementTriP2()), facets=sides, quadrature=points)
-    gradient = np.array([function.grad for (function,) in basis.basis]).reshape(basis.Nbfun, GRADIENT, -1, 2)
-    rows = np.arange(2 * GRADIENT * facets.size).reshape(-1, 2, GRADIENT).transpose(2, 0, 1)
-    columns = basis.element_dofs[:, None, :, None]
-    index = (np.broadcast_to(each, gradient.shape).ravel() for each in (rows, columns))
-    found = csr_matrix((gradient.ravel(), tuple(index)), shape=(rows.size, 2 * mesh.doflocs.shape[1]))
+    rows, columns, entries = [], [], []
+    positions = np.empty((2, facets.size, 2))
+    local = np.argmax(mesh.t2f[:, element_of_facet] == facets, axis=0)
+    for which, (start, stop) in enumerate(FACET_ENDS):
+        chosen = np.flatnonzero(local == which)
+        if chosen.size == 0:
+            continue
+        points = np.outer(start, 1.0 - GAUSS_POINTS) + np.outer(stop, GAUSS_POINTS)
+        basis = displacement_basis(mesh, element_of_facet[chosen], (points, np.full(2, 0.5)))
+        positions[:, chosen, :] = np.asarray(basis.global_coordinates())
+        point = 2 * chosen[:, None] + np.arange(2)
+        for function in range(basis.Nbfun):
+            gradient = np.asarray(basis.basis[function][0].grad)
+            for component, value in enumerate(gradient.reshape(GRADIENT, *point.shape)):
+                rows.append((GRADIENT * point + component).ravel())
+                columns.append(np.broadcast_to(basis.element_dofs[function][:, None], point.shape).ravel())
+                entries.append(value.ravel())
+    size = GRADIENT * 2 * facets.size
+    unknowns = 2 * mesh.doflocs.shape[1]
+    found = csr_matrix(
+        (np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), shape=(size, unknowns)
+    )
     found.eliminate_zeros()
-    return np.asarray(basis.global_coordinates()).reshape(2, -1), found
+    return positions.reshape(2, -1), found
 
 
 def unit_loads(dofs: np.ndarray, nodes: np.ndarray, size: int) -> csc_matrix:

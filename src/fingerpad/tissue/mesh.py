@@ -398,7 +398,8 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tup
 
 def _require_valid(mesh: MeshTri2, name: str) -> None:
     """Raise MeshError if the map of any element has a non-positive Jacobian at its corners or midpoints."""
-    determinant = mesh.mapping().detDF(NODES)
+    gradient = mesh.mapping().DF(NODES)  # scikit-fem's own determinants end in an error of theirs where one is zero
+    determinant = gradient[0, 0] * gradient[1, 1] - gradient[0, 1] * gradient[1, 0]
     sign = np.sign(determinant[:, :1])
     bad = np.flatnonzero(np.any(determinant * sign <= 0.0, axis=1))
     if bad.size:
