@@ -428,6 +428,18 @@ def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_told() -> None:
     assert doubts == ["moves actuators by 2e-05 mm at most: are displacements in mm?"]
 
 
+def test_recordings_that_begin_elsewhere_are_doubted() -> None:
+    """A sensor that reads 0.01 mm where actuators have been pressed to; a first row after time 0 is a step to it."""
+    given = scene("device2").device.conditions[0]
+    moves = given.tangential * np.array([[0.0], [0.5], [1.0]])
+    recorded = replace(given, time=np.array([0.0, 0.1, 0.2]), normal=0.0 * moves, tangential=moves)
+    assert stimulus_caveats(recorded) == []
+    moved = replace(recorded, tangential=moves + 0.01)
+    (doubt,) = stimulus_caveats(moved)
+    assert doubt == "begins 0.01 mm away from where actuators were pressed to: is that what sensors read there?"
+    assert stimulus_caveats(replace(moved, time=np.array([0.1, 0.2, 0.3]))) == []
+
+
 @pytest.mark.parametrize(
     ("phase", "doubted"), [(1.5708, True), (6.2, True), (6.3, False), (3.0, False), (22.5, False), (0.0, False)]
 )

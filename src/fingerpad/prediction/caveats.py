@@ -34,17 +34,25 @@ BARELY = 1e-3  # indentation [mm]; source: `touch` goes 2e-4 mm past first touch
 FEW = 5.0
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 PRESS_AS_ASKED = "--vary contact.criterion=depth or force, or either in the device file, presses them as asked"
+AWAY = 0.05  # of the stroke [1] at time 0; source: assumption: more than a sensor's noise
 SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 
 
 def stimulus_caveats(condition: Condition) -> list[str]:
-    """Nothing that moves; strokes and phases so small that they may be in other units than mm and degrees."""
+    """Nothing that moves; strokes and phases so small that they may be in other units than mm and degrees; and
+    displacements that may be counted from elsewhere than the pre-indented position.
+    """
     stroke, phase = condition.stroke, condition.phase_deg
     found = []
     if stroke == 0.0:
         found.append("moves no actuator")
     elif stroke < SHORTEST:
         found.append(f"moves actuators by {stroke:.2g} mm at most: are displacements in mm?")
+    start = float(np.abs(condition.moves[0]).max())
+    if condition.time.size > 1 and condition.time[0] == 0.0 and start > AWAY * stroke:
+        found.append(
+            f"begins {start:.2g} mm away from where actuators were pressed to: is that what sensors read there?"
+        )
     if phase != round(phase) and abs(phase) < 2.0 * math.pi:
         found.append(f"has a phase of {phase:g} degrees: are phases in degrees?")
     return found

@@ -306,6 +306,9 @@ def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -
     key, found, rank = list(error.absolute_path), error.instance, RANKS.get(error.validator, 2)
     if key and key[-1] == "source":
         rank = SOURCE_RANK
+    if (nameless := _nameless(key, schema, document)) is not None:
+        yield nameless
+        return
     about = schema["description"]  # the nearest description on the way to the key
     for step in error.absolute_schema_path:
         schema = schema[step]
@@ -317,6 +320,30 @@ def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -
     text = f"the name {text}" if "propertyNames" in error.absolute_schema_path else text
     meant = _meant(error.schema, found, functools.reduce(operator.getitem, key[:-1], document))
     yield _problem(rank, _dotted(key), text, allowed_values(error.schema), meant=meant, about=about)
+
+
+def _nameless(key: Key, schema: Schema, document: dict[str, Any]) -> Problem | None:
+    """The problem that on the way to a key what belongs under a name stands without one."""
+    found: Any = document
+    for place, step in enumerate([*key, ""]):
+        inner = schema.get("items" if isinstance(step, int) else "additionalProperties")
+        if (
+            "propertyNames" in schema
+            and _is_one(found, inner)
+            and not any(_is_one(each, inner) for each in found.values())
+        ):
+            what, about = f"{', '.join(found)} without a name", schema["description"]
+            return _problem(0, _dotted(key[:place]), what, "these under a name", meant="NAME: {...}", about=about)
+        known = schema["properties"].get(step, inner)
+        if place == len(key) or not isinstance(known, dict):
+            return None
+        found, schema = found[step], known
+    return None
+
+
+def _is_one(found: Any, schema: Any) -> bool:
+    """Whether a value is a mapping with keys of a schema alone."""
+    return isinstance(found, dict) and bool(found) and found.keys() <= schema["properties"].keys()
 
 
 def _key_problems(schema: Schema, key: Key, found: dict[str, Any], about: str) -> Iterator[Problem]:
