@@ -136,6 +136,28 @@ def test_deformed_halves_of_a_row_that_does_not_mirror_meet(positions: tuple[flo
     assert found.unknowns < mesh_section(with_row(row), nominal_edges(row)).unknowns
 
 
+def test_a_mesh_of_deformed_tissue_is_fine_where_a_row_aside_lies_and_there_alone() -> None:
+    """Under the whole row elements of the skin are as small as asked, at its edges smaller; at their images they are
+    not. Sizes grow within an element.
+    """
+    base, _ = aside(ActuatorRow((0.8, 2.8), 1.2, 0.15))
+    row, numerics = base.device.actuators, base.model.numerics
+    mesh = mesh_section(base, nominal_edges(row))
+    nodes = mesh.mesh.doflocs[:, mesh.skin]
+    middle, length = nodes[0, 1::2], np.hypot(*(nodes[:, 2::2] - nodes[:, :-2:2]))
+    on_pad = nodes[1, 1::2] < base.model.finger.height / 2.0
+    under = on_pad & (middle > 0.2) & (middle < 3.4)
+    assert length[under].max() <= numerics.face_size * (1.0 + numerics.growth)
+    ends = mesh.mesh.p[:, mesh.mesh.facets[:, mesh.receptor_facets]]
+    read = np.hypot(*(ends[:, 1] - ends[:, 0]))[(ends[0].min(axis=0) > 0.2) & (ends[0].max(axis=0) < 3.4)]
+    assert read.max() <= numerics.receptor_size * (1.0 + numerics.growth)
+    for start, stop in nominal_edges(row):
+        assert length[on_pad & (middle > start) & (middle < stop)].max() <= numerics.finite_edge_size
+    images = on_pad & (middle > -3.5) & (middle < -1.0)
+    assert length[images].min() > numerics.finite_edge_size
+    assert length[on_pad & (middle < -3.5)].max() > length[under].max()
+
+
 def test_tissue_deformed_aside_mirrors_what_is_deformed_on_the_other_side() -> None:
     """A row of two pins to the right of the finger's middle, and its mirror image, each on a mesh of its own."""
     found, image = (
