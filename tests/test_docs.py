@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import re
 import tomllib
@@ -37,6 +38,38 @@ def names_in(text: str) -> list[str]:
     known = {path.split("/")[0].removesuffix(".py") for path in MODULES}
     found = re.findall(r"`([a-z_]+(?:\.(?!csv|npz)[A-Za-z_]+)+)`", text)
     return sorted({name for name in found if name.split(".")[0] in known and not is_key(name)})
+
+
+def docstrings(tree: ast.Module) -> list[str]:
+    """Of a module and all that is defined in it."""
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    return [ast.get_docstring(node, clean=False) or "" for node in ast.walk(tree) if isinstance(node, documented)]
+
+
+def words_of(tree: ast.Module) -> set[str]:
+    """Identifiers and texts in code, docstrings apart."""
+    found: set[str] = set()
+    told = set(docstrings(tree))
+    for node in ast.walk(tree):
+        for field in ("id", "attr", "arg", "name", "module", "value"):
+            word = getattr(node, field, None)
+            if isinstance(word, str) and word not in told:
+                found.update(re.findall(r"\w+", word))
+    return found
+
+
+def test_every_name_in_a_docstring_exists() -> None:
+    trees = {path: ast.parse(text) for path, text in MODULES.items()}
+    known = {part for path in MODULES for part in path.removesuffix(".py").split("/")}
+    known.update(*map(words_of, trees.values()))
+    astray = {
+        (path, name)
+        for path, tree in trees.items()
+        for text in docstrings(tree)
+        for name in re.findall(r"`([a-z_][\w.]*)`", text)
+        if name.rpartition(".")[2] not in known
+    }
+    assert not astray
 
 
 def is_key(name: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from functools import cache
+from graphlib import TopologicalSorter
 from itertools import pairwise
 from statistics import mean
 
@@ -48,21 +49,23 @@ def reduced(edges: Iterable[Edge]) -> list[Edge]:
 
 def levels(edges: Iterable[Edge], nodes: Iterable[str] = ()) -> dict[str, int]:
     """Level of each node: 0 if no edge ends in it, else one above the highest from which an edge comes. nodes: those
-    that may be without edges.
+    that may be without edges. Raises CycleError (graphlib), which names them, if edges lead back to where they began.
 
     >>> levels([("a", "b"), ("b", "d"), ("c", "d")])
-    {'a': 0, 'b': 1, 'd': 2, 'c': 0}
+    {'a': 0, 'c': 0, 'b': 1, 'd': 2}
     """
-    before: dict[str, set[str]] = {node: set() for node in nodes}
+    sorter = TopologicalSorter[str](dict.fromkeys(nodes, ()))
     for start, stop in edges:
-        before.setdefault(start, set())
-        before.setdefault(stop, set()).add(start)
-
-    @cache
-    def level(node: str) -> int:
-        return max((1 + level(other) for other in before[node]), default=0)
-
-    return {node: level(node) for node in before}
+        sorter.add(stop, start)
+    sorter.prepare()
+    found: dict[str, int] = {}
+    level = 0
+    while sorter.is_active():
+        ready = sorter.get_ready()
+        found |= dict.fromkeys(ready, level)
+        sorter.done(*ready)
+        level += 1
+    return found
 
 
 def layers(edges: Iterable[Edge]) -> dict[str, int]:

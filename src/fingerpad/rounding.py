@@ -16,13 +16,13 @@ def rounded(value: float, error: float) -> tuple[str, str]:
     >>> rounded(-0.0004, 0.02)
     ('0.00', '0.02')
 
-    Of an error that is not known, as not a number, that is said.
+    Of an error that is not known, as not finite, that is said.
 
-    >>> rounded(0.324622, math.nan), rounded(0.324622, 0.0)
-    (('0.3246', '?'), ('0.3246', '0'))
+    >>> rounded(0.324622, math.nan), rounded(0.324622, math.inf), rounded(0.324622, 0.0)
+    (('0.3246', '?'), ('0.3246', '?'), ('0.3246', '0'))
     """
-    if not error > 0.0:
-        return f"{value:.{DIGITS}g}", "?" if math.isnan(error) else "0"
+    if not 0.0 < error < math.inf:
+        return f"{value:.{DIGITS}g}", "0" if error <= 0.0 else "?"
     first = math.floor(math.log10(error))
     decimals = max(-first + (error < 2.0 * 10.0**first), 0)
     return f"{value:z.{decimals}f}", f"{error:.{decimals}f}"  # z: nothing is -0

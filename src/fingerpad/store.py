@@ -8,13 +8,16 @@ import io
 import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints
+from typing import TYPE_CHECKING, Any, TypeVar, get_type_hints
 
 import numpy as np
 
 from .arrays import FloatArray
 from .errors import ResultError
 from .files import replacing, write_text
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Record = TypeVar("Record")
 SEPARATOR = "/"  # between the name of a nested dataclass and its field
@@ -75,6 +78,11 @@ def csv_text(rows: Sequence[Mapping[str, Any]], header: bool = True) -> str:
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     """Write rows that share their keys as a CSV table; no rows as an empty file."""
     write_text(path, csv_text(rows))
+
+
+def write_table(path: Path, table: pd.DataFrame) -> None:
+    """Write a table as CSV."""
+    write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
 def alike(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:

@@ -11,7 +11,7 @@ from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assuming
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.example import COMPARED, compares_interfaces, example_condition, example_device
-from fingerpad.scene.scenefile import build_model, read_yaml, recordings
+from fingerpad.scene.scenefile import build_model, plain_values, read_yaml, recordings
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
@@ -31,6 +31,7 @@ RULES = BASE / "workflow" / "rules"
 CUSTOM_RULES = sorted((RULES / "custom").glob("[!.]*.smk"))  # of devices that need their own (docs/extending.md)
 RULE_FILES = [*sorted(RULES.glob("[!.]*.smk")), *CUSTOM_RULES]
 SCHEMAS = BASE / "workflow" / "schemas"
+SCHEMA_FILES = [SCHEMAS / f"{name}.schema.yaml" for name in ("config", "device")]
 DATA = BASE / "data"
 SHIPPED_DEVICES = BASE / "config" / "devices"
 ENVIRONMENT = PROJECT / "environment.yml"  # a relative name would be looked for beside the rules
@@ -54,9 +55,9 @@ try:
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
     SHIPPED = {}
-    for name in known_devices(SHIPPED_DEVICES):
+    for path in sorted(SHIPPED_DEVICES.glob("[!.]*.yaml")):
         with suppress(FingerpadError):  # a draft there concerns no other folder of scenes
-            SHIPPED[name] = check_device(SHIPPED_DEVICES / f"{name}.yaml", SCHEMAS, BASE / "config" / "config.yaml")
+            SHIPPED[path.stem] = check_device(path, SCHEMAS, BASE / "config" / "config.yaml")
     # a device of the paper that has no file any more has no conditions: what data/ says of it is left out
     KNOWN = {name: [] for name in sorted(set(read_published(DATA / "published_r2.csv")["device"]))} | {
         name: [condition.name for condition in scene.device.conditions] for name, scene in (SHIPPED | SCENE).items()
@@ -201,6 +202,14 @@ def device_documents():
     return {path.stem: read_yaml(path) for path in DEVICE_FILES}
 
 
+def as_written(names):
+    """What the files of some devices say of actuators and stimulus, but for vibrations: where another value there is varied,
+    it can move scores that it does not move as the file stands.
+    """
+    parts = [plain_values([device_documents()[name][key] for key in ("actuators", "stimulus")]) for name in names]
+    return support.fingerprint([[row, stimulus | {"frequency_hz": None}] for row, stimulus in parts])
+
+
 def varied_in(alternative):
     """The devices in whose files an alternative takes the place of an assumption, if it is one of devices."""
     return assuming(device_documents(), alternative.key) if alternative else []
@@ -227,6 +236,12 @@ def filtered_of(wildcards):
     """Filtered read-outs of all cases of the wildcard device."""
     folder = f"results/{wildcards.kinematics}/{wildcards.device}"
     return [f"{folder}/{condition}/{interface}/filtered.npz" for condition, interface in cases_of(wildcards)]
+
+
+def distinct_solutions_of(wildcards):
+    """Solutions with shear of the wildcard device's different stimuli."""
+    folder = f"results/{wildcards.kinematics}/{wildcards.device}"
+    return [f"{folder}/{each.name}/shear/solution.npz" for each in scene_of(wildcards).device.distinct_conditions]
 
 
 def solutions_of(wildcards):

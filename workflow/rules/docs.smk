@@ -49,6 +49,7 @@ rule code_map:
 
 rule shown_figure:
     input:
+        pages_elsewhere,
         figure="results/figures/{figure}.png",
     output:
         figure="docs/figures/{figure}.png",

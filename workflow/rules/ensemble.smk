@@ -32,7 +32,7 @@ rule ensemble_member:
         devices=ancient(DEVICE_FILES),
         recordings=ancient(ALL_RECORDINGS),
         ensemble=ancient(ENSEMBLE),
-        schemas=ancient([SCHEMAS / f"{name}.schema.yaml" for name in ("config", "device")]),
+        schemas=ancient(SCHEMA_FILES),
     output:
         scenes=directory("results/ensemble/{kinematics}/{member}/{half_cycle}/scenes"),
         scores="results/ensemble/{kinematics}/{member}/{half_cycle}/scores.csv",
@@ -49,6 +49,7 @@ rule ensemble_member:
     params:
         code=code("ensemble_member.py"),
         scenes=lambda w: [scored(name, w.kinematics) for name in DEVICES_WITH[w.kinematics]],
+        written=lambda w: as_written(DEVICES_WITH[w.kinematics]),
         varied=lambda w: support.fingerprint(MEMBERS[w.member]),
         varied_in=lambda w: varied_in(MEMBERS[w.member]),
     script:

@@ -47,10 +47,7 @@ rule fields:
         mesh="results/{kinematics}/{device}/mesh.npz",
         body=body_of,
         pressed=pressed_of,
-        solutions=lambda w: [
-            f"results/{w.kinematics}/{w.device}/{condition.name}/shear/solution.npz"
-            for condition in scene_of(w).device.distinct_conditions
-        ],
+        solutions=distinct_solutions_of,
     output:
         fields="results/{kinematics}/{device}/fields.npz",
     log:
@@ -203,10 +200,7 @@ rule figure_map:
         device=ancient(device_file),
         recordings=ancient(recordings_of),
         fields=lambda w: f"results/{w.kinematics}/{device_with_dispersion(w).name}/fields.npz",
-        solutions=lambda w: [
-            f"results/{w.kinematics}/{w.device}/{condition.name}/shear/solution.npz"
-            for condition in scene_of(w).device.distinct_conditions
-        ],
+        solutions=distinct_solutions_of,
     output:
         png="results/figures/map_{kinematics}_{device}-{dispersion}.png",
         pdf="results/figures/map_{kinematics}_{device}-{dispersion}.pdf",

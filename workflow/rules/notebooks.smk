@@ -18,6 +18,13 @@ READ_BY = {
     "accuracy_and_run_time": ["results/scores.csv"],
     "ablations": ["results/scores.csv", "results/ablation_readout.csv", "results/ablation_agreement.csv"],
 }
+# The scenes that each reads. Results are of SCENE; what is designed in a notebook lies on the finger of config/.
+SCENES_OF = {
+    "walkthrough": SCENE[INTO],
+    "fields": list(SCENE.values()),
+    "ablations": list(SCENE.values()),
+    "design_your_own": build_model(read_yaml(BASE / "config" / "config.yaml")),
+}
 # What a notebook shows where it has been made. These take hours: as inputs they would be made anew once they are old.
 SHOWN_BY = {
     "accuracy_and_run_time": [
@@ -48,8 +55,7 @@ rule notebook:
         ENVIRONMENT
     params:
         code=lambda w: [code("notebook.py"), code_of(BASE / "notebooks" / f"{w.notebook}.ipynb")],
-        # results are of SCENE; what notebooks design themselves lies on the finger of config/
-        scene=support.fingerprint(SCENE[INTO], build_model(read_yaml(BASE / "config" / "config.yaml"))),
+        scenes=lambda w: support.fingerprint(SCENES_OF.get(w.notebook)),
         shown=lambda w: support.checksum(filter(os.path.exists, SHOWN_BY.get(w.notebook, []))),
     script:
         "../scripts/notebook.py"

@@ -45,7 +45,7 @@ rule phases:
         config=ancient(CONFIG),
         devices=ancient([file_of(name) for name in PHASED]),
         recordings=ancient([path for name in PHASED for path in RECORDINGS[name]]),
-        schemas=ancient([SCHEMAS / f"{name}.schema.yaml" for name in ("config", "device")]),
+        schemas=ancient(SCHEMA_FILES),
     output:
         table="results/phases.csv",
     log:
@@ -60,6 +60,7 @@ rule phases:
     params:
         code=code("phases.py"),
         scenes=[scored(name, each) for each in KINEMATICS for name in PHASED],
+        written=as_written(PHASED),
     script:
         "../scripts/phases.py"
 
@@ -79,6 +80,6 @@ rule figure_phases:
         ENVIRONMENT
     params:
         code=code("figure_phases.py"),
-        titles=titles_of(PHASED),
+        scene=support.fingerprint([SCENE[name].device for name in PHASED]),
     script:
         "../scripts/figure_phases.py"

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.files import write_text
 from fingerpad.jobs import logged
 from fingerpad.perception.claims import claims_table
+from fingerpad.store import write_table
 
 
 def main(scores: Path, correlations: Path, claims: Path) -> None:
     """Read both tables, check every claim, write the verdicts with their evidence."""
     table = claims_table(pd.read_csv(scores), pd.read_csv(correlations))
-    write_text(claims, table.to_csv(index=False, lineterminator="\n"))
+    write_table(claims, table)
 
 
 if __name__ == "__main__":

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.files import write_text
 from fingerpad.jobs import logged
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.store import write_table
 
 
 def main(
@@ -20,7 +20,7 @@ def main(
         read_stated_order(order, conditions),
         read_published(published),
     )
-    write_text(correlations, table.to_csv(index=False, lineterminator="\n"))
+    write_table(correlations, table)
 
 
 if __name__ == "__main__":

@@ -5,9 +5,9 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.ensemble.members import ensemble_tables
-from fingerpad.files import write_text
 from fingerpad.jobs import logged
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.store import write_table
 
 
 def main(
@@ -31,7 +31,7 @@ def main(
         read_published(published),
     )
     for table, path in zip(tables, (claims, correlations), strict=True):
-        write_text(path, table.to_csv(index=False, lineterminator="\n"))
+        write_table(path, table)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.files import write_text
 from fingerpad.jobs import logged
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.perception.scorings import scoring_tables
@@ -14,7 +13,7 @@ from fingerpad.readouts.scorings import response_rows, scoring_rows
 from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.store import load, read_rows, write_rows
+from fingerpad.store import load, read_rows, write_rows, write_table
 
 
 def main(
@@ -50,8 +49,8 @@ def main(
         read_stated_order(order, conditions),
         read_published(published),
     )
-    write_text(tables["correlations"], correlations.to_csv(index=False, lineterminator="\n"))
-    write_text(tables["claims"], claims.to_csv(index=False, lineterminator="\n"))
+    write_table(tables["correlations"], correlations)
+    write_table(tables["claims"], claims)
     write_rows(tables["response"], [row for scene in scenes for row in response_rows(scene)])
 
 

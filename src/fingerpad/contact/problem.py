@@ -71,7 +71,8 @@ def named(what: str, advice: Callable[[ContactError], str] = lambda error: "") -
     try:
         yield
     except ContactError as error:
-        raise type(error)(f"{what}: {error}{advice(error)}") from error
+        error.args = (f"{what}: {error}{advice(error)}",)
+        raise
 
 
 def named_pressing(scene: Scene, interface: Interface) -> AbstractContextManager[None]:

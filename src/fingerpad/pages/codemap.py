@@ -33,7 +33,7 @@ a module within its package. What other imports imply is left out.
 
 def page(modules: Mapping[str, str], rules: Mapping[str, str], scripts: Mapping[str, str]) -> str:
     """Markdown page of the code. All arguments are texts: modules by path in the package, the others by stem.
-    Raises RecursionError if imports lead back to where they began.
+    Raises CycleError (graphlib) if imports lead back to where they began.
     """
     texts = {dotted(path): text for path, text in modules.items()}
     texts.pop("", None)

@@ -174,7 +174,7 @@ def load_scene(config: Path, device: Path, kinematics: Kinematics = Kinematics.S
 def build_model(config: dict[str, Any]) -> Model:
     """The model of a validated config mapping. Raises SceneError."""
     finger, tissue, contact, readout, vibration = (
-        _values(config[key]) for key in ("finger", "tissue", "contact", "readout", "vibration")
+        plain_values(config[key]) for key in ("finger", "tissue", "contact", "readout", "vibration")
     )
     return Model(
         finger=Finger(
@@ -192,7 +192,7 @@ def build_model(config: dict[str, Any]) -> Model:
             ogden_exponent=tissue["ogden_exponent"],
         ),
         contact=_contact_law(contact),
-        gabor=GaborFilter(**_values(config["filter"])),
+        gabor=GaborFilter(**plain_values(config["filter"])),
         readout=ReadoutRule(readout["layer_above"], Side(readout["side"]), readout["span_margin"]),
         vibration=VibrationRule(
             relaxation=Relaxation(*(tuple(vibration[key]) for key in ("shares", "times", "layers"))),
@@ -200,14 +200,14 @@ def build_model(config: dict[str, Any]) -> Model:
             inertia_limit=vibration["inertia_limit"],
             steps=vibration["steps"],
         ),
-        numerics=Numerics(**_values(config["numerics"])),
-        skips=Skips(**_values(config["skips"])),
+        numerics=Numerics(**plain_values(config["numerics"])),
+        skips=Skips(**plain_values(config["skips"])),
     )
 
 
 def with_contact(model: Model, device: dict[str, Any]) -> Model:
     """The model with what a device's validated mapping says of contact in place of its own. Raises SceneError."""
-    own = _values(device.get("contact", {}))
+    own = plain_values(device.get("contact", {}))
     return replace(model, contact=_contact_law(asdict(model.contact) | own))
 
 
@@ -216,7 +216,7 @@ def build_device(path: Path, document: dict[str, Any]) -> Device:
 
     Raises SceneError.
     """
-    plain = _values(document)
+    plain = plain_values(document)
     row, stimulus, control = plain["actuators"], plain["stimulus"], Control(plain["control"])
     require(
         not (control is Control.FORCE and plain.get("interfaces") == "both"),
@@ -247,7 +247,7 @@ def recordings(device: Path) -> list[Path]:
     >>> recordings(Path("config/devices/device2.yaml"))
     []
     """
-    return [device.parent / name for name in _named_files(_values(read_yaml(device)["stimulus"]))]
+    return [device.parent / name for name in _named_files(plain_values(read_yaml(device)["stimulus"]))]
 
 
 def _named_files(node: Any) -> Iterator[str]:
@@ -258,12 +258,12 @@ def _named_files(node: Any) -> Iterator[str]:
         yield from _named_files(child)
 
 
-def _values(node: Any) -> Any:
-    """The document with every quantity replaced by its value."""
+def plain_values(node: Any) -> Any:
+    """A document, or a part of one, with every quantity replaced by its value."""
     if isinstance(node, dict):
-        return node["value"] if "value" in node else {key: _values(child) for key, child in node.items()}
+        return node["value"] if "value" in node else {key: plain_values(child) for key, child in node.items()}
     if isinstance(node, list):
-        return [_values(child) for child in node]
+        return [plain_values(child) for child in node]
     return node
 
 

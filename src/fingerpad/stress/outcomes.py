@@ -154,7 +154,7 @@ def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:
 
 def condensed_group(number: int) -> CondensedSection:
     """The finger of a group, condensed to all skin that its scenes may touch, on a mesh that is coarsened until no more
-    than MOST_CONTACT nodes may come into contact. Raises MeshError, CondensationError.
+    than MOST_CONTACT nodes may come into contact, or as far as it may be. Raises MeshError, CondensationError.
     """
     scene = random_group(number)
     row, (farthest,) = scene.device.actuators, scene.device.conditions
