@@ -250,8 +250,8 @@ def test_what_is_shown_is_what_is_read() -> None:
     assert (one.reading.time, both.reading.time) == (0, 0)
     for name in ("pressure", "shear", "place", "status"):
         assert np.array_equal(getattr(one, name), getattr(both, name)), name
-    for readout, read in one.reading.readouts.items():
-        assert np.array_equal(read, both.reading.readouts[readout]), readout
+    for readout, read in one.reading.readouts.items():  # strains of several times at once are summed in another order
+        assert np.abs(read - both.reading.readouts[readout]).max() < 1e-12 * np.abs(one.reading.strain).max(), readout
 
 
 def tap(*heights: float) -> Condition:
