@@ -56,13 +56,14 @@ def deformed_outcome(
     problem = replace(finger.problem, friction=settings.friction_indenting, turning=turning)
     if contact is ContactModel.PENALTIES:
         problem = replace(problem, compliance=problem.compliance + np.diag(softness(pressed.section, settings)))
-    before = move(finger.tissue, problem, finger.start, indented, 1)
+    tissue = replace(finger.tissue, compliance=problem.compliance)
+    before, tissue = move(tissue, problem, finger.start, indented, 1)
     reached = before
     if settings.friction_acting > settings.friction_indenting:
         reached = replace(before, state=switch_friction(before.state))
     problem = replace(problem, friction=settings.friction_acting)
     for target in stimulus:
-        reached = move(finger.tissue, problem, reached, target, STIMULUS_INCREMENTS)
+        reached, tissue = move(tissue, problem, reached, target, STIMULUS_INCREMENTS)
     if contact is ContactModel.PENALTIES and reached.tangents > 0:
         raise ContactError("corrections do not settle, and new tangents would be without the penalties' springs")
     ends = before, reached

@@ -60,12 +60,12 @@ def pressed_finger(
     displacement[dofs] = pressed.displacement
     skin = skin_of(section, dofs, halved=False)
     problem, state, free = contact_problem(scene, pressed.section, body, interface), pressed.state, pressed.free
-    sprung = problem.compliance if problem.friction == 0.0 else None  # friction holds the finger, and minds the way
+    sprung = problem.friction == 0.0  # friction holds the finger, and minds the way
     condensing = partial(whole_part, scene, section, True)
-    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, sprung)
+    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, problem.compliance, sprung)
     if tissue.spring is not None:
-        borne = (problem.compliance - tissue.spring.compliance) @ state.force.ravel()
-        problem, free = replace(problem, compliance=tissue.spring.compliance), free + borne.reshape(-1, 2)
+        borne = (problem.compliance - tissue.compliance) @ state.force.ravel()
+        problem, free = replace(problem, compliance=tissue.compliance), free + borne.reshape(-1, 2)
     start = Equilibrium(state=state, displacement=displacement, free=free, tangents=0, defect=0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(
@@ -115,9 +115,10 @@ def equilibria(scene: Scene, finger: PressedFinger, condition: Condition) -> lis
     """The pre-indented one, and those at the ends of all moves of a stimulus. Raises ContactError."""
     before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
     require_tissue(finger.problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
-    found = [finger.start]
+    found, tissue = [finger.start], finger.tissue
     for moved in condition.moves:
-        found.append(move(finger.tissue, finger.problem, found[-1], before.actuator + moved, count))
+        reached, tissue = move(tissue, finger.problem, found[-1], before.actuator + moved, count)
+        found.append(reached)
         require_uncrossed(finger.skin, found[-1].displacement, f"after move {len(found) - 1} of the stimulus")
     return found
 
