@@ -8,9 +8,17 @@ import numpy as np
 import pandas as pd
 import pytest
 from numpy.typing import NDArray
+from scipy.stats import kendalltau
 
 from fingerpad.errors import RatingError
-from fingerpad.perception.correlation import COLUMNS, angle_of_errors, correlation_table, error_in_r, is_turned
+from fingerpad.perception.correlation import (
+    COLUMNS,
+    angle_of_errors,
+    correlation_table,
+    error_in_r,
+    is_turned,
+    tau_range,
+)
 from fingerpad.perception.extremes import rating_range, up_sets
 from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
 
@@ -338,6 +346,7 @@ def test_correlation_of_three_points_in_closed_form() -> None:
     assert row["r2"] == pytest.approx(0.25)
     assert row["p"] == pytest.approx(1.0 - 2.0 / math.pi * math.atan(0.5 / math.sqrt(0.75)))
     assert row["kendall_tau"] == pytest.approx(1.0 / 3.0)
+    assert (row["tau_lowest"], row["tau_highest"]) == pytest.approx((1.0 / 3.0, 1.0 / 3.0))  # no pair is within errors
     assert (row["r2_lowest"], row["r2_highest"]) == pytest.approx((0.0, 0.75), abs=DECIMALS)
     assert (row["published_r2"], row["published_slope"]) == (0.989, 1)
     assert row["rating_kind"] == "ordinal surrogate"
@@ -469,6 +478,27 @@ def test_device1_counts_nine_conditions_and_says_that_seven_are_distinct() -> No
         np.round(1.0 + np.outer([1.0, 2.0, 3.0], [0.0, 0.5, 1.0]).ravel() / 3.0, 4),  # as in data/ratings.csv
     )
     assert row["r2"] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("size", [2, 3, 5, 9])
+def test_errors_take_tau_to_no_place_beyond_its_range(size: int) -> None:
+    """Scores anywhere within their errors; two of them that are far apart reach both ends."""
+    random = np.random.default_rng(size)
+    for _ in range(20):
+        score, error = random.uniform(0.0, 1.0, size), random.uniform(0.0, 0.2, size)
+        rating = random.integers(0, 4, size).astype(float)
+        rating[:2] = 0.0, 1.0  # not all equal
+        lowest, highest = tau_range(np.arange(size), score, error, rating)
+        within = [kendalltau(score + random.uniform(-1.0, 1.0, size) * error, rating).statistic for _ in range(50)]
+        assert lowest - 1e-12 <= min(within)
+        assert max(within) <= highest + 1e-12
+        assert tau_range(np.arange(size), score, 0.0 * error, rating) == pytest.approx(
+            (kendalltau(score, rating).statistic,) * 2
+        )
+
+
+def test_tau_has_no_range_where_errors_are_not_known() -> None:
+    assert np.isnan(tau_range(np.arange(2), np.array([1.0, 2.0]), np.array([0.1, np.nan]), np.arange(2.0))).all()
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-9, -1e-9])

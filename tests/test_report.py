@@ -25,6 +25,7 @@ from fingerpad.report.tables import (
     accuracy_summary,
     correlation_bodies,
     score_grid,
+    score_notes,
     score_with_error,
 )
 from fingerpad.scene.contact_law import Interface
@@ -72,6 +73,8 @@ def correlation(device: str, interface: Interface, readout: Readout, r2: str) ->
         "r2_lowest": "0.25",
         "r2_highest": "0.75",
         "kendall_tau": "-0.5",
+        "tau_lowest": "-0.5",
+        "tau_highest": "-0.5",
         "p": "0.03",
     }
     numbers = found if r2 else dict.fromkeys(found, "")
@@ -407,6 +410,17 @@ def test_correlations_without_a_prediction_stand_with_their_device(results: Resu
     assert len({body.title for body in bodies}) == len(bodies)
     assert sum(len(body.rows) for body in bodies) == len(results.correlations)
     assert all(len(cells) + 1 == len(CORRELATION_COLUMNS) for body in bodies for _, cells in body.rows)
+
+
+def test_notes_of_scores_stand_once_with_all_that_they_are_about(results: Results) -> None:
+    """Not why there is no score: that stands in its place."""
+    beware = "actuators that leave the skin: 2, 3"
+    rows = [row | {"note": beware} if row["score"] and row["device"] == "device2" else row for row in results.scores]
+    titles = {scene.device.name: scene.device.title for scene in results.scenes}
+    ((title, about, note),) = score_notes(rows, titles)
+    assert (title, note) == (titles["device2"], beware)
+    conditions = ", ".join(dict.fromkeys(row["condition"] for row in rows if row["device"] == "device2"))
+    assert about == "; ".join(f"{conditions} ({INTERFACE_NAME[interface]})" for interface in Interface)
 
 
 def test_accuracy_counts_only_what_has_a_score(results: Results) -> None:

@@ -56,7 +56,8 @@ CAPTION = (
     " spread: range of scores over their mean. Bars: estimated discretisation error of a score; where none is seen it"
     " is smaller than the mark."
 )
-RATED = " Line: least squares, where the slope is not open.{ratings} τ: Kendall's.{p}"
+RATED = " Line: least squares, where the slope is not open.{ratings} τ: Kendall's{between}.{p}"
+BETWEEN = " (from where to where errors of scores leave it)"
 RANGE = " range: of R², over all ratings with the stated order."
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."
@@ -154,7 +155,7 @@ def statistics(row: Mapping[str, Any], n: int) -> str:
     if spread_of_r2 := range_text(row):
         lines.append(f"range {spread_of_r2}")
     if pd.notna(row["r2"]):
-        lines.append(f"τ = {tau_text(row['kendall_tau'])}")
+        lines.append(f"τ = {tau_text(row)}")
         if has_p(row["p"], row["rating_kind"]):
             lines[-1] += f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
     if published := published_text(row):
@@ -172,7 +173,8 @@ def caption(correlations: pd.DataFrame, interface: str) -> str:
     unrated = UNRATED if (correlations["note"] == NO_RATINGS).any() else ""
     ratings = ratings_caption(correlations)
     p = P if any(has_p(row["p"], row["rating_kind"]) for row in correlations.to_dict("records")) else ""
-    rated = RATED.format(ratings=ratings, p=p) if ratings else ""
+    between = BETWEEN if (correlations["tau_lowest"] < correlations["tau_highest"]).any() else ""
+    rated = RATED.format(ratings=ratings, between=between, p=p) if ratings else ""
     return CAPTION.format(interface=interface, rated=rated) + unrated
 
 

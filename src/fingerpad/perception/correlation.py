@@ -38,6 +38,8 @@ COLUMNS = [
     "range_error",
     "range_open",
     "kendall_tau",
+    "tau_lowest",
+    "tau_highest",
     "p",
     "published_r2",
     "published_slope",
@@ -83,6 +85,29 @@ def error_in_r(r: float, angle: float) -> float:
     return float(max(r - lowest, highest - r))
 
 
+def tau_range(which: np.ndarray, score: FloatArray, error: FloatArray, rating: FloatArray) -> tuple[float, float]:
+    """Lowest and highest that errors (n,) of scores (n,) can make of Kendall's tau-b with ratings (n,), at least and at
+    most: as if each pair of scores within the sum of their errors could have either order by itself. which: (n,)
+    `classes` of the scores; what is one stays one. Not a number if errors are not known.
+
+    >>> score, error = np.array([1.0, 2.0, 2.5]), np.array([0.1, 0.3, 0.3])
+    >>> [round(each, 12) for each in tau_range(np.arange(3), score, error, np.array([1.0, 2.0, 3.0]))]
+    [0.333333333333, 1.0]
+    """
+    if not np.isfinite(error).all():
+        return math.nan, math.nan
+    first, second = np.triu_indices(score.size, 1)
+    differ = which[first] != which[second]
+    apart = np.sign(rating[second] - rating[first]) * differ
+    is_open = np.abs(score[second] - score[first]) <= error[first] + error[second]
+    sure = float((np.sign(score[second] - score[first]) * apart)[~is_open].sum())
+    either, pairs = (
+        float(np.abs(apart[is_open]).sum()),
+        math.sqrt(differ.sum() * (rating[first] != rating[second]).sum()),
+    )
+    return (sure - either) / pairs, (sure + either) / pairs
+
+
 def is_turned(score: FloatArray, rating: FloatArray, error: FloatArray) -> bool:
     """Whether errors (n,) d of scores (n,) can change the sign of the slope with ratings (n,). With y the ratings,
     centred and scaled to norm 1, and S the centred scores, they can exactly if sum |y_i| d_i > |<S, y>|. Not where they
@@ -121,9 +146,10 @@ def correlation_table(
     r_lowest, r_highest: of r over all ratings that agree with the stated order (`rating_range`), and r2_lowest,
     r2_highest: of R², whichever way the slope then is; range_error and range_open: as r_error,
     the larger of those at both ends of r, and 1 if some rating's slope is open; empty without an order.
-    kendall_tau: tau-b; scores that only rounding tells apart are tied. p: two-sided p of the Pearson correlation over
-    distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count once with the
-    mean of their ratings (the note then says how many are distinct).
+    kendall_tau: tau-b; scores that only rounding tells apart are tied. tau_lowest, tau_highest: what errors of scores
+    can make of it, at least and at most (`tau_range`), empty if they are not known. p: two-sided p of the Pearson
+    correlation over distinct conditions: those that share a stimulus, or have mirrored ones, have one score, and count
+    once with the mean of their ratings (the note then says how many are distinct).
     published_slope: -1 or 1, empty if nothing is said of it. rating_kind: the `label` of RatingKind. note: why numbers
     are missing, or what to beware of.
 
@@ -139,7 +165,8 @@ def correlation_table(
     same = KEY[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
     ranges = ("r_lowest", "r_highest", "r2_lowest", "r2_highest", "range_error")
-    numbers = ("spread", "r2", "r_error", *ranges, "kendall_tau", "p", "published_r2")
+    tau = ("kendall_tau", "tau_lowest", "tau_highest")
+    numbers = ("spread", "r2", "r_error", *ranges, *tau, "p", "published_r2")
     signs = dict.fromkeys(("slope_sign", "slope_open", "range_open", "published_slope"), "Int64")
     table = table.astype({"n": "int64", **signs, **dict.fromkeys(numbers, "float64")})
     return table[COLUMNS].fillna({"published_words": ""})
@@ -186,6 +213,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
         "r_error": error_in_r(r, angle),
         "slope_open": int(is_turned(x, y, error)) if known else None,
         "kendall_tau": float(kendalltau(which, y).statistic),
+        **dict(zip(("tau_lowest", "tau_highest"), tau_range(which, x, error, y), strict=True)),
         "p": float(pearsonr(distinct, mean_rating).pvalue)
         if distinct.size > 2 and not is_constant(mean_rating)
         else None,

@@ -11,6 +11,7 @@ from ..words import MINUS
 from .ratings import RatingKind
 
 SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
+TAU = ("kendall_tau", "tau_lowest", "tau_highest")
 SMALLEST_P = 0.001  # below it p is given as a bound
 OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `slope_name`, in captions
 
@@ -32,13 +33,17 @@ def p_text(p: object) -> str:
     return f"{value:#.2g}" if value >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
 
 
-def tau_text(tau: object) -> str:
-    r"""Kendall's tau as it is shown.
+def tau_text(row: Mapping[str, Any]) -> str:
+    r"""Kendall's tau as it is shown, and from where to where errors of scores leave it, if they do.
 
-    >>> tau_text("-0.6667") == "\N{MINUS SIGN}0.67"
+    >>> tau_text({"kendall_tau": "-0.6667", "tau_lowest": "", "tau_highest": ""}) == "\N{MINUS SIGN}0.67"
     True
+    >>> tau_text({"kendall_tau": "1.0", "tau_lowest": "0.33333", "tau_highest": "1.0"})
+    '1.00 (0.33 to 1.00)'
     """
-    return f"{float(str(tau)):.2f}".replace("-", MINUS)
+    tau, *ends = (f"{float(str(row[each])):.2f}" for each in TAU if _is_there(row[each]))
+    between = f" ({ends[0]} to {ends[1]})" if ends and ends[0] != ends[1] else ""
+    return f"{tau}{between}".replace("-", MINUS)
 
 
 def is_open(row: Mapping[str, Any]) -> bool:

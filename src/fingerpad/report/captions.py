@@ -105,7 +105,7 @@ def _correlation_words(row: Row) -> str:
     if not row["r2"]:
         return f"{row['note']}, n = {row['n']}"
     p = f", p {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
-    tau = tau_text(row["kendall_tau"])
+    tau = tau_text(row)
     return f"R² = {float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
 
 
@@ -178,6 +178,8 @@ def _correlation(results: Results) -> Words:
 
 def _shear(results: Results) -> Words:
     device = results.device(results.example)
+    own = tuple(row for row in results.correlations if row["device"] == device.name)
+    results = replace(results, correlations=own)
     parts = "; ".join(
         f"{INTERFACE_NAME[interface]}, {_correlated(results, device.name, interface, titled=False)}"
         for interface in reversed(Interface)
@@ -275,9 +277,15 @@ def _r2(row: Row) -> str:
 
 
 def _range(results: Results) -> str:
-    """What stands in brackets behind R², where there is anything."""
-    there = any(row["r2_lowest"] for row in results.correlations)
-    return " In brackets the range of R² over all ratings with the stated order." if there else ""
+    """What stands in brackets behind R² and τ, where there is anything."""
+    ranges = {
+        "the range of R² over all ratings with the stated order": any(row["r2_lowest"] for row in results.correlations),
+        "from where to where errors of scores leave τ": any(
+            row["tau_lowest"] != row["tau_highest"] for row in results.correlations
+        ),
+    }
+    told = [what for what, is_there in ranges.items() if is_there]
+    return f" In brackets {', and '.join(told)}." if told else ""
 
 
 def _kinds(results: Results) -> str:

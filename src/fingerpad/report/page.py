@@ -23,6 +23,7 @@ from .tables import (
     accuracy_summary,
     correlation_bodies,
     score_grid,
+    score_notes,
 )
 
 
@@ -67,6 +68,7 @@ def report(
     return environment.from_string(template).render(
         titles=titles,
         scores=score_grid(results.scores, titles),
+        notes=score_notes(results.scores, titles),
         accuracy=accuracy_grid(results.scores, titles),
         accuracy_summary=accuracy_summary(results.scores),
         correlation_columns=CORRELATION_COLUMNS,

@@ -47,6 +47,21 @@ def score_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
     return _grid(scores, titles, [score_label(readout, unit) for readout in Readout], score_with_error)
 
 
+def score_notes(scores: Sequence[Row], titles: Mapping[str, str]) -> list[tuple[str, str, str]]:
+    """What to know of scores, each once: title of the device, conditions and interfaces that it is about, and the note.
+    Arguments as for `score_grid`.
+    """
+    found: dict[tuple[str, str], dict[str, dict[str, None]]] = {}
+    for row in scores:
+        if row["score"] and row["note"]:
+            by_interface = found.setdefault((_titled(titles, row), row["note"]), {})
+            by_interface.setdefault(INTERFACE_NAME[Interface(row["interface"])], {})[row["condition"]] = None
+    return [
+        (title, "; ".join(f"{', '.join(conditions)} ({interface})" for interface, conditions in about.items()), note)
+        for (title, note), about in found.items()
+    ]
+
+
 def accuracy_grid(scores: Sequence[Row], titles: Mapping[str, str]) -> Grid:
     """Every score's error over the score [%]. Arguments as for `score_grid`."""
     names = [f"{READOUT_NAME[readout]} (%)" for readout in Readout]
@@ -84,7 +99,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
             range_text(row) or NOTHING,
             slope_name(row) if row["r2"] else NOTHING,
-            tau_text(row["kendall_tau"]) if row["kendall_tau"] else NOTHING,
+            tau_text(row) if row["kendall_tau"] else NOTHING,
             p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
             published_text(row) or NOTHING,
