@@ -76,7 +76,7 @@ contact:
 """
 
 # columns of predictions behind those of scores.csv
-BEHIND = (*RANKS, "indentation_mm", "force_N_per_mm", "sliding_share", "caveats")
+BEHIND = (*RANKS, "indentation_mm", "force_N_per_mm", "sliding_share", "time_s", "caveats")
 
 
 @pytest.fixture
@@ -227,8 +227,8 @@ def test_check_says_what_there_is_and_draws(checkout: Path, capsys: pytest.Captu
         "4 deformable actuators",
         "alternate_090",
         "third.png",
-        "0.228 mm lateral",
-        "friction 0.6; pressed until skin covers all faces",
+        "actuators move 0.028 to 0.228 mm lateral (positive: into the skin, to the right)",
+        "friction 0.6; pressed until skin covers all faces, and held",
     ):
         assert part in said
     assert (checkout / "third.png").read_bytes().startswith(b"\x89PNG")
@@ -398,6 +398,7 @@ ROW = {
     "indentation_mm": None,
     "force_N_per_mm": None,
     "sliding_share": None,
+    "time_s": None,
     "dispersion": "a",
 }
 
@@ -459,7 +460,7 @@ def test_actuators_that_press_nothing_are_told_by_their_number() -> None:
     left = solution.actuator_force.copy()
     left[-1, [1, 3]] = 0.0
     (caveat,) = solution_caveats(given, replace(solution, actuator_force=left))
-    assert caveat.startswith("actuators that leave the skin, counted from the left: 2, 4; ")
+    assert caveat.startswith("actuators that leave the skin, counted from the left: 2, 4 (")
 
 
 def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
@@ -607,7 +608,7 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
         assert not solution.pressure.any()
         caveats = solution_caveats(scene("device2"), solution)
         assert not [caveat for caveat in caveats if "certificate" in caveat]
-        left = "actuators that leave the skin, counted from the left: 1, 2, 3, 4; positive normal points into it"
+        left = "actuators that leave the skin, counted from the left: 1, 2, 3, 4 (positive normal points into it)"
         assert left in caveats
 
 
@@ -616,7 +617,7 @@ def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
     back = Condition("back", "test", 0.0, np.array([1.0, 2.0]), normal, np.zeros_like(normal))
     strained, caveat = solution_caveats(scene("device2"), solve("device2", back, Interface.FRICTIONLESS))
     assert strained.endswith("too much for small strain: compare --kinematics finite")
-    assert caveat.startswith("actuators that leave the skin, counted from the left: 2;")
+    assert caveat.startswith("actuators that leave the skin, counted from the left: 2 (")
 
 
 def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
@@ -890,7 +891,9 @@ def test_robustness_says_which_assumptions_orders_hang_on(
         " no prediction with stimulus.half_cycle second\n"
     )
     assert "\ncaveat: all conditions (shear, strain): deep\ncaveat: all conditions (shear, strain): odd\n" in said
+    assert "\nvaried: contact.friction 0.3; stimulus.half_cycle second\n" in said
     assert "\nwithout effect: contact.friction 0.9, actuators.pitch times 1.1, kinematics finite\n" in said
+    assert "kept, as" not in said
     assert "\nstimulus.half_cycle second: no prediction: too far\n" in said
     assert "\nleft out: actuators.pitch times 0.1: config/devices/device2.yaml" in said
 
@@ -913,14 +916,19 @@ def test_robustness_leaves_out_what_has_no_condition_in_common(
     monkeypatch.setattr(varying, "forecast", forecast_one)
     assumptions = checkout / "assumptions.yaml"
     assumptions.write_text(
-        "devices:\n- {key: stimulus.phases, values: [[30, 60]], source: 'assumption: others'}\n", encoding="utf-8"
+        "devices:\n- {key: stimulus.phases, values: [[30, 60]], source: 'assumption: others'}\n"
+        "- {key: actuators.edge_radius, times: [2.0], source: 'assumption: rounder'}\n",
+        encoding="utf-8",
     )
     path = checkout / "config/devices/device2.yaml"
     document = yaml.safe_load(path.read_text(encoding="utf-8"))
     document["stimulus"]["phases"]["source"] = "assumption: some"
+    document["actuators"]["edge_radius"]["source"] = "our drawing"
     path.write_text(yaml.safe_dump(document), encoding="utf-8")
     assert main(["robustness", str(path), "--assumptions", str(assumptions)]) == 0
-    assert "\nleft out: stimulus.phases [30, 60]: " in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "\nleft out: stimulus.phases [30, 60]: " in said
+    assert "\nkept, as the file does not call them assumptions: actuators.edge_radius (" in said
 
 
 def test_robustness_of_one_stimulus_is_refused_at_once(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -1125,6 +1133,7 @@ main(["new", "mine", "--from", "device1"])
 
 def test_depth_and_force_of_pre_indentation_stand_with_their_units() -> None:
     row = {"interface": "shear", "indentation_mm": 1.25, "force_N_per_mm": 0.5, "sliding_share": 0.25, "condition": "a"}
+    row |= {"time_s": None}
     assert _contact([row, row, row | {"condition": "b", "sliding_share": None}]) == [
         "pre-indentation: 1.25 mm and 0.5 N/mm (shear)",
         "sliding, share of the pressing force (shear): 25% (a)",
@@ -1274,7 +1283,7 @@ def test_check_knows_depths_and_criteria() -> None:
     assert TOO_FAR in told_of(replace(given, model=replace(given.model, contact=deep)))
     touch = replace(given.model.contact, criterion=Criterion.TOUCH)
     told = told_of(replace(given, model=replace(given.model, contact=touch)))
-    assert "; pressed until all actuators carry some skin\n" in told
+    assert "; pressed until all actuators carry some skin, and held\n" in told
 
 
 def test_check_measures_a_middle_pin_from_the_mid_line() -> None:
@@ -1310,8 +1319,17 @@ def test_a_vibration_without_a_prediction_is_a_dash_and_its_note_is_told_once() 
         *cells,
         "shear, change_of_strain [mm2]",
         *cells,
-        "a (shear): no prediction: why",
+        "a (shear, 25 Hz): no prediction: why",
     ]
+
+
+def test_notes_of_vibrations_say_which_frequencies_they_are_about() -> None:
+    given = vibrated_at(scene("device2"), [25.0])
+    row = {"interface": "shear", "condition": "a", "unit": "mm2", "readout": "strain", "score": 0.1}
+    rows = [
+        row | {"frequency_hz": hertz, "note": note} for hertz, note in ((0.0, "idle: 1"), (25.0, "idle: 1; left: 3"))
+    ]
+    assert vibrations(given, rows).splitlines()[-2:] == ["a (shear, slow, 25 Hz): idle: 1", "a (shear, 25 Hz): left: 3"]
 
 
 def test_forces_are_a_table_for_programs(coarse: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,6 +15,7 @@ from fingerpad.pages.scorings import scorings_values
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.perception.scorings import scoring_tables
+from fingerpad.prediction.frictions import FRICTIONS, friction_rows
 from fingerpad.prediction.phases import PHASES, phase_rows
 from fingerpad.readouts.accuracy import relative_errors
 from fingerpad.readouts.gabor import filtered_readouts, gabor_filtered
@@ -234,6 +235,19 @@ def test_scores_at_phases_that_are_tried_are_the_shipped_ones(tmp_path: Path) ->
     assert ((both["score"] - both["score_shipped"]).abs() <= both["score_error_shipped"]).all()
 
 
+def test_friction_leads_from_the_frictionless_scores_to_those_with_shear() -> None:
+    """At its ends are those that are recorded, within their errors: here on twice the sizes."""
+    table = pd.DataFrame(friction_rows(scene("device2").coarsened(2.0)))
+    assert sorted(set(table["friction"])) == list(FRICTIONS)
+    case = ["device", "condition", "readout"]
+    for friction, interface in ((0.0, "frictionless"), (0.6, "shear")):
+        recorded = RECORDED.query("kinematics == 'small' and interface == @interface")
+        both = table[table["friction"] == friction].merge(recorded, on=case, suffixes=("", "_recorded"))
+        assert len(both) == 6
+        # the error of a score is that of a mesh of twice the sizes, or a bound on it
+        assert ((both["score"] - both["score_recorded"]).abs() <= 2.0 * both["score_error"]).all()
+
+
 def test_page_says_where_scores_fall_before_they_rise() -> None:
     """One falls by more than its errors and then rises, one rises and falls again, one falls within its errors."""
     shapes = {"low": [2.0, 1.5, 3.0], "high": [1.0, 3.0, 2.0], "level": [1.1, 1.0, 3.0], "unknown": [2.0, 1.5, 3.0]}
@@ -258,7 +272,14 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
     others = pd.concat([of_drives(), indented])
     correlations, claims = scoring_tables(others, small, *literature())
     tables = {"scores": small, "others": others, "correlations": correlations, "claims": claims, "phases": phases}
-    values = scorings_values(tables | {"response": pd.DataFrame(response_rows(scene("device1")))})
+    slippery = {"device": "device2", "condition": "alternate_000", "readout": "change_of_strain"}
+    frictions = pd.DataFrame(
+        [slippery | {"friction": mu, "score": score} for mu, score in ((0.0, 4.2e-3), (0.01, 6e-4))]
+    )
+    response = pd.DataFrame(response_rows(scene("device1")))
+    values = scorings_values(tables | {"response": response, "frictions": frictions})
+    assert str(values["frictions"]).splitlines()[0] == "| device | condition | 0 | 0.01 |"
+    assert str(values["frictions"]).splitlines()[-1] == "| device2 | alternate_000 | 4.20 | 0.60 |"
     assert "| small | device1 | low | 2.000 | 1.500 at 90° | yes | 20.0 to 29.0 | yes |" in str(values["phases"])
     assert "| small | device1 | high | 1.000 | 1.000 at 0° | no | 20.0 | no |" in str(values["phases"])
     assert "| unknown | 2.000 | 1.500 at 90° | within errors |" in str(values["phases"])

@@ -63,7 +63,16 @@ LONG = (
 )  # targets
 LONG_RULES = {
     *("closed_forms", "increments", "reference", "calculix", "vibrate", "frequency_variants", "ensemble_member"),
-    *("readouts", "phases", "other_scores", "benchmark_steps", "benchmark_ladder", "benchmark_growth", "skipping"),
+    *(
+        "readouts",
+        "phases",
+        "frictions",
+        "other_scores",
+        "benchmark_steps",
+        "benchmark_ladder",
+        "benchmark_growth",
+        "skipping",
+    ),
 }
 THREADS = """
 rule one:

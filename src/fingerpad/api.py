@@ -27,7 +27,7 @@ def predict(
     vary: Mapping[str, Sequence[Any]] = NO_VALUES,
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank`, `first_rank`, `last_rank`,
-    `indentation_mm`, `force_N_per_mm`, `sliding_share` and `caveats` (see `forecast`).
+    `indentation_mm`, `force_N_per_mm`, `sliding_share`, `time_s` and `caveats` (see `forecast`).
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or

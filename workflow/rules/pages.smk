@@ -33,6 +33,7 @@ PAGE_TABLES = {  # by page and by what it calls them
         "claims": "results/scoring_claims.csv",
         "response": "results/filter_response.csv",
         "phases": "results/phases.csv",
+        "frictions": "results/frictions.csv",
     },
     "skipping": {"switches": "results/benchmark/skipping.csv", "always": "results/benchmark/always.csv"},
 }

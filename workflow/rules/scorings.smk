@@ -1,15 +1,18 @@
 # What scores owe to the filter, to the sign of a change, to rectifying, to the pre-indented state and to the drive alone: other
-# scores of what `all` has solved, and of the phases between. Not part of `all`: ask for them with `snakemake scorings`.
+# scores of what `all` has solved, of the phases between, and with other friction. Not part of `all`: ask for them with `snakemake scorings`.
 # REQUIRED INPUTS: results/{kinematics}/{device}/{condition}/{interface}/filtered.npz, results/scores.csv, data/, scene files.
 # OUTPUTS: results/scorings.csv, results/scoring_{correlations,claims}.csv, results/filter_response.csv, results/phases.csv,
-# results/figures/phases.{png,pdf}
+# results/frictions.csv, results/figures/phases.{png,pdf}
 
+# what friction of zero means is a question where displacements are known without it
+SLIPPERY = [name for name in DEVICES_WITH["small"] if Interface.FRICTIONLESS in SCENE[name].device.interfaces()]
 PHASED = [name for name in DEVICES if "phases" in device_documents()[name]["stimulus"]]
 
 
 rule scorings:
     input:
         "results/scorings.csv",
+        "results/frictions.csv",
         ["results/figures/phases.png", "results/figures/phases.pdf"] if PHASED else [],
 
 
@@ -63,6 +66,29 @@ rule phases:
         written=as_written(PHASED),
     script:
         "../scripts/phases.py"
+
+
+rule frictions:
+    input:
+        config=ancient(CONFIG),
+        devices=ancient([file_of(name) for name in SLIPPERY]),
+        recordings=ancient([path for name in SLIPPERY for path in RECORDINGS[name]]),
+    output:
+        table="results/frictions.csv",
+    log:
+        "results/logs/frictions.log",
+    benchmark:
+        "results/benchmarks/frictions.tsv"
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=2000,
+        runtime=20,
+    params:
+        code=code("frictions.py"),
+        scenes=[scored(name) for name in SLIPPERY],
+    script:
+        "../scripts/frictions.py"
 
 
 rule figure_phases:

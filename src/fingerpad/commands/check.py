@@ -9,6 +9,7 @@ from tqdm import tqdm
 
 from ..prediction.caveats import DEEP, stimulus_caveats
 from ..scene.contact_law import Criterion
+from ..scene.device import Device
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
 from ..words import several
@@ -79,6 +80,10 @@ def described(scene: Scene) -> str:
     actuators = several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
     normal, lateral = device.strokes
+    ranges = {"normal": _range(device, 1), "lateral": _range(device, 0)}
+    moves = " and ".join(
+        f"{low:g} to {high:g} mm {way}" for way, (low, high) in ranges.items() if low < 0.0 or high > 0.0
+    )
     distinct = ", ".join(condition.name for condition in device.distinct_conditions)
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
@@ -94,17 +99,24 @@ def described(scene: Scene) -> str:
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
+    pressed = PRESSED[law.criterion].format(depth=law.depth, force=law.force)
     doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]
     return (
         f"{device.title} ({device.name})\n"
         f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
         f" at x = {places} mm\n"
         f"{several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
-        f"largest stroke {normal:g} mm normal, {lateral:g} mm lateral\n"
-        f"friction {law.friction:g}; pressed {PRESSED[law.criterion].format(depth=law.depth, force=law.force)}\n"
+        f"{f'actuators move {moves} (positive: into the skin, to the right)' if moves else 'actuators rest'}\n"
+        f"friction {law.friction:g}; pressed {pressed}, and held\n"
         f"skin over the outermost faces is {rise:.2g} mm above first contact; pad thickness {pad:g} mm"
         + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
     )
+
+
+def _range(device: Device, way: int) -> tuple[float, float]:
+    """Lowest and highest displacement [mm] of any actuator at any time, tangential (0) or normal (1)."""
+    places = [condition.moves[:, :, way] for condition in device.conditions]
+    return min(float(each.min()) for each in places), max(float(each.max()) for each in places)
 
 
 def _rise(scene: Scene) -> float:

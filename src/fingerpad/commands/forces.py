@@ -73,7 +73,14 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     notes = dict.fromkeys(f"{row['condition']} ({row['interface']}): {row['note']}" for row in rows if row["note"])
     right = [False, False, *(True for _ in COLUMNS[2:])]
     head = [titled(scene), "forces on the skin [N/mm of finger], positive into it and to the right; x [mm]"]
-    return "\n".join([*head, *aligned(lines, right), *notes])
+    several = {condition.name for condition in scene.device.conditions if condition.time.size > 1}
+    times = dict.fromkeys(
+        f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})"
+        for row in rows
+        if row["condition"] in several and row["is_read"]
+    )
+    read = [f"read at time: {', '.join(times)}"] if times else []
+    return "\n".join([*head, *aligned(lines, right), *read, *notes])
 
 
 def _cells(row: Mapping[str, Any], name: str) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -11,8 +11,8 @@ from typing import Any
 from tqdm import tqdm
 
 from ..checkout import find_checkout, model_for
-from ..ensemble.alternatives import AS_CONFIGURED, read_ensemble
-from ..ensemble.robustness import Order, changed, orders_held, reasons, varied_values
+from ..ensemble.alternatives import AS_CONFIGURED, Alternative, read_ensemble
+from ..ensemble.robustness import Order, changed, kept_keys, orders_held, reasons, varied_values
 from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
@@ -57,7 +57,8 @@ def run(options: argparse.Namespace) -> None:
     scene = _distinct(asked_scene(options))
     if len(scene.device.conditions) < 2:
         raise UsageError(f"{scene.device.name}: found one stimulus; allowed: two or more, so that scores have an order")
-    varied, refused = _varied(scene, options)
+    alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
+    varied, refused = _varied(scene, options, alternatives)
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
         configured = forecast(scene, True, bar.update)
@@ -71,6 +72,8 @@ def run(options: argparse.Namespace) -> None:
                 bar.write(_csv_of(name, tables[name], header=False), end="")
     if not options.csv:
         print("\n".join(_told(scene, configured, tables, refused)))
+        if kept := kept_keys(read_yaml(options.device), alternatives):
+            print(f"kept, as the file does not call them assumptions: {', '.join(kept)} (but see `predict --vary`)")
 
 
 def _csv_of(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
@@ -78,12 +81,12 @@ def _csv_of(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
     return as_csv([{"varied": name, **row} for row in rows], header)
 
 
-def _varied(scene: Scene, options: argparse.Namespace) -> tuple[dict[str, Scene], dict[str, str]]:
-    """Scenes by the names of the assumptions that are varied in them; and why some names have none.
-
-    Raises SceneError, and UsageError without a checkout.
+def _varied(
+    scene: Scene, options: argparse.Namespace, alternatives: Sequence[Alternative]
+) -> tuple[dict[str, Scene], dict[str, str]]:
+    """Scenes by the names of the assumptions that are varied in them; and why some names have none. Raises SceneError
+    as `varied_values`.
     """
-    alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
     found: dict[str, Scene] = {}
     refused: dict[str, str] = {}
     config, device = read_yaml(model_for(options.device, options.config)), read_yaml(options.device)
@@ -133,11 +136,22 @@ def _told(
         yield from map(_as_line, orders)
     yield ""
     yield from caveat_lines(scene, [row for row in in_order(configured) if row["score"] is not None])
+    yield f"varied: {'; '.join(_by_key(members)) or 'nothing that has an effect'}"
     if idle:
         yield f"without effect: {', '.join(idle)}"
     for name, rows in members.items():
         yield from (f"{name}: {note}" for note in reasons(configured, rows))
     yield from (f"left out: {name}: {why}" for name, why in refused.items())
+
+
+def _by_key(names: Iterable[str]) -> Iterator[str]:
+    """Names of what is varied, those of a key as one.
+
+    >>> list(_by_key(["finger.height times 0.9", "finger.height times 1.1", "readout.side epidermis"]))
+    ['finger.height times 0.9, times 1.1', 'readout.side epidermis']
+    """
+    for key, own in groupby((name.split(" ", 1) for name in names), key=lambda parts: parts[0]):
+        yield f"{key} {', '.join(rest for _, rest in own)}"
 
 
 def _as_line(order: Order) -> str:

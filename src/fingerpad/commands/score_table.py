@@ -77,8 +77,8 @@ def _share(caveat: str) -> float:
 
 
 def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """How deep and how hard the device was pressed at each interface, if it was, and how much slides in each condition
-    where there is friction.
+    """How deep and how hard the device was pressed at each interface, if it was, how much slides in each condition
+    where there is friction, and when conditions of several times are read.
     """
     preloads = dict.fromkeys(
         f"{row['indentation_mm']:.3g} mm and {row['force_N_per_mm']:.3g} N/mm ({row['interface']})"
@@ -91,7 +91,14 @@ def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         if row["interface"] == Interface.SHEAR and row["sliding_share"] is not None
     }
     sliding = ", ".join(f"{share:.0%} ({condition})" for condition, share in shares.items())
-    told = {"pre-indentation": ", ".join(preloads), "sliding, share of the pressing force (shear)": sliding}
+    times = dict.fromkeys(
+        f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})" for row in rows if row["time_s"] is not None
+    )
+    told = {
+        "pre-indentation": ", ".join(preloads),
+        "sliding, share of the pressing force (shear)": sliding,
+        "read at time, where strain has changed most": ", ".join(times),
+    }
     return [f"{what}: {text}" for what, text in told.items() if text]
 
 

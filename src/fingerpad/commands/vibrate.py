@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
 from typing import Any
@@ -21,6 +21,7 @@ from .printing import aligned, in_order, print_rows, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 2  # of the progress before vibrations: mesh, compliance
+NEXT = "; "  # between the sentences of a note
 DESCRIPTION = """\
 Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
 creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
@@ -99,5 +100,16 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
         ]
         right = [False, *(True for _ in frequencies)]
         parts.append("\n".join([f"{interface}, {readout} [{own[0]['unit']}]", *aligned([header, *cells], right)]))
-    notes = dict.fromkeys(f"{row['condition']} ({row['interface']}): {row['note']}" for row in rows if row["note"])
-    return "\n\n".join([*parts, "\n".join(notes)]).rstrip()
+    return "\n\n".join([*parts, "\n".join(_notes(rows))]).rstrip()
+
+
+def _notes(rows: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """Each sentence of the notes once for a condition and interface, with the frequencies that it is about."""
+    about: dict[tuple[str, str, str], dict[str, None]] = {}
+    for row in rows:
+        for sentence in row["note"].split(NEXT) if row["score"] is not None else filter(None, [row["note"]]):
+            if sentence:
+                case = row["condition"], row["interface"], sentence
+                about.setdefault(case, {})[frequency_name(row["frequency_hz"])] = None
+    for (condition, interface, sentence), frequencies in about.items():
+        yield f"{condition} ({interface}, {', '.join(frequencies)}): {sentence}"

@@ -69,6 +69,13 @@ def varied_values(config: Document, device: Document, alternatives: Sequence[Alt
     return found
 
 
+def kept_keys(device: Document, alternatives: Sequence[Alternative]) -> list[str]:
+    """Keys of alternatives that are not varied, as the device file gives them from elsewhere than an assumption."""
+    own = dict(quantities_of(device))
+    keys = dict.fromkeys([*(each.key for each in alternatives), HALF_CYCLE])
+    return [key for key in keys if key in own and not is_assumed(own[key])]
+
+
 def changed(configured: Sequence[Row], varied: Sequence[Row]) -> bool:
     """Whether any score is another one, or gone, where an assumption is varied."""
     there = _scores(varied)

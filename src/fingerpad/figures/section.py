@@ -30,7 +30,8 @@ BONE_LABEL = (0.3, 0.7)  # of the bone's width and height [1]: the point that it
 DIMENSION = 0.7  # mm from the section to its dimensions
 MARGIN, TOP = 1.6, 0.3  # mm shown beside the section and below it, and above
 TINTS = ("#E9C9A3", "#B98553", "#F3C1AC", "#FBEBC4", "#AEBBC8", "#E3B0BE")  # of the layers, which are named as well
-ASIDE, ABOVE = 0.8, 1.7  # mm shown beside the row and above the lowest skin
+ASIDE, ABOVE = 0.8, 1.7  # mm shown beside the row, and above the lowest skin at least
+OVER = 0.3  # mm shown above the skin over the outermost faces
 REACH = 5.3  # mm from the mid-line to which panels show a row, above which what follows grows with it
 DEPTH, BELOW = 0.9, 1.2  # mm of a rigid actuator that is drawn, and that are shown below the lowest skin, at least
 LEADER = {"arrowstyle": "-", "linewidth": THIN, "shrinkA": 1.0, "shrinkB": 0.0, "relpos": (0.0, 0.5)}
@@ -48,7 +49,9 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
     reach = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions) + ASIDE
     size = max(1.0, reach / REACH)
     below = max([BELOW * size, *(_arrow_depth(row, size) + ARROW * size / 2.0 for row in rows)])
-    row_height = ROW_HEIGHT + (below - BELOW * size) * PANEL / (2.0 * size * REACH)
+    outermost = np.minimum(reach - ASIDE, model.finger.width / 2.0)
+    above = max(ABOVE, float(model.finger.skin_height(np.array([outermost]))[0]) + OVER)
+    row_height = ROW_HEIGHT + (below - BELOW * size + above - ABOVE) * PANEL / (2.0 * size * REACH)
     figure = new_figure(WIDE, HEIGHT + row_height * blocks)
     grid = figure.add_gridspec(1 + blocks, columns, height_ratios=[HEIGHT, *[row_height] * blocks])
     whole = figure.add_subplot(grid[0, :])
@@ -59,7 +62,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
         block, column = divmod(number, columns)
         axes = figure.add_subplot(grid[1 + block, column])
         _draw_device(axes, section, device, size)
-        axes.set(xlim=(-reach, reach), ylim=(-below, ABOVE))
+        axes.set(xlim=(-reach, reach), ylim=(-below, above))
         subtitle(axes, as_title(figure, device.title, columns), _described(device.actuators))
         axes.set_xlabel("x (mm)")
         axes.xaxis.set_major_locator(MultipleLocator(2.0))

@@ -39,7 +39,7 @@ HEADROOM = 1.25  # of the axes beyond the largest displacement [1]
 MOST_NUMBERS, MOST_VALUES = 16, 6  # actuators up to which each has its number, and up to which bars have their values
 CAPTION = (
     "Displacements from the pre-indented position; of a stimulus with several times, where actuators have moved"
-    " farthest. Numbers: values (µm), opposite their bars."
+    " farthest (scores are read where strain has changed most). Numbers: values (µm), opposite their bars."
 )
 NORMAL, LATERAL = "normal", "lateral"
 LABELS = {NORMAL: "normal, into the skin", LATERAL: "lateral, to the right"}  # in the order of a device's strokes

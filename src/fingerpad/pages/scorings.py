@@ -1,4 +1,4 @@
-"""The page of other scorings: filter, sign, area, the pre-indented state, the drive alone, and the phases between."""
+"""The page of other scorings: filter, sign, area, pre-indented state, the drive alone, friction, phases between."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ ORDERS = {
 
 def scorings_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
     """What `workflow/pages/scorings.md` asks for. tables: scores as configured; others, correlations and claims, of
-    `perception.scorings`; response of the filters; phases, of `prediction.phases.phase_rows`.
+    `perception.scorings`; response of the filters; phases, of `prediction.phases.phase_rows`; frictions, of
+    `prediction.frictions.friction_rows`.
     """
     correlations = tables["correlations"][tables["correlations"]["interface"] == Interface.SHEAR]
     orders = _orders(tables["claims"])
@@ -41,6 +42,7 @@ def scorings_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         "indented": _indented(tables["scores"], tables["others"]),
         "response": table(_response(tables["response"])),
         "phases": table(_phases(tables["phases"])),
+        "frictions": table(_frictions(tables["frictions"])),
     }
 
 
@@ -101,6 +103,15 @@ def _response(response: pd.DataFrame) -> pd.DataFrame:
         columns={"period": "mm", "strain": "SA-1 filter", "change_of_strain": "RA-1 filter"}
     )
     return rows.assign(mm=rows["mm"].map("{:g}".format))
+
+
+def _frictions(frictions: pd.DataFrame) -> pd.DataFrame:
+    """The change of strain of every condition, one column for each coefficient of friction."""
+    scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
+    change = frictions[frictions["readout"] == Readout.CHANGE_OF_STRAIN]
+    told = change.assign(told=(scale * change["score"]).map("{:.2f}".format))
+    wide = told.pivot_table("told", ["device", "condition"], "friction", aggfunc="first", sort=False).fillna("")
+    return wide.rename(columns="{:g}".format).reset_index()
 
 
 def _phases(phases: pd.DataFrame) -> pd.DataFrame:

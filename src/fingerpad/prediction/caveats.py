@@ -99,7 +99,7 @@ def pressing_caveats(pressing: FloatArray) -> list[str]:
     if idle := _numbers(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
-        found.append(f"actuators that leave the skin, counted from the left: {left}; positive normal points into it")
+        found.append(f"actuators that leave the skin, counted from the left: {left} (positive normal points into it)")
     return found
 
 

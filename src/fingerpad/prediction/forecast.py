@@ -24,8 +24,8 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank`, `first_rank` and `last_rank` (`ranks`), `indentation_mm`
-    and `force_N_per_mm` of pre-indentation, `sliding_share` (`Solution.sliding_share`), and `caveats` (a list of
-    sentences) behind.
+    and `force_N_per_mm` of pre-indentation, `sliding_share` (`Solution.sliding_share`), `time_s` at which a condition
+    of several times is read, and `caveats` (a list of sentences) behind.
 
     What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
     coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
@@ -41,7 +41,10 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
     caveats = [_caveats(scene, row, read, checks) for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
-        row | rank | _contact(read.get((row["condition"], row["interface"]))) | {"caveats": own}
+        row
+        | rank
+        | _contact(scene, read.get((row["condition"], row["interface"])), row["condition"])
+        | {"caveats": own}
         for row, rank, own in zip(table, ranks(table), caveats, strict=True)
     ]
 
@@ -57,15 +60,16 @@ def _caveats(
     return caveats_of(scene, scene.device.condition(case[0]), read[case].solution) + unknown
 
 
-def _contact(read: ReadSolution | None) -> dict[str, float | None]:
-    """Columns that say how a device was pressed, and how much slid, if it was."""
+def _contact(scene: Scene, read: ReadSolution | None, condition: str) -> dict[str, float | None]:
+    """Columns that say how a device was pressed, and how much slid, if it was, and when it was read."""
     if read is None:
-        return dict.fromkeys(("indentation_mm", "force_N_per_mm", "sliding_share"))
-    sliding = read.solution.sliding_share
+        return dict.fromkeys(("indentation_mm", "force_N_per_mm", "sliding_share", "time_s"))
+    sliding, time = read.solution.sliding_share, scene.device.condition(condition).time
     return {
         "indentation_mm": read.solution.indentation,
         "force_N_per_mm": float(read.solution.pressing[0].sum()),
         "sliding_share": None if math.isnan(sliding) else sliding,
+        "time_s": float(time[read.solution.reading.time]) if time.size > 1 else None,
     }
 
 
