@@ -241,7 +241,7 @@ def test_friction_leads_from_the_frictionless_scores_to_those_with_shear() -> No
     assert sorted(set(table["friction"])) == list(FRICTIONS)
     case = ["device", "condition", "readout"]
     for friction, interface in ((0.0, "frictionless"), (0.6, "shear")):
-        recorded = RECORDED.query("kinematics == 'small' and interface == @interface")
+        recorded = RECORDED[(RECORDED["kinematics"] == "small") & (RECORDED["interface"] == interface)]
         both = table[table["friction"] == friction].merge(recorded, on=case, suffixes=("", "_recorded"))
         assert len(both) == 6
         # the error of a score is that of a mesh of twice the sizes, or a bound on it
