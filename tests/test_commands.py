@@ -200,6 +200,21 @@ def test_new_takes_recordings_along(
     assert not (checkout / "config/devices/again.yaml").exists()
 
 
+def test_new_device_goes_to_a_folder_of_scenes_with_the_model(
+    checkout: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The model is copied once, and not over one that is there."""
+    assert main(["new", "mine", "--from", "device2", "--scenes", "own"]) == 0
+    assert "  snakemake all --config scenes=own\n" in capsys.readouterr().out
+    assert not (checkout / "config/devices/mine.yaml").exists()
+    model = checkout / "own/config.yaml"
+    assert model.read_bytes() == (checkout / "config/config.yaml").read_bytes()
+    model.write_text(model.read_text(encoding="utf-8") + "# own\n", encoding="utf-8")
+    assert main(["new", "other", "--from", "own/devices/mine.yaml", "--scenes", "own"]) == 0
+    assert model.read_text(encoding="utf-8").endswith("# own\n")
+    assert main(["check", "own/devices/other.yaml"]) == 0
+
+
 def test_new_never_overwrites(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = checkout / "config/devices/device1.yaml"
     before = path.read_bytes()

@@ -376,7 +376,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "history with a short row": (
         {"stimulus": HISTORY, "stimulus.histories.tap.tangential.value": [[0, 0, 0, 0], [0, 0, 0]]},
         "stimulus.histories.tap.tangential",
-        ["every row needs 4 numbers"],
+        ["found 3 numbers in row 2; allowed: 4, one for each actuator"],
     ),
     "history with a missing row": (
         {"stimulus": HISTORY, "stimulus.histories.tap.normal.value": [[0, 0, 0, 0]]},
@@ -386,7 +386,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "history back in time": (
         {"stimulus": HISTORY, "stimulus.histories.tap.time.value": [1.0, 0.5]},
         "stimulus",
-        ["condition tap", "time must ascend"],
+        ["condition tap", "times must ascend, found 1 s before 0.5 s"],
     ),
     "history without a key": (
         {"stimulus": HISTORY, "stimulus.histories.tap.time": DELETED},

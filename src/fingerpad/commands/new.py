@@ -17,11 +17,13 @@ from .options import existing_file
 
 DESCRIPTION = """\
 Write config/devices/NAME.yaml with the values of another device and a comment on every key: what it is, its unit, what
-is allowed, and how to change the drive. Its sources name the other device. An existing file is never overwritten.
+is allowed, and how to change the drive. Its sources name the other device. An existing file is never overwritten. With
+--scenes the file goes to devices/ in a folder of your own, with the model beside it.
 
 examples:
   fingerpad new mydevice --from device2
   fingerpad new mydevice --from somewhere/else/theirs.yaml
+  fingerpad new mydevice --from device2 --scenes mine
 """
 
 
@@ -32,6 +34,13 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--from", dest="source", required=True, metavar="DEVICE", help="a device in config/devices, or a device file"
     )
 
+    parser.add_argument(
+        "--scenes",
+        type=Path,
+        metavar="FOLDER",
+        help="write into devices/ of that folder, with a copy of config.yaml beside if it has none (default: config/)",
+    )
+
 
 def run(options: argparse.Namespace) -> None:
     """Read the source, write the new file, with its recordings beside it, and say what comes next. Raises UsageError
@@ -39,20 +48,25 @@ def run(options: argparse.Namespace) -> None:
     """
     checkout = find_checkout(Path.cwd())
     require_new_name(options.name)
-    target = checkout.devices / f"{options.name}.yaml"
+    scenes = options.scenes or checkout.config.parent
+    target = scenes / "devices" / f"{options.name}.yaml"
     is_file = options.source.endswith(".yaml")
     source = existing_file(Path(options.source)) if is_file else require_device(options.source, checkout.devices)
     check_device(source, checkout.schemas, checkout.config)
     text = device_text(options.name, source.stem, *checked_document(source, checkout.schemas / "device.schema.yaml"))
-    copies = {path: checkout.devices / path.relative_to(source.parent) for path in recordings(source)}
+    copies = {path: target.parent / path.relative_to(source.parent) for path in recordings(source)}
     copies = {path: copy for path, copy in copies.items() if path.resolve() != copy.resolve()}
     for path in (target, *copies.values()):
         if path.exists():
             way = "choose another name" if path == target else f"rename the recording and its `file:` key in {source}"
             raise UsageError(f"{path}: exists already, and is not overwritten; {way}, or remove it")
+    if not (model := scenes / "config.yaml").exists():
+        copies[checkout.config] = model
     for path, copy in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, copy)
+    target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
-    shown = os.path.relpath(target)
-    print(f"{shown}: written. Edit it, then:\n  fingerpad check {shown}\n  fingerpad predict {shown}\n  snakemake all")
+    shown, own = os.path.relpath(target), f" --config scenes={options.scenes}" if options.scenes else ""
+    following = f"fingerpad check {shown}", f"fingerpad predict {shown}", f"snakemake all{own}"
+    print("\n  ".join([f"{shown}: written. Edit it, then:", *following]))

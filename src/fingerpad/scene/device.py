@@ -155,7 +155,8 @@ class Condition:
     def __post_init__(self) -> None:
         where = f"condition {self.name}"
         require(self.time.ndim == 1 and self.time.size >= 1, f"{where}: time must have one row or more")
-        require(bool(np.all(np.diff(self.time) > 0)), f"{where}: time must ascend")
+        for before, after in pairwise(self.time):
+            require(before < after, f"{where}: times must ascend, found {before:g} s before {after:g} s")
         require(
             0 <= self.settling < self.time.size,
             f"{where}: settling must leave a time to read of {self.time.size}, found {self.settling}",

@@ -69,8 +69,9 @@ def read_recording(path: Path, count: int) -> Recording:
 def _actuator(path: Path, line: int, text: str, count: int) -> int:
     value = number(text)
     if value not in range(1, count + 1):
-        meant = "1" if value == 0 else ""
-        raise SceneError(told(path, line, "actuator", text, f"a whole number from 1 (the left one) to {count}", meant))
+        raise SceneError(
+            told(path, line, "actuator", text, f"a whole number, counted from 1 (the left one) to {count}")
+        )
     return int(value)
 
 

@@ -131,8 +131,12 @@ def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condi
     conditions = []
     for name, given in stimulus["histories"].items():
         for key in ("normal", "tangential"):
-            if any(len(row) != count for row in given[key]):
-                raise SceneError(f"stimulus.histories.{name}.{key}: every row needs {count} numbers (one an actuator)")
+            for number, row in enumerate(given[key], start=1):
+                if len(row) != count:
+                    raise SceneError(
+                        f"stimulus.histories.{name}.{key}: found {len(row)} numbers in row {number}; allowed: {count},"
+                        " one for each actuator"
+                    )
         time, normal, tangential = (np.asarray(given[key], dtype=float) for key in ("time", "normal", "tangential"))
         conditions.append(Condition(name, given["dispersion"], float(given["phase"]), time, normal, tangential))
     return conditions
