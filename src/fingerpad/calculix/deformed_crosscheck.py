@@ -8,7 +8,7 @@ import numpy as np
 
 from ..contact.formulation import actuator_forces, switch_friction
 from ..errors import ContactError
-from ..finite.deformed_path import move
+from ..finite.deformed_path import MAX_CORRECTIONS, move
 from ..finite.deformed_solution import pressed_finger, receptor_logarithmic_strain
 from ..finite.pressing import press_to
 from ..scene.contact_law import Interface
@@ -63,7 +63,8 @@ def deformed_outcome(
         reached = replace(before, state=switch_friction(before.state))
     problem = replace(problem, friction=settings.friction_acting)
     for target in stimulus:
-        reached, tissue = move(tissue, problem, reached, target, STIMULUS_INCREMENTS)
+        # tissue linearised anew would be without the penalties' springs
+        reached, tissue = move(tissue, problem, reached, target, STIMULUS_INCREMENTS, patience=MAX_CORRECTIONS)
     if contact is ContactModel.PENALTIES and reached.tangents > 0:
         raise ContactError("corrections do not settle, and new tangents would be without the penalties' springs")
     ends = before, reached

@@ -160,19 +160,25 @@ def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> Sprin
 
 
 def move(
-    tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int
+    tissue: DeformedTissue,
+    problem: ContactProblem,
+    start: Equilibrium,
+    target: FloatArray,
+    increments: int,
+    patience: int = FEW_CORRECTIONS,
 ) -> tuple[Equilibrium, DeformedTissue]:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm]. Where that leads, and the tissue that
     the next move should begin with.
 
-    problem: condensed about the pre-indented state. Where corrections do not settle the move is made again on tissue
-    linearised where it begins, and then with new tangents on the way. Raises what `path.advance` raises.
+    problem: condensed about the pre-indented state. Where corrections do not settle, or not within `patience` of them
+    if tissue was linearised elsewhere, the move is made again on tissue linearised where it begins, and then with new
+    tangents on the way. Raises what `path.advance` raises.
     """
     if stands(start.state.actuator, target):
         return start, tissue
     begins_there = np.array_equal(start.displacement, tissue.displacement)
     with suppress(_UnsettledError):
-        most = MAX_CORRECTIONS if begins_there else FEW_CORRECTIONS
+        most = MAX_CORRECTIONS if begins_there else patience
         reached = _corrected(tissue, problem, start, target, increments, most)
         return _resting(tissue, problem, reached), tissue
     tangent = None
