@@ -1344,7 +1344,10 @@ def test_notes_of_vibrations_say_which_frequencies_they_are_about() -> None:
     rows = [
         row | {"frequency_hz": hertz, "note": note} for hertz, note in ((0.0, "idle: 1"), (25.0, "idle: 1; left: 3"))
     ]
-    assert vibrations(given, rows).splitlines()[-2:] == ["a (shear, slow, 25 Hz): idle: 1", "a (shear, 25 Hz): left: 3"]
+    assert vibrations(given, rows).splitlines()[-2:] == [
+        "a (shear, slow): idle: 1",
+        "a (shear, 25 Hz): idle: 1; left: 3",
+    ]
 
 
 def test_forces_are_a_table_for_programs(coarse: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -52,12 +52,12 @@ def moved(tissue: DeformedTissue, forces: FloatArray) -> FloatArray:
 
 def test_a_spring_makes_the_softest_mode_as_stiff_as_the_next(finger: PressedFinger) -> None:
     """On the tissue as in the compliance of the contact nodes; the others stay as they are."""
-    spring = finger.tissue.spring
-    assert spring is not None
-    forces = np.random.default_rng(0).standard_normal(spring.compliance.shape[0])
+    assert finger.tissue.spring is not None
+    compliance = finger.tissue.compliance
+    forces = np.random.default_rng(0).standard_normal(compliance.shape[0])
     answer = moved(finger.tissue, forces)
-    assert np.abs(answer - spring.compliance @ forces).max() < ROUNDING * np.abs(answer).max()
-    without, held = (np.linalg.eigvalsh(each) for each in (finger.pressed.section.compliance, spring.compliance))
+    assert np.abs(answer - compliance @ forces).max() < ROUNDING * np.abs(answer).max()
+    without, held = (np.linalg.eigvalsh(each) for each in (finger.pressed.section.compliance, compliance))
     next_twice = np.append(without[:-1], without[-2])
     assert np.abs(held - next_twice).max() < ROUNDING * without[-1]
     assert without[-1] > 2.0 * without[-2]

@@ -9,7 +9,6 @@ from tqdm import tqdm
 
 from ..prediction.caveats import DEEP, stimulus_caveats
 from ..scene.contact_law import Criterion
-from ..scene.device import Device
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
 from ..words import several
@@ -80,7 +79,11 @@ def described(scene: Scene) -> str:
     actuators = several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
     normal, lateral = device.strokes
-    ranges = {"normal": _range(device, 1), "lateral": _range(device, 0)}
+    drives = {
+        "normal": [each.normal for each in device.conditions],
+        "lateral": [each.tangential for each in device.conditions],
+    }
+    ranges = {way: (min(map(np.min, moved)), max(map(np.max, moved))) for way, moved in drives.items()}
     moves = " and ".join(
         f"{low:g} to {high:g} mm {way}" for way, (low, high) in ranges.items() if low < 0.0 or high > 0.0
     )
@@ -111,12 +114,6 @@ def described(scene: Scene) -> str:
         f"skin over the outermost faces is {rise:.2g} mm above first contact; pad thickness {pad:g} mm"
         + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
     )
-
-
-def _range(device: Device, way: int) -> tuple[float, float]:
-    """Lowest and highest displacement [mm] of any actuator at any time, tangential (0) or normal (1)."""
-    places = [condition.moves[:, :, way] for condition in device.conditions]
-    return min(float(each.min()) for each in places), max(float(each.max()) for each in places)
 
 
 def _rise(scene: Scene) -> float:

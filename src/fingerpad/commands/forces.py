@@ -25,7 +25,7 @@ from .options import (
     asked_scene,
     with_asked_conditions,
 )
-from .printing import aligned, print_rows, titled
+from .printing import aligned, print_rows, read_times, titled
 
 PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
 COLUMNS = ("condition", "interface", "actuator", "x", "normal", "tangential", "error")
@@ -74,12 +74,8 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     right = [False, False, *(True for _ in COLUMNS[2:])]
     head = [titled(scene), "forces on the skin [N/mm of finger], positive into it and to the right; x [mm]"]
     several = {condition.name for condition in scene.device.conditions if condition.time.size > 1}
-    times = dict.fromkeys(
-        f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})"
-        for row in rows
-        if row["condition"] in several and row["is_read"]
-    )
-    read = [f"read at time: {', '.join(times)}"] if times else []
+    times = read_times(row for row in rows if row["condition"] in several and row["is_read"])
+    read = [f"read at time: {times}"] if times else []
     return "\n".join([*head, *aligned(lines, right), *read, *notes])
 
 

@@ -32,6 +32,12 @@ def print_rows(options: argparse.Namespace, rows: Sequence[Row], text: Callable[
         print(text())
 
 
+def read_times(rows: Iterable[Mapping[str, Any]]) -> str:
+    """When conditions are read, each once, from rows with `time_s`, `condition` and `interface`."""
+    told = (f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})" for row in rows)
+    return ", ".join(dict.fromkeys(told))
+
+
 def in_order(rows: Iterable[Row]) -> list[Row]:
     """Rows of the score table with interfaces and read-outs in the order in which figures show them.
 

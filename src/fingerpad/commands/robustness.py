@@ -17,6 +17,7 @@ from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
+from ..scene.variation import Document
 from .options import add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
 from .printing import in_order, titled
 from .score_table import as_csv, caveat_lines, require_scores
@@ -58,7 +59,8 @@ def run(options: argparse.Namespace) -> None:
     if len(scene.device.conditions) < 2:
         raise UsageError(f"{scene.device.name}: found one stimulus; allowed: two or more, so that scores have an order")
     alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
-    varied, refused = _varied(scene, options, alternatives)
+    device = read_yaml(options.device)
+    varied, refused = _varied(scene, options, device, alternatives)
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
         configured = forecast(scene, True, bar.update)
@@ -71,9 +73,7 @@ def run(options: argparse.Namespace) -> None:
             if options.csv:
                 bar.write(_csv_of(name, tables[name], header=False), end="")
     if not options.csv:
-        print("\n".join(_told(scene, configured, tables, refused)))
-        if kept := kept_keys(read_yaml(options.device), alternatives):
-            print(f"kept, as the file does not call them assumptions: {', '.join(kept)} (but see `predict --vary`)")
+        print("\n".join(_told(scene, configured, tables, refused, kept_keys(device, alternatives))))
 
 
 def _csv_of(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
@@ -82,14 +82,14 @@ def _csv_of(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
 
 
 def _varied(
-    scene: Scene, options: argparse.Namespace, alternatives: Sequence[Alternative]
+    scene: Scene, options: argparse.Namespace, device: Document, alternatives: Sequence[Alternative]
 ) -> tuple[dict[str, Scene], dict[str, str]]:
     """Scenes by the names of the assumptions that are varied in them; and why some names have none. Raises SceneError
     as `varied_values`.
     """
     found: dict[str, Scene] = {}
     refused: dict[str, str] = {}
-    config, device = read_yaml(model_for(options.device, options.config)), read_yaml(options.device)
+    config = read_yaml(model_for(options.device, options.config))
     for name, values in varied_values(config, device, alternatives).items():
         try:
             other = checked_scene(options.device, options, values)
@@ -118,9 +118,10 @@ def _told(
     configured: Sequence[Mapping[str, Any]],
     tables: Mapping[str, Sequence[Mapping[str, Any]]],
     refused: Mapping[str, str],
+    kept: Sequence[str],
 ) -> Iterator[str]:
-    """Lines that say what becomes of the orders, then what to know of the scores as configured, and what could not be
-    varied or changes nothing.
+    """Lines that say what becomes of the orders, then what to know of the scores as configured, what was varied, and
+    what could not be or was kept.
     """
     idle = [name for name, rows in tables.items() if not changed(configured, rows)]
     members = {name: rows for name, rows in tables.items() if name not in idle}
@@ -139,6 +140,8 @@ def _told(
     yield f"varied: {'; '.join(_by_key(members)) or 'nothing that has an effect'}"
     if idle:
         yield f"without effect: {', '.join(idle)}"
+    if kept:
+        yield f"kept, as the file does not call them assumptions: {', '.join(kept)} (but see `predict --vary`)"
     for name, rows in members.items():
         yield from (f"{name}: {note}" for note in reasons(configured, rows))
     yield from (f"left out: {name}: {why}" for name, why in refused.items())

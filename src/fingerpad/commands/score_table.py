@@ -14,7 +14,7 @@ from ..scene.scene import Scene
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
 from ..store import csv_text
-from .printing import aligned, in_order, titled
+from .printing import aligned, in_order, read_times, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
 SHARE = re.compile(r"\d+(?:\.\d+)?%")
@@ -91,13 +91,10 @@ def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         if row["interface"] == Interface.SHEAR and row["sliding_share"] is not None
     }
     sliding = ", ".join(f"{share:.0%} ({condition})" for condition, share in shares.items())
-    times = dict.fromkeys(
-        f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})" for row in rows if row["time_s"] is not None
-    )
     told = {
         "pre-indentation": ", ".join(preloads),
         "sliding, share of the pressing force (shear)": sliding,
-        "read at time, where strain has changed most": ", ".join(times),
+        "read at time, where strain has changed most": read_times(row for row in rows if row["time_s"] is not None),
     }
     return [f"{what}: {text}" for what, text in told.items() if text]
 

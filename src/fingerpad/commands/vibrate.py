@@ -21,7 +21,6 @@ from .printing import aligned, in_order, print_rows, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 2  # of the progress before vibrations: mesh, compliance
-NEXT = "; "  # between the sentences of a note
 DESCRIPTION = """\
 Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
 creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
@@ -104,12 +103,10 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _notes(rows: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    """Each sentence of the notes once for a condition and interface, with the frequencies that it is about."""
+    """Each note once for a condition and interface, with the frequencies that it is about."""
     about: dict[tuple[str, str, str], dict[str, None]] = {}
-    for row in rows:
-        for sentence in row["note"].split(NEXT) if row["score"] is not None else filter(None, [row["note"]]):
-            if sentence:
-                case = row["condition"], row["interface"], sentence
-                about.setdefault(case, {})[frequency_name(row["frequency_hz"])] = None
-    for (condition, interface, sentence), frequencies in about.items():
-        yield f"{condition} ({interface}, {', '.join(frequencies)}): {sentence}"
+    for row in filter(lambda row: row["note"], rows):
+        case = row["condition"], row["interface"], row["note"]
+        about.setdefault(case, {})[frequency_name(row["frequency_hz"])] = None
+    for (condition, interface, note), frequencies in about.items():
+        yield f"{condition} ({interface}, {', '.join(frequencies)}): {note}"

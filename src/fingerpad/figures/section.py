@@ -46,11 +46,12 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
     columns = min(len(devices), COLUMNS)
     blocks = math.ceil(len(devices) / columns)
     rows = [device.actuators for device in devices]
-    reach = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions) + ASIDE
+    outermost = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions)
+    reach = outermost + ASIDE
     size = max(1.0, reach / REACH)
     below = max([BELOW * size, *(_arrow_depth(row, size) + ARROW * size / 2.0 for row in rows)])
-    outermost = np.minimum(reach - ASIDE, model.finger.width / 2.0)
-    above = max(ABOVE, float(model.finger.skin_height(np.array([outermost]))[0]) + OVER)
+    over = model.finger.skin_height(np.array([min(outermost, model.finger.width / 2.0)]))
+    above = max(ABOVE, float(over[0]) + OVER)
     row_height = ROW_HEIGHT + (below - BELOW * size + above - ABOVE) * PANEL / (2.0 * size * REACH)
     figure = new_figure(WIDE, HEIGHT + row_height * blocks)
     grid = figure.add_gridspec(1 + blocks, columns, height_ratios=[HEIGHT, *[row_height] * blocks])

@@ -47,9 +47,7 @@ MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way
 # The same [1] of a move that begins elsewhere than where tissue was linearised, before it is linearised there; source:
 # fewest seconds of 5, 10, 20 (measured displacements that press and slip)
 FEW_CORRECTIONS = 10
-SETTLED = (
-    1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 3e-4 (measured)
-)
+SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 3e-4
 
 
 @dataclass(frozen=True)
@@ -80,12 +78,11 @@ class Spring:
 
     With C v = c v and the next eigenvalue c', C' = C - (c - c') v v^T is the compliance of contact nodes, and
     K^-1 - (c - c')/c^2 g g^T with g = K^-1 W v that of the tissue (Sherman and Morrison). Only corrections feel it.
-    field: (n_free,) g. share: (c - c')/c^2. compliance: C'.
+    field: (n_free,) g. share: (c - c')/c^2.
     """
 
     field: FloatArray
     share: float
-    compliance: FloatArray
 
     def takes(self, load: FloatArray) -> FloatArray:
         """What it takes of the displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
@@ -134,8 +131,7 @@ def _about(
     sprung: bool,
 ) -> DeformedTissue:
     """The tissue with the factors of its tangent about a displacement (size,) [mm]."""
-    spring = _spring(part, factors, compliance) if sprung else None
-    held = spring.compliance if spring else compliance
+    spring, held = _spring(part, factors, compliance) if sprung else (None, compliance)
     return DeformedTissue(part, factors, held, displacement, condensing, spring)
 
 
@@ -147,16 +143,13 @@ def _linearised_there(tissue: DeformedTissue, displacement: FloatArray) -> tuple
     return _about(displacement, part, tangent.factors, tangent.compliance, lambda: part, sprung), tangent
 
 
-def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> Spring:
-    """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors."""
+def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> tuple[Spring, FloatArray]:
+    """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors, and C'."""
     count = compliance.shape[0]
     (next_one, softest), modes = eigh(compliance, subset_by_index=[count - 2, count - 1])
     mode = modes[:, 1]
-    return Spring(
-        factors.solve(part.loads @ mode),
-        float(softest - next_one) / float(softest) ** 2,
-        compliance - (softest - next_one) * np.outer(mode, mode),
-    )
+    spring = Spring(factors.solve(part.loads @ mode), float(softest - next_one) / float(softest) ** 2)
+    return spring, compliance - (softest - next_one) * np.outer(mode, mode)
 
 
 def move(
@@ -193,10 +186,15 @@ def move(
 
 def _resting(tissue: DeformedTissue, problem: ContactProblem, reached: Equilibrium) -> Equilibrium:
     """An equilibrium on some tissue, with `free` on the pre-indented tangent."""
-    if tissue.compliance is problem.compliance:
-        return reached
-    borne = (tissue.compliance - problem.compliance) @ reached.state.force.ravel()
-    return replace(reached, free=reached.free + borne.reshape(-1, 2))
+    free = on_compliance(problem.compliance, tissue.compliance, reached.free, reached.state.force)
+    return replace(reached, free=free)
+
+
+def on_compliance(new: FloatArray, old: FloatArray, free: FloatArray, force: FloatArray) -> FloatArray:
+    """Displacement (m, 2) [mm] of contact nodes without contact forces on a new compliance (2m, 2m) [mm per N/mm], from
+    that on the old one: with the forces (m, 2) [N/mm] that act they lie in one place.
+    """
+    return free if new is old else free + ((old - new) @ force.ravel()).reshape(-1, 2)
 
 
 class _UnsettledError(Exception):

@@ -25,7 +25,7 @@ from ..tissue.elasticity import displacement_basis, node_dofs
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import receptor_gradient
 from ..tissue.skin import Skin, require_uncrossed, skin_of
-from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move
+from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move, on_compliance
 from .finite_strain import logarithmic_strain
 from .pressing import Pressed, whole_part
 
@@ -63,15 +63,13 @@ def pressed_finger(
     sprung = problem.friction == 0.0  # friction holds the finger, and minds the way
     condensing = partial(whole_part, scene, section, True)
     tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, problem.compliance, sprung)
-    if tissue.spring is not None:
-        borne = (problem.compliance - tissue.compliance) @ state.force.ravel()
-        problem, free = replace(problem, compliance=tissue.compliance), free + borne.reshape(-1, 2)
+    free = on_compliance(tissue.compliance, problem.compliance, free, state.force)
     start = Equilibrium(state=state, displacement=displacement, free=free, tangents=0, defect=0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(
         interface=interface,
         pressed=pressed,
-        problem=replace(problem, free=free),
+        problem=replace(problem, compliance=tissue.compliance, free=free),
         tissue=tissue,
         start=start,
         gradient=gradient,

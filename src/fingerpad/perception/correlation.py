@@ -101,10 +101,8 @@ def tau_range(which: np.ndarray, score: FloatArray, error: FloatArray, rating: F
     apart = np.sign(rating[second] - rating[first]) * differ
     is_open = np.abs(score[second] - score[first]) <= error[first] + error[second]
     sure = float((np.sign(score[second] - score[first]) * apart)[~is_open].sum())
-    either, pairs = (
-        float(np.abs(apart[is_open]).sum()),
-        math.sqrt(differ.sum() * (rating[first] != rating[second]).sum()),
-    )
+    either = float(np.abs(apart[is_open]).sum())
+    pairs = math.sqrt(differ.sum() * (rating[first] != rating[second]).sum())
     return (sure - either) / pairs, (sure + either) / pairs
 
 

@@ -41,10 +41,7 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
     caveats = [_caveats(scene, row, read, checks) for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
-        row
-        | rank
-        | _contact(scene, read.get((row["condition"], row["interface"])), row["condition"])
-        | {"caveats": own}
+        row | rank | _contact(scene, row, read) | {"caveats": own}
         for row, rank, own in zip(table, ranks(table), caveats, strict=True)
     ]
 
@@ -60,16 +57,18 @@ def _caveats(
     return caveats_of(scene, scene.device.condition(case[0]), read[case].solution) + unknown
 
 
-def _contact(scene: Scene, read: ReadSolution | None, condition: str) -> dict[str, float | None]:
+def _contact(scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution]) -> dict[str, float | None]:
     """Columns that say how a device was pressed, and how much slid, if it was, and when it was read."""
-    if read is None:
+    case = row["condition"], Interface(row["interface"])
+    if case not in read:
         return dict.fromkeys(("indentation_mm", "force_N_per_mm", "sliding_share", "time_s"))
-    sliding, time = read.solution.sliding_share, scene.device.condition(condition).time
+    solution, time = read[case].solution, scene.device.condition(case[0]).time
+    sliding = solution.sliding_share
     return {
-        "indentation_mm": read.solution.indentation,
-        "force_N_per_mm": float(read.solution.pressing[0].sum()),
+        "indentation_mm": solution.indentation,
+        "force_N_per_mm": float(solution.pressing[0].sum()),
         "sliding_share": None if math.isnan(sliding) else sliding,
-        "time_s": float(time[read.solution.reading.time]) if time.size > 1 else None,
+        "time_s": float(time[solution.reading.time]) if time.size > 1 else None,
     }
 
 
