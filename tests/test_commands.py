@@ -569,7 +569,7 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
             "\nstimulus:",
             "\ncontact:\n  criterion: {value: depth, unit: '1', source: 'our rig'}\n"
             "  depth: {value: 0.9, unit: mm, source: 'our rig'}\nstimulus:",
-            "contact.depth is less than the height of the skin over the outermost faces: these may bear nothing.",
+            "over some actuators, which may bear nothing; counted from the left: 1, 4",
         ),
         ("absolute: {value: 0.188", "absolute: {value: 4.0", "A lateral stroke takes an actuator beside the finger"),
         (
@@ -1348,6 +1348,21 @@ def test_notes_of_vibrations_say_which_frequencies_they_are_about() -> None:
         "a (shear, slow): idle: 1",
         "a (shear, 25 Hz): idle: 1; left: 3",
     ]
+
+
+def test_vibrations_without_any_score_are_told_once_and_are_an_error(
+    checkout: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """No empty table, and one line for all conditions and frequencies of an interface."""
+    Project(checkout).edit("config/devices/device2.yaml", lambda text: text + TOO_DEEP)
+    assert main(["vibrate", "config/devices/device2.yaml", "--frequency", "10", "20"]) == UNSOLVED
+    captured = capsys.readouterr()
+    title, empty, *told = captured.out.splitlines()
+    assert (title, empty) == ("Device 2: lateral pins (device2), small strain", "")
+    assert [line.partition(":")[0] for line in told] == [
+        f"all conditions ({interface}, slow, 10 Hz and 20 Hz)" for interface in ("shear", "frictionless")
+    ]
+    assert "nothing could be scored: no prediction: " in captured.err
 
 
 def test_forces_are_a_table_for_programs(coarse: Path, capsys: pytest.CaptureFixture[str]) -> None:

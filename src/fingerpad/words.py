@@ -65,6 +65,16 @@ def counted(conditions: Sequence[Any]) -> str:
     return f"n = {several(len(conditions), 'condition')}"
 
 
+def enumerated(names: Sequence[str]) -> str:
+    """One name or more as a sentence lists them.
+
+    >>> enumerated(["a"]), enumerated(["a", "b", "c"])
+    ('a', 'a, b and c')
+    """
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def several(count: int, what: str) -> str:
     """A count of things that take an s.
 

@@ -7,7 +7,8 @@ import argparse
 import numpy as np
 from tqdm import tqdm
 
-from ..prediction.caveats import DEEP, stimulus_caveats
+from ..arrays import FloatArray
+from ..prediction.caveats import DEEP, numbers_of, stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
@@ -32,7 +33,10 @@ TOO_WIDE = (
 # friction
 WIDE = 0.3
 TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
-TOO_SHALLOW = "contact.depth is less than the height of the skin over the outermost faces: these may bear nothing."
+TOO_SHALLOW = (
+    "contact.depth is less than the height of the skin over some actuators, which may"
+    " bear nothing; counted from the left: {clear}"
+)
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 PRESSED = {
@@ -90,7 +94,8 @@ def described(scene: Scene) -> str:
     distinct = ", ".join(condition.name for condition in device.distinct_conditions)
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
-    rise, pad = _rise(scene), scene.model.finger.pad_thickness
+    rises, pad = _rises(scene), scene.model.finger.pad_thickness
+    rise = rises.max()
     law = scene.model.contact
     wide = law.criterion is Criterion.FULL and rise > WIDE * pad
     indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
@@ -98,7 +103,7 @@ def described(scene: Scene) -> str:
     warned = {
         TOO_WIDE: wide,
         TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
-        TOO_SHALLOW: law.criterion is Criterion.DEPTH and law.depth < rise,
+        TOO_SHALLOW.format(clear=numbers_of(rises > law.depth)): law.criterion is Criterion.DEPTH and law.depth < rise,
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
@@ -116,10 +121,9 @@ def described(scene: Scene) -> str:
     )
 
 
-def _rise(scene: Scene) -> float:
-    """How far [mm] undeformed skin over the ends of the outermost faces lies above the lowest over any face."""
+def _rises(scene: Scene) -> FloatArray:
+    """How far (n_actuators,) [mm] undeformed skin over the outer end of each face lies above the lowest over any."""
     finger, row = scene.model.finger, scene.device.actuators
     centre = np.abs(row.positions)
-    ends = np.array([max(centre.min() - row.half_face, 0.0), centre.max() + row.half_face])
-    lowest, highest = finger.skin_height(ends)
-    return float(highest - lowest)
+    nearest = np.array([max(centre.min() - row.half_face, 0.0)])
+    return finger.skin_height(centre + row.half_face) - finger.skin_height(nearest)

@@ -25,7 +25,7 @@ from .options import (
     asked_scene,
     with_asked_conditions,
 )
-from .printing import aligned, print_rows, read_times, titled
+from .printing import aligned, noted, print_rows, read_times, titled
 
 PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
 COLUMNS = ("condition", "interface", "actuator", "x", "normal", "tangential", "error")
@@ -70,7 +70,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
         own = [row for row in rows if row["interface"] == interface and row[NORMAL] is not None]
         lines += [_cells(row, PRESSED) for row in own[: len(scene.device.actuators.positions)]]
         lines += [_cells(row, row["condition"]) for row in own if row["is_read"]]
-    notes = dict.fromkeys(f"{row['condition']} ({row['interface']}): {row['note']}" for row in rows if row["note"])
+    notes = noted(rows, [condition.name for condition in scene.device.conditions], lambda _: "forces")
     right = [False, False, *(True for _ in COLUMNS[2:])]
     head = [titled(scene), "forces on the skin [N/mm of finger], positive into it and to the right; x [mm]"]
     several = {condition.name for condition in scene.device.conditions if condition.time.size > 1}

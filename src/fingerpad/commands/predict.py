@@ -34,7 +34,8 @@ from .options import (
     variations,
     with_asked_conditions,
 )
-from .score_table import as_csv, as_table, named, require_scores
+from .printing import require_scores
+from .score_table import as_csv, as_table, named
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated

@@ -7,10 +7,12 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
+from ..errors import ContactError
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..store import csv_text
+from ..words import enumerated
 
 Row = TypeVar("Row", bound=Mapping[str, Any])
 
@@ -36,6 +38,37 @@ def read_times(rows: Iterable[Mapping[str, Any]]) -> str:
     """When conditions are read, each once, from rows with `time_s`, `condition` and `interface`."""
     told = (f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})" for row in rows)
     return ", ".join(dict.fromkeys(told))
+
+
+def cases(rows: Iterable[Row], every: Sequence[str], detail: Callable[[Row], str]) -> str:
+    """Which rows they are: by interface and details, each of them once, the conditions, or that it is `every` one.
+
+    >>> rows = [{"condition": name, "interface": "shear", "readout": "strain"} for name in ("a", "b")]
+    >>> cases(rows, ["a", "b", "c"], lambda row: row["readout"])
+    'a, b (shear, strain)'
+    """
+    details: dict[tuple[str, str], dict[str, None]] = {}
+    for row in rows:
+        details.setdefault((row["interface"], row["condition"]), {})[detail(row)] = None
+    conditions: dict[tuple[str, str], list[str]] = {}
+    for (interface, condition), own in details.items():
+        conditions.setdefault((interface, enumerated([*own])), []).append(condition)
+    return "; ".join(
+        f"{'all conditions' if len(every) > 1 and own == [*every] else ', '.join(own)} ({interface}, {told})"
+        for (interface, told), own in conditions.items()
+    )
+
+
+def noted(rows: Sequence[Row], every: Sequence[str], detail: Callable[[Row], str]) -> list[str]:
+    """Each note of the rows once, after the cases that it is about."""
+    notes = dict.fromkeys(row["note"] for row in rows if row["note"])
+    return [f"{cases([row for row in rows if row['note'] == note], every, detail)}: {note}" for note in notes]
+
+
+def require_scores(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Raise ContactError, with the first note, if no row has a score."""
+    if all(row["score"] is None for row in rows):
+        raise ContactError(f"nothing could be scored: {rows[0]['note']}")
 
 
 def in_order(rows: Iterable[Row]) -> list[Row]:

@@ -7,14 +7,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..errors import ContactError
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
 from ..scene.validation import shown
 from ..scene.variation import NO_VALUES
 from ..store import csv_text
-from .printing import aligned, in_order, read_times, titled
+from .printing import aligned, cases, in_order, read_times, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
 SHARE = re.compile(r"\d+(?:\.\d+)?%")
@@ -46,16 +45,10 @@ def as_csv(rows: Sequence[Mapping[str, Any]], header: bool) -> str:
     return csv_text([{**row, "caveats": "; ".join(row["caveats"])} for row in rows], header=header)
 
 
-def require_scores(rows: Sequence[Mapping[str, Any]]) -> None:
-    """Raise ContactError, with the first note, if no row has a score."""
-    if all(row["score"] is None for row in rows):
-        raise ContactError(f"nothing could be scored: {rows[0]['note']}")
-
-
 def caveat_lines(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """What to know before believing the scores of one device, each once, with those that it is about."""
     every = [condition.name for condition in scene.device.conditions]
-    return [f"caveat: {_where(own, every)}: {caveat}" for caveat, own in _told(rows)]
+    return [f"caveat: {cases(own, every, lambda row: row['readout'])}: {caveat}" for caveat, own in _told(rows)]
 
 
 def _told(rows: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, list[Mapping[str, Any]]]]:
@@ -102,20 +95,6 @@ def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 def named(values: Mapping[str, Any]) -> str:
     """What a variant differs in, in words."""
     return ", ".join(f"{key} {shown(value)}" for key, value in values.items())
-
-
-def _where(rows: Sequence[Mapping[str, Any]], every: Sequence[str]) -> str:
-    """Which scores some rows are, each condition named once an interface; or that it is `every` condition."""
-    readouts: dict[tuple[str, str], list[str]] = {}
-    for row in rows:
-        readouts.setdefault((row["interface"], row["condition"]), []).append(row["readout"])
-    conditions: dict[tuple[str, str], list[str]] = {}
-    for (interface, condition), own in readouts.items():
-        conditions.setdefault((interface, " and ".join(own)), []).append(condition)
-    return "; ".join(
-        f"{'all conditions' if len(every) > 1 and own == [*every] else ', '.join(own)} ({interface}, {both})"
-        for (interface, both), own in conditions.items()
-    )
 
 
 def _ranked(row: Mapping[str, Any]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
 from typing import Any
@@ -17,7 +17,7 @@ from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows
 from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene, with_asked_conditions
-from .printing import aligned, in_order, print_rows, titled
+from .printing import aligned, in_order, noted, print_rows, require_scores, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 2  # of the progress before vibrations: mesh, compliance
@@ -57,7 +57,7 @@ def hertz(text: str) -> float:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Vibrate the device, and print all scores once they are there."""
+    """Vibrate the device, and print all scores once they are there. Raises ContactError if there is none."""
     scene = asked(with_asked_conditions(checked_scene(options.device, options), options), options.frequency)
     total = STEPS + steps(scene)
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
@@ -67,6 +67,7 @@ def run(options: argparse.Namespace) -> None:
         bar.update()
         rows = vibration_rows(scene, section, condensed, bar.update)
     print_rows(options, rows, lambda: as_table(scene, rows))
+    require_scores(rows)
 
 
 def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
@@ -87,26 +88,22 @@ def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
-    """A table for each interface and read-out, one line per condition and one column per frequency; then the notes."""
+    """A table for each interface and read-out with scores, one line per condition and one column per frequency; then
+    the notes.
+    """
     frequencies = (SLOWLY, *scene.device.frequencies)
     header = ["condition", *map(frequency_name, frequencies)]
     parts = [titled(scene)]
     for (interface, readout), group in groupby(in_order(rows), key=lambda row: (row["interface"], row["readout"])):
         own = list(group)
+        if all(row["score"] is None for row in own):
+            continue
         cells = [
             [name, *("-" if row["score"] is None else f"{row['score']:.4g}" for row in condition)]
             for name, condition in groupby(own, key=lambda row: str(row["condition"]))
         ]
         right = [False, *(True for _ in frequencies)]
         parts.append("\n".join([f"{interface}, {readout} [{own[0]['unit']}]", *aligned([header, *cells], right)]))
-    return "\n\n".join([*parts, "\n".join(_notes(rows))]).rstrip()
-
-
-def _notes(rows: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    """Each note once for a condition and interface, with the frequencies that it is about."""
-    about: dict[tuple[str, str, str], dict[str, None]] = {}
-    for row in filter(lambda row: row["note"], rows):
-        case = row["condition"], row["interface"], row["note"]
-        about.setdefault(case, {})[frequency_name(row["frequency_hz"])] = None
-    for (condition, interface, note), frequencies in about.items():
-        yield f"{condition} ({interface}, {', '.join(frequencies)}): {note}"
+    every = [cycle.name for cycle in scene.device.cycles]
+    notes = noted(rows, every, lambda row: frequency_name(row["frequency_hz"]))
+    return "\n\n".join([*parts, "\n".join(notes)]).rstrip()

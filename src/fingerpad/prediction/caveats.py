@@ -96,9 +96,9 @@ def pressing_caveats(pressing: FloatArray) -> list[str]:
     n_actuators) [N/mm] then.
     """
     found = []
-    if idle := _numbers(pressing[0] <= 0.0):
+    if idle := numbers_of(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
-    if left := _numbers((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
+    if left := numbers_of((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
         found.append(f"actuators that leave the skin, counted from the left: {left} (positive normal points into it)")
     return found
 
@@ -144,6 +144,6 @@ def noted_rows(
     return score_rows(scene, condition, interface, read, "; ".join(caveats_of(scene, condition, solution)))
 
 
-def _numbers(which: np.ndarray) -> str:
+def numbers_of(which: np.ndarray) -> str:
     """Numbers, from 1, of the actuators that are marked (n_actuators,)."""
     return ", ".join(str(number + 1) for number in np.flatnonzero(which))
