@@ -368,7 +368,7 @@ def test_scenes_keep_their_skips(coarse: Scene) -> None:
     assert all(getattr(coarse.model.skips, field.name) for field in fields(Skips))
     off = replace(coarse.model.skips, equal_stimuli=False)
     last = coarse.device.conditions[-1].name
-    assert replace(coarse, model=replace(coarse.model, skips=off)).solved_as(last).name == last
+    assert coarse.with_model(skips=off).solved_as(last).name == last
 
 
 def test_benchmark_figure_shows_every_solver_and_where_they_are_compared() -> None:

@@ -127,7 +127,7 @@ def test_a_deck_that_calculix_refuses_is_an_error(tmp_path: Path) -> None:
 
 def finite(a_scene: Scene, law: Law) -> Scene:
     tissue = replace(a_scene.model.tissue, kinematics=Kinematics.FINITE, law=law)
-    return replace(a_scene, model=replace(a_scene.model, tissue=tissue))
+    return a_scene.with_model(tissue=tissue)
 
 
 @dataclass(frozen=True)
@@ -150,14 +150,14 @@ class Case:
 def small_case() -> Case:
     """Nodes are 0.1 mm apart on faces 1 mm wide."""
     small = on_deck(sharpened(scene("device2")), 4.0)
-    small = small.with_numerics(replace(small.model.numerics, growth=0.8, largest_size=2.0))
+    small = small.with_model(numerics=replace(small.model.numerics, growth=0.8, largest_size=2.0))
     return Case(small, mesh_device(small), SETTINGS)
 
 
 def large_case() -> Case:
     """Nodes are half as far apart, strains are large."""
     large = finite(on_deck(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
-    large = large.with_numerics(replace(large.model.numerics, growth=1.2, receptor_size=0.6, largest_size=3.0))
+    large = large.with_model(numerics=replace(large.model.numerics, growth=1.2, receptor_size=0.6, largest_size=3.0))
     return Case(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, indentation=0.8))
 
 

@@ -506,12 +506,12 @@ def test_round_actuators_say_where_they_end() -> None:
     (caveat,) = solution_caveats(domes, solution)
     assert caveat.startswith("round actuators have no flat face to cover: pre-indentation ends where contact reaches")
     law = replace(domes.model.contact, criterion=Criterion.FORCE)
-    assert solution_caveats(replace(domes, model=replace(domes.model, contact=law)), solution) == []
+    assert solution_caveats(domes.with_model(contact=law), solution) == []
 
 
 def test_no_friction_is_told_where_shear_is_asked_for() -> None:
     given = scene("device2").model.contact
-    slippery = replace(scene("device2"), model=replace(scene("device2").model, contact=replace(given, friction=0.0)))
+    slippery = scene("device2").with_model(contact=replace(given, friction=0.0))
     (told,) = scene_caveats(slippery)
     assert told.startswith("contact.friction is 0: ")
 
@@ -519,7 +519,7 @@ def test_no_friction_is_told_where_shear_is_asked_for() -> None:
 def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:
     given = scene("device2")
     gabor = replace(given.model.gabor, wavelength_change=0.1)
-    fine = replace(given, model=replace(given.model, gabor=gabor))
+    fine = given.with_model(gabor=gabor)
     (found,) = solution_caveats(fine, solved("device2", "alternate_090", Interface.SHEAR))
     assert found == "the filter's wavelength is 1.1 receptor elements: try a smaller numerics.receptor_size"
 
@@ -1295,9 +1295,9 @@ def test_robustness_varies_distinct_stimuli_with_the_kinematics_asked_for(
 def test_check_knows_depths_and_criteria() -> None:
     given = scene("device2")
     deep = replace(given.model.contact, criterion=Criterion.DEPTH, depth=1.01 * given.model.finger.pad_thickness)
-    assert TOO_FAR in told_of(replace(given, model=replace(given.model, contact=deep)))
+    assert TOO_FAR in told_of(given.with_model(contact=deep))
     touch = replace(given.model.contact, criterion=Criterion.TOUCH)
-    told = told_of(replace(given, model=replace(given.model, contact=touch)))
+    told = told_of(given.with_model(contact=touch))
     assert "; pressed until all actuators carry some skin, and held\n" in told
 
 

@@ -83,7 +83,7 @@ def test_pressing_a_device_ends_where_tissue_is_no_longer_elliptic() -> None:
     """Into half of the pad with the logarithmic law. The error names device and interface."""
     base = scene("device2").coarsened(5.0).with_kinematics(Kinematics.FINITE)
     law = replace(base.model.contact, criterion=Criterion.DEPTH, depth=2.5)
-    deep = replace(base, model=replace(base.model, contact=law, tissue=replace(base.model.tissue, law=Law.HENCKY)))
+    deep = base.with_model(contact=law, tissue=replace(base.model.tissue, law=Law.HENCKY))
     section = mesh_section(deep, nominal_edges(deep.device.actuators))
     said = r"device=device2, interface=frictionless, pre-indentation: the tissue's law is no longer elliptic"
     with pytest.raises(EllipticityError, match=said):

@@ -62,6 +62,6 @@ def test_work_of_pressing_is_stored_or_dissipated(
     base = scene("device2").coarsened(COARSER).with_kinematics(kinematics)
     numerics = base.model.numerics
     finer = replace(numerics, indentation_increments=FINER * numerics.indentation_increments)
-    curve, stored, dissipated = solve(replace(base, model=replace(base.model, numerics=finer)), interface)
+    curve, stored, dissipated = solve(base.with_model(numerics=finer), interface)
     work = float(np.trapezoid(curve[:, 1], curve[:, 0]))
     assert abs(work - stored - dissipated) < LEFT[interface][kinematics] * work

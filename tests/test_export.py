@@ -147,7 +147,7 @@ def test_every_layer_has_its_material() -> None:
 def finite_deck(law: Law) -> list[Block]:
     base = scene("device3")
     tissue = replace(base.model.tissue, kinematics=Kinematics.FINITE, law=law, ogden_exponent=9.0)
-    return parsed(replace(base, model=replace(base.model, tissue=tissue)), DECK)
+    return parsed(base.with_model(tissue=tissue), DECK)
 
 
 @pytest.mark.parametrize("law", list(Law))

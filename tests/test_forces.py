@@ -88,7 +88,7 @@ def test_every_time_of_a_history_has_its_forces() -> None:
 def too_far(given: Scene) -> Scene:
     """The scene pressed deeper than the pad is thick."""
     contact = replace(given.model.contact, criterion=Criterion.DEPTH, depth=6.0)
-    return replace(given, model=replace(given.model, contact=contact))
+    return given.with_model(contact=contact)
 
 
 def test_what_cannot_be_solved_is_a_row_with_the_reason() -> None:

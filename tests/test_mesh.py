@@ -175,7 +175,7 @@ def test_other_layers_and_outlines_mesh_too() -> None:
         replace(finger, width=14.0, height=14.0),
         replace(finger, width=20.0, height=14.0),
     ):
-        other = replace(base, model=replace(base.model, finger=changed))
+        other = base.with_model(finger=changed)
         mesh = mesh_section(other, nominal_edges(other.device.actuators))
         assert set(np.unique(mesh.layer)) == set(range(6))
 
@@ -188,7 +188,7 @@ def test_thicknesses_may_have_any_number_of_digits() -> None:
         replace(layer, thickness=thickness)
         for layer, thickness in zip(finger.pad, (1.0 / 3.0, 0.01, 4.0 / 3.0, 3.0), strict=True)
     )
-    changed = replace(base, model=replace(base.model, finger=replace(finger, pad=pad)))
+    changed = base.with_model(finger=replace(finger, pad=pad))
     mesh = mesh_section(changed, nominal_edges(changed.device.actuators))
     x, y = mesh.mesh.p[:, mesh.mesh.t]
     twice_areas = np.abs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]))
@@ -223,7 +223,7 @@ def test_a_mesh_too_large_is_a_named_error() -> None:
     """Sizes below a micrometre under every face: refused before memory runs out."""
     base = scene("device2")
     numerics = replace(base.model.numerics, edge_size=0.0003, face_size=0.0003)
-    fine = replace(base, model=replace(base.model, numerics=numerics))
+    fine = base.with_model(numerics=numerics)
     with pytest.raises(MeshError, match="more than 500000 elements"):
         mesh_section(fine, nominal_edges(fine.device.actuators))
 

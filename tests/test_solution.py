@@ -139,9 +139,7 @@ def pressed_over_faces(state: ContactState, problem: ContactProblem) -> np.ndarr
 def ending(base: Scene, criterion: Criterion, mirrored_half: bool = True, **asked: float) -> Scene:
     """The scene with another end of pre-indentation, solved on one half of the row or on all of it."""
     law = replace(base.model.contact, criterion=criterion, **asked)
-    return replace(
-        base, model=replace(base.model, contact=law, skips=replace(base.model.skips, mirrored_half=mirrored_half))
-    )
+    return base.with_model(contact=law, skips=replace(base.model.skips, mirrored_half=mirrored_half))
 
 
 @pytest.mark.parametrize("interface", Interface)
@@ -340,7 +338,7 @@ def test_rows_that_are_never_covered_say_what_helps(row: tuple[int, float, float
     way out; of three on as many it is.
     """
     wide, _ = row_of(*row, [0.0] * row[0])
-    wide = wide.with_numerics(replace(wide.model.numerics, contact_margin=1.0))
+    wide = wide.with_model(numerics=replace(wide.model.numerics, contact_margin=1.0))
     found = condense_section(mesh_section(wide, nominal_edges(wide.device.actuators)), wide)
     with pytest.raises(CriterionError, match="may need less indentation, as a narrower row does") as failure:
         indent_device(wide, found, None, Interface.SHEAR)
@@ -364,7 +362,7 @@ def test_where_close_faces_are_covered_does_not_hang_on_rounding() -> None:
     for mirrored_half, inactive_nodes in ((True, True), (True, False), (False, True)):
         asked = ending(base, Criterion.FULL, mirrored_half)
         skips = replace(asked.model.skips, inactive_nodes=inactive_nodes)
-        asked = replace(asked, model=replace(asked.model, skips=skips))
+        asked = asked.with_model(skips=skips)
         heights.append(indent_device(asked, found, None, Interface.SHEAR).state.actuator[0, 1])
     assert heights == pytest.approx([heights[0]] * 3, abs=END_TOLERANCE)
 
@@ -373,7 +371,7 @@ def test_where_close_faces_are_covered_does_not_hang_on_rounding() -> None:
 def test_actuators_that_all_touch_at_once_are_pressed_no_further(increments: int) -> None:
     """By the first step, however long increments are, they would go past where each touches."""
     base, still = row_of(2, 3.0, 2.0, [0.0] * 2)
-    base = base.with_numerics(replace(base.model.numerics, indentation_increments=increments))
+    base = base.with_model(numerics=replace(base.model.numerics, indentation_increments=increments))
     found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
     touching = ending(base, Criterion.TOUCH)
     solution = solve_condition(touching, found, None, still, Interface.SHEAR)
@@ -397,7 +395,7 @@ def test_a_criterion_that_is_met_just_within_the_limit_is_met() -> None:
 def test_a_stimulus_is_not_blamed_for_where_pressing_ended() -> None:
     """Five pins on so curved a pad: with little skin beside them, contact leaves it before anything has moved."""
     base = scene("device2")
-    base = base.with_numerics(replace(base.model.numerics, contact_margin=0.25))
+    base = base.with_model(numerics=replace(base.model.numerics, contact_margin=0.25))
     still = lateral("still", [0.0] * 5)
     row = replace(base.device.actuators, positions=(-5.0, -2.5, 0.0, 2.5, 5.0))
     wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,), cycles=()))
@@ -660,7 +658,7 @@ def test_a_long_stroke_is_not_halved_again_and_again() -> None:
     pressed = indent_device(base, found, None, Interface.SHEAR)
     few, many = (
         follow_condition(
-            base.with_numerics(replace(base.model.numerics, stimulus_increments=count)),
+            base.with_model(numerics=replace(base.model.numerics, stimulus_increments=count)),
             pressed.problem,
             pressed.state,
             condition,
@@ -787,7 +785,9 @@ def test_a_larger_margin_considers_as_much_more_skin() -> None:
     base = scene("device2")
     section, numerics = mesh_device(base), base.model.numerics
     near, far = (
-        contact_tractions(section, base.with_numerics(replace(numerics, contact_margin=margin))).position[:, 0].max()
+        contact_tractions(section, base.with_model(numerics=replace(numerics, contact_margin=margin)))
+        .position[:, 0]
+        .max()
         for margin in (0.25, 0.6)
     )
     assert far - near == pytest.approx(0.35, abs=numerics.face_size)
@@ -799,7 +799,7 @@ def test_skin_on_the_mid_line_is_left_out_only_where_no_face_gets_near() -> None
     section = mesh_device(base)
     for stroke, reached in ((0.3, False), (0.4, True)):  # the inner pins' faces end 0.75 mm beside it
         moved = replace(base, device=replace(base.device, conditions=(lateral("moved", [stroke] * 4),), cycles=()))
-        x = contact_tractions(section, moved.with_numerics(margin)).position[:, 0]
+        x = contact_tractions(section, moved.with_model(numerics=margin)).position[:, 0]
         assert (0.0 in x) is reached
 
 

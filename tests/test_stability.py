@@ -94,7 +94,7 @@ def test_a_vertical_tangent_is_a_named_error() -> None:
     which cannot sway, tissue is turned inside out first.
     """
     given = arch(16.0, 14.0)
-    swaying = replace(given, model=replace(given.model, skips=replace(given.model.skips, mirrored_half=False)))
+    swaying = given.with_model(skips=replace(given.model.skips, mirrored_half=False))
     with pytest.raises(SnapError, match=r"device=arch.*pre-indentation.*% of the way.* would snap"):
         pressed(swaying, 5.2)
     with pytest.raises((SnapError, InvertedError), match=r"device=arch.*pre-indentation.*% of the way"):

@@ -180,7 +180,7 @@ def test_any_friction_is_answered() -> None:
         if scene.device.actuators.body is not None:  # its condensation is tested elsewhere
             continue
         contact = replace(scene.model.contact, friction=float(friction))
-        scene = replace(scene, model=replace(scene.model, contact=contact))
+        scene = scene.with_model(contact=contact)
         asked += 1
         try:
             solution = solve_condition(scene, condensed(group), None, scene.device.conditions[0], Interface.SHEAR)

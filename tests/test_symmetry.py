@@ -31,7 +31,7 @@ SHARE = 1e-5  # of the largest [1]; forces at edges, pressed by some 0.01 mm, fo
 
 
 def without_halves(base: Scene) -> Scene:
-    return replace(base, model=replace(base.model, skips=replace(base.model.skips, mirrored_half=False)))
+    return base.with_model(skips=replace(base.model.skips, mirrored_half=False))
 
 
 def with_row(row: ActuatorRow, device: str = "device2") -> Scene:

@@ -48,9 +48,7 @@ def coarse(device: str = "device2", layers: tuple[str, ...] | None = None, sharp
     vibration = replace(base.model.vibration, relaxation=replace(relaxation, layers=layers or relaxation.layers))
     row = base.device.actuators
     actuators = ActuatorRow(row.positions, row.width, 0.0) if sharp else row
-    return replace(
-        base, model=replace(base.model, vibration=vibration), device=replace(base.device, actuators=actuators)
-    )
+    return replace(base, device=replace(base.device, actuators=actuators)).with_model(vibration=vibration)
 
 
 def every_layer() -> tuple[str, ...]:
@@ -280,7 +278,7 @@ def test_inertia_grows_with_the_square_of_frequency_and_is_nothing_without_mass(
     given, section = coarse(), mesh(("device2", False))
     cycle, indented = given.device.cycles[0], pressed(Interface.SHEAR)
     vibration = replace(given.model.vibration, density=1e-24)
-    lightest = replace(given, model=replace(given.model, vibration=vibration))
+    lightest = given.with_model(vibration=vibration)
     effects = []
     for frequency in (40.0, 80.0):
         at, light = (condense_vibrating(section, each, frequency) for each in (given, lightest))

@@ -90,7 +90,7 @@ def _with_increments(scene: Scene, other: Scene, factor: float = 1.0) -> Scene:
         indentation_increments=round(counts.indentation_increments / factor),
         stimulus_increments=round(counts.stimulus_increments / factor),
     )
-    return scene.with_numerics(numerics)
+    return scene.with_model(numerics=numerics)
 
 
 def _measured(varied: str, scene: Scene, repeats: int) -> Row:

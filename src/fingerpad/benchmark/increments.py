@@ -31,7 +31,7 @@ def increment_rows(
             indentation_increments=multiple * numerics.indentation_increments,
             stimulus_increments=multiple * numerics.stimulus_increments,
         )
-        rows = predicted_rows(scene.with_numerics(finer), condensed)
+        rows = predicted_rows(scene.with_model(numerics=finer), condensed)
         scores = {case_of(row): float(row["score"]) for row in rows}
         if not first:
             first = scores

@@ -36,7 +36,7 @@ def plain_scores(
     the stimulus [1]. Raises MeshError, CondensationError, ContactError.
     """
     skips = replace(scene.model.skips, halved_condensation=False, inactive_nodes=False)
-    scene = replace(scene, model=replace(scene.model, skips=skips))
+    scene = scene.with_model(skips=skips)
     condensed = condense_section(section, scene)
     problem = contact_problem(scene, condensed, None, Interface.SHEAR)
     state = rest(problem, touching_height(problem))

@@ -120,7 +120,7 @@ def _finds_something(switch: str, scene: Scene) -> bool:
 
 def _without(scene: Scene, switch: str) -> Scene:
     """The scene with one skip off."""
-    return replace(scene, model=replace(scene.model, skips=replace(scene.model.skips, **{switch: False})))
+    return scene.with_model(skips=replace(scene.model.skips, **{switch: False}))
 
 
 def _in_turn(scenes: Sequence[Scene], repeats: int) -> list[_Measured]:

@@ -83,7 +83,7 @@ def on_deck(scene: Scene, coarsening: float) -> Scene:
         face_size=coarsening * DECK_FACE_SIZE,
         receptor_size=coarsening * DECK_RECEPTOR_SIZE,
     )
-    return scene.with_numerics(numerics)
+    return scene.with_model(numerics=numerics)
 
 
 def sharpened(scene: Scene) -> Scene:
@@ -106,7 +106,7 @@ def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings
     indenting = friction if case["friction"] == "always" else 0.0
     if scene.kinematics is Kinematics.FINITE:
         tissue = replace(scene.model.tissue, law=Law(case["law"]))
-        scene = replace(scene, model=replace(scene.model, tissue=tissue))
+        scene = scene.with_model(tissue=tissue)
     depth = case["indentation"]
     if depth == "full":
         depth = indented_height(scene, mesh_device(scene), Interface.SHEAR if indenting else Interface.FRICTIONLESS)

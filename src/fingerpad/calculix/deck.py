@@ -220,7 +220,7 @@ def _sides_of(mesh: MeshTri2, facets: np.ndarray) -> list[tuple[int, int]]:
 def _heading(scene: Scene, condition: Condition, settings: DeckSettings) -> list[str]:
     return [
         "*HEADING",
-        f"{scene.device.title}; condition {condition.name}; made by fingerpad",
+        f"Made by fingerpad: {scene.device.title}; condition {condition.name}",  # a title may begin with an asterisk
         f"** Units: mm, N, MPa. Plane strain, thickness 1 mm: forces are per mm. {kinematics_told(scene.model.tissue)}",
         "** x runs along the row of actuators, y into the finger; the pad's lowest point is the origin.",
         f"** Friction: pre-indentation {settings.friction_indenting:g}, stimulus {settings.friction_acting:g}.",

@@ -77,4 +77,4 @@ def _rubbing(scene: Scene, friction: float) -> Scene:
     """The scene with that friction [1], and as many increments of pre-indentation as the cross-check needs."""
     contact = replace(scene.model.contact, friction=friction)
     numerics = replace(scene.model.numerics, indentation_increments=INDENTATION_INCREMENTS)
-    return replace(scene, model=replace(scene.model, contact=contact, numerics=numerics))
+    return scene.with_model(contact=contact, numerics=numerics)

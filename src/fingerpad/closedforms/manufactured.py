@@ -92,4 +92,4 @@ def uniform(scene: Scene, size: float) -> Scene:
         receptor_size=size,
         largest_size=size,
     )
-    return scene.with_numerics(numerics)
+    return scene.with_model(numerics=numerics)

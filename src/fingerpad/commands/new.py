@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import shutil
 from pathlib import Path
 
-from ..checkout import find_checkout
+from ..checkout import find_checkout, model_for
 from ..errors import UsageError
 from ..files import write_text
 from ..scene.scenefile import recordings
@@ -18,7 +19,7 @@ from .options import existing_file
 DESCRIPTION = """\
 Write config/devices/NAME.yaml with the values of another device and a comment on every key: what it is, its unit, what
 is allowed, and how to change the drive. Its sources name the other device. An existing file is never overwritten. With
---scenes the file goes to devices/ in a folder of your own, with the model beside it.
+--scenes the file goes to devices/ in a folder of your own, with the other device's model beside it.
 
 examples:
   fingerpad new mydevice --from device2
@@ -52,7 +53,8 @@ def run(options: argparse.Namespace) -> None:
     target = scenes / "devices" / f"{options.name}.yaml"
     is_file = options.source.endswith(".yaml")
     source = existing_file(Path(options.source)) if is_file else require_device(options.source, checkout.devices)
-    check_device(source, checkout.schemas, checkout.config)
+    model = model_for(source)
+    check_device(source, checkout.schemas, model)
     text = device_text(options.name, source.stem, *checked_document(source, checkout.schemas / "device.schema.yaml"))
     copies = {path: target.parent / path.relative_to(source.parent) for path in recordings(source)}
     copies = {path: copy for path, copy in copies.items() if path.resolve() != copy.resolve()}
@@ -60,13 +62,13 @@ def run(options: argparse.Namespace) -> None:
         if path.exists():
             way = "choose another name" if path == target else f"rename the recording and its `file:` key in {source}"
             raise UsageError(f"{path}: exists already, and is not overwritten; {way}, or remove it")
-    if not (model := scenes / "config.yaml").exists():
-        copies[checkout.config] = model
+    if not (own := scenes / "config.yaml").exists():
+        copies[model] = own
     for path, copy in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, copy)
     target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
-    shown, own = os.path.relpath(target), f" --config scenes={options.scenes}" if options.scenes else ""
-    following = f"fingerpad check {shown}", f"fingerpad predict {shown}", f"snakemake all{own}"
-    print("\n  ".join([f"{shown}: written. Edit it, then:", *following]))
+    shown, how = os.path.relpath(target), ["--config", f"scenes={options.scenes}"] if options.scenes else []
+    following = ["fingerpad", "check", shown], ["fingerpad", "predict", shown], ["snakemake", "all", *how]
+    print("\n  ".join([f"{shown}: written. Edit it, then:", *map(shlex.join, following)]))

@@ -183,7 +183,7 @@ def existing_file(device: Path) -> Path:
         return device
     found, folders = "a folder" if device.is_dir() else "no such file", [device.parent]
     with suppress(UsageError):
-        folders.append(find_checkout(Path.cwd()).devices)
+        folders.insert(0, find_checkout(Path.cwd()).devices)  # of two of one name that beside it is meant
     known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
     close = [] if device.is_dir() else get_close_matches(device.stem, known, n=1)
     hint = f"; did you mean {os.path.relpath(known[close[0]])}?" if close else ""

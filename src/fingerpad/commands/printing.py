@@ -36,7 +36,7 @@ def print_rows(options: argparse.Namespace, rows: Sequence[Row], text: Callable[
 
 def read_times(rows: Iterable[Mapping[str, Any]]) -> str:
     """When conditions are read, each once, from rows with `time_s`, `condition` and `interface`."""
-    told = (f"{row['time_s']:.4g} ({row['condition']}, {row['interface']})" for row in rows)
+    told = (f"{row['time_s']:.9g} ({row['condition']}, {row['interface']})" for row in rows)
     return ", ".join(dict.fromkeys(told))
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from ..rounding import rounded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
-from ..scene.validation import shown
+from ..scene.validation import written
 from ..scene.variation import NO_VALUES
 from ..store import csv_text
 from .printing import aligned, cases, in_order, read_times, titled
@@ -93,8 +93,8 @@ def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def named(values: Mapping[str, Any]) -> str:
-    """What a variant differs in, in words."""
-    return ", ".join(f"{key} {shown(value)}" for key, value in values.items())
+    """What a variant differs in, in words, whole, as variants may differ at the end of a long value."""
+    return ", ".join(f"{key} {written(value)}" for key, value in values.items())
 
 
 def _ranked(row: Mapping[str, Any]) -> str:

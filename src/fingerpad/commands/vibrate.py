@@ -39,7 +39,12 @@ def add(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     add_device(parser)
     parser.add_argument(
-        "--frequency", type=hertz, nargs="+", metavar="HZ", help="frequencies (default: the file's frequency_hz)"
+        "--frequency",
+        action="extend",
+        type=hertz,
+        nargs="+",
+        metavar="HZ",
+        help="frequencies (default: the file's frequency_hz)",
     )
     add_conditions(parser)
     add_forms(parser, "a list of objects, one a score", "the columns of results/frequency.csv")

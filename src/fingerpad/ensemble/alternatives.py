@@ -137,9 +137,14 @@ def member_scenes(
 def _varied(document: Document, alternative: Alternative) -> Document:
     """The document with the alternative in place of its own value. Raises SceneError if it has none."""
     known, key = dict(quantities_of(document)), by_number(alternative.key, [document])
-    if key not in known:
-        raise no_such_value(key, "config.yaml", list(known))
+    require_written(key, known)
     return with_value(document, key, alternative.instead_of(known[key]["value"]), f"varied: {alternative.source}")
+
+
+def require_written(key: str, known: Mapping[str, Any]) -> None:
+    """Raise SceneError unless an alternative's key is one of those in config.yaml."""
+    if key not in known:
+        raise SceneError(f"ensemble: {no_such_value(key, 'config.yaml', list(known))}")
 
 
 def assuming(devices: Mapping[str, Document], key: str) -> list[str]:

@@ -12,8 +12,8 @@ from ..readouts.accuracy import error_in_proportion, has_error
 from ..readouts.comparison import SAME
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
-from ..scene.variation import Document, by_number, no_such_value, quantities_of
-from .alternatives import HALF_CYCLE, HALF_CYCLES, Alternative, is_assumed
+from ..scene.variation import Document, by_number, quantities_of
+from .alternatives import HALF_CYCLE, HALF_CYCLES, Alternative, is_assumed, require_written
 
 OTHER_HALF = "assumption: the other half of the stimulus' cycle"
 
@@ -58,8 +58,8 @@ def varied_values(config: Document, device: Document, alternatives: Sequence[Alt
     found = {}
     for each in (*alternatives, *halves):
         key = by_number(each.key, [config])
-        if each.part == "model" and key not in of_model:
-            raise no_such_value(key, "config.yaml", list(of_model))
+        if each.part == "model":
+            require_written(key, of_model)
         quantity = (own if each.part == "devices" else of_model | own).get(key)
         if quantity is None or (key in own and not is_assumed(quantity)):
             continue

@@ -100,7 +100,7 @@ def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pr
     scene = pins_at_rest(model, len(row.positions), pitch, width, row.edge_radius)
     fine = _pressed(scene, pad.fine)
     try:
-        return fine, _pressed(scene.with_numerics(model.numerics.coarsened(COARSENING)), pad.coarse)
+        return fine, _pressed(scene.with_model(numerics=model.numerics.coarsened(COARSENING)), pad.coarse)
     except ContactError as error:
         return fine, str(error)
 
@@ -152,7 +152,7 @@ def _moved(row: PressedRow, condition: Condition) -> Answer:
 def _as_meshed(scene: Scene) -> Scene:
     """The scene with the size of the pad's elements at the edges."""
     numerics = scene.model.numerics
-    return scene.with_numerics(replace(numerics, edge_size=SIZE * numerics.edge_size))
+    return scene.with_model(numerics=replace(numerics, edge_size=SIZE * numerics.edge_size))
 
 
 def _condensed(scene: Scene, reach: float) -> Condensed:

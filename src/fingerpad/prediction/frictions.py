@@ -29,7 +29,7 @@ def friction_rows(scene: Scene) -> Iterator[dict[str, Any]]:
         condensed = prepared(scene, edge_intervals(scene))
         for friction in FRICTIONS:
             law = replace(scene.model.contact, friction=friction)
-            variant = replace(scene, model=replace(scene.model, contact=law))
+            variant = scene.with_model(contact=law)
             for solved in solve_scene(variant, condensed, [Interface.SHEAR]):
                 if isinstance(solved.solution, UnsolvedError):
                     continue

@@ -40,7 +40,7 @@ def on_both_sides(scene: Scene, own: CondensedSection, mesh: SectionMesh) -> dic
     configured = scene.model.readout.side
     (other,) = set(Side) - {configured}
     readout = replace(scene.model.readout, side=other)
-    there = condense_section(mesh, replace(scene, model=replace(scene.model, readout=readout)))
+    there = condense_section(mesh, scene.with_model(readout=readout))
     return {configured: own, other: there}
 
 
@@ -106,4 +106,4 @@ def _with_wavelengths(scene: Scene, factor: float) -> Scene:
         wavelength_strain=factor * gabor.wavelength_strain,
         wavelength_change=factor * gabor.wavelength_change,
     )
-    return replace(scene, model=replace(scene.model, gabor=changed))
+    return scene.with_model(gabor=changed)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ..requirements import require
 from .contact_law import ContactLaw
@@ -98,8 +99,11 @@ class Scene:
 
     def with_kinematics(self, kinematics: Kinematics) -> Scene:
         """The scene with other kinematics."""
-        tissue = replace(self.model.tissue, kinematics=kinematics)
-        return replace(self, model=replace(self.model, tissue=tissue))
+        return self.with_model(tissue=replace(self.model.tissue, kinematics=kinematics))
+
+    def with_model(self, **parts: Any) -> Scene:
+        """The scene with other parts of its model, by their names."""
+        return replace(self, model=replace(self.model, **parts))
 
     def with_conditions(self, conditions: Iterable[Condition]) -> Scene:
         """The scene with other conditions of its device; as vibrations those that it has under these names."""
@@ -107,10 +111,6 @@ class Scene:
         cycles = tuple(cycle for cycle in self.device.cycles if any(cycle.name == each.name for each in kept))
         return replace(self, device=replace(self.device, conditions=kept, cycles=cycles))
 
-    def with_numerics(self, numerics: Numerics) -> Scene:
-        """The scene with other numerics."""
-        return replace(self, model=replace(self.model, numerics=numerics))
-
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""
-        return self.with_numerics(self.model.numerics.coarsened(factor))
+        return self.with_model(numerics=self.model.numerics.coarsened(factor))

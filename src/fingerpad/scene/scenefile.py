@@ -28,9 +28,10 @@ from .stimuli import CYCLES, KINDS
 from .tissue_law import Kinematics, Law, TissueLaw
 from .vibration_rule import Relaxation, VibrationRule
 
-MERGE, TEXT, INTEGER, FLOAT = (f"tag:yaml.org,2002:{name}" for name in ("merge", "str", "int", "float"))
-# numbers as YAML 1.2 has them; PyYAML reads YAML 1.1, in which 045 is 37, 1:30 is 90, and 1e-3 a text
-NUMBERS = {
+MERGE, TEXT, BOOLEAN, INTEGER, FLOAT = (f"tag:yaml.org,2002:{end}" for end in ("merge", "str", "bool", "int", "float"))
+# as YAML 1.2 has them; PyYAML reads YAML 1.1, in which 045 is 37, 1:30 is 90, 1e-3 a text, and a condition `off` false
+PLAIN = {
+    BOOLEAN: r"(true|True|TRUE|false|False|FALSE)$",
     INTEGER: r"[-+]?[0-9]+$",
     FLOAT: r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$|[-+]?\.(inf|Inf|INF)$|\.(nan|NaN|NAN)$",
 }
@@ -44,12 +45,12 @@ LARGEST_FILE = 10_000_000  # bytes; source: the longest history that the schema 
 
 
 class _Loader(yaml.SafeLoader):
-    """Refuses what PyYAML would take: a key twice (it takes the last), merges, and aliases of aliases, which make lists
-    beyond any memory from a few lines. Its numbers are NUMBERS.
+    """Refuses what PyYAML would take: a key twice (it takes the last), merges, tags, and aliases of aliases, which make
+    lists beyond any memory from a few lines. Its numbers and truths are PLAIN.
     """
 
     yaml_implicit_resolvers = {  # noqa: RUF012 - PyYAML's own name, which it copies before it adds to it
-        first: [each for each in known if each[0] not in NUMBERS]
+        first: [each for each in known if each[0] not in PLAIN]
         for first, known in yaml.SafeLoader.yaml_implicit_resolvers.items()
     }
 
@@ -61,9 +62,12 @@ class _Loader(yaml.SafeLoader):
             raise yaml.MarkedYAMLError(problem=problem)
         return node
 
-    def construct_undefined(self, node: yaml.Node) -> Any:
-        tag = node.tag.replace("tag:yaml.org,2002:", "!!")
-        raise yaml.MarkedYAMLError(problem=f"found the tag {tag}, allowed: none", problem_mark=node.start_mark)
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        event = self.peek_event()  # type: ignore[no-untyped-call]  # so are the stubs
+        if (tag := getattr(event, "tag", None)) is not None:
+            tag = tag.replace("tag:yaml.org,2002:", "!!")
+            raise yaml.MarkedYAMLError(problem=f"found the tag {tag}, allowed: none", problem_mark=event.start_mark)
+        return super().compose_node(parent, index)
 
     def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
         node = super().compose_mapping_node(anchor)
@@ -85,10 +89,9 @@ class _Loader(yaml.SafeLoader):
         return int(node.value)
 
 
-for _tag, _pattern in NUMBERS.items():
-    _Loader.add_implicit_resolver(_tag, re.compile(_pattern), list("-+.0123456789"))
+for _tag, _pattern in PLAIN.items():
+    _Loader.add_implicit_resolver(_tag, re.compile(_pattern), list("-+.0123456789tTfF"))
 _Loader.add_constructor(INTEGER, _Loader.construct_integer)
-_Loader.add_constructor(None, _Loader.construct_undefined)
 
 
 def read_yaml(path: Path) -> dict[str, Any]:

@@ -407,10 +407,12 @@ def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
 
 
 def _meant_value(schema: Schema, found: Any, unit: str) -> str:
-    """The value of a quantity for which a value alone was found: where it must be a number, the one in a text."""
+    """The value of a quantity for which a value alone was found: where it must be a number, it or the one in a text."""
     kind = schema.get("type")
-    if kind not in ("number", "integer") or not isinstance(found, str):
+    if kind not in ("number", "integer"):
         return shown(found)
+    if not isinstance(found, str):
+        return shown(found) if is_number(found) else "..."
     return _meant_number(schema, found, unit).removesuffix(".0" if kind == "integer" else "") or "..."
 
 
@@ -457,8 +459,8 @@ def _closest(word: object, known: Iterable[str]) -> str:
 
 def _as_name(text: object) -> str:
     """The name that comes nearest to a text that is none, or nothing."""
-    if isinstance(text, bool):  # an unquoted no, which YAML takes for false
-        return f'"{"yes" if text else "no"}" in quotes'
+    if isinstance(text, bool):
+        return f'"{str(text).lower()}" in quotes'
     plain = re.sub("[\u0300-\u036f]", "", unicodedata.normalize("NFKD", str(text)))  # without accents
     if not plain.isascii():
         return ""
@@ -478,8 +480,13 @@ def _shown_name(name: object) -> str:
     return text if text.isascii() and text.isprintable() and text else ascii(text)
 
 
-def shown(value: object) -> str:
-    """A value as YAML would write it, on one line, cut if it is long."""
+def written(value: object) -> str:
+    """A value as YAML would write it, on one line."""
     text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=True, width=sys.maxsize)
-    text = " ".join(text.removesuffix("...\n").split())
+    return " ".join(text.removesuffix("...\n").split())
+
+
+def shown(value: object) -> str:
+    """A value in a message: as YAML would write it, cut if it is long."""
+    text = written(value)
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."

@@ -76,11 +76,14 @@ def with_value(document: Document, key: str, value: Any, source: str) -> Documen
 def shared_out(values: Mapping[str, Any], documents: Mapping[Path, Document]) -> dict[Path, dict[str, Any]]:
     """The values of some keys by the first of the files that has a quantity there.
 
-    Raises SceneError, with the key that was probably meant, if none has.
+    Raises SceneError, with the key that was probably meant, if none has, and UsageError if two of the keys are one, a
+    layer's called by its name and by its number.
     """
     found: dict[Path, dict[str, Any]] = {path: {} for path in documents}
     for asked, value in values.items():
         owner, key = _located(asked, documents)
+        if key in found[owner]:
+            raise UsageError(f"vary: found two keys that both are {key}; allowed: one, with all its values")
         found[owner][key] = value
     return found
 

@@ -93,4 +93,4 @@ def stiffened(scene: Scene, rate: complex) -> Scene:
         )
         for layers in (finger.pad, finger.dorsal)
     )
-    return replace(scene, model=replace(scene.model, finger=replace(finger, pad=pad, dorsal=dorsal)))
+    return scene.with_model(finger=replace(finger, pad=pad, dorsal=dorsal))

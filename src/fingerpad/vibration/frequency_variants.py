@@ -30,7 +30,7 @@ def _relaxation_variants(scene: Scene) -> dict[str, Scene]:
         ),
     }
     return {
-        name: replace(scene, model=replace(scene.model, vibration=replace(scene.model.vibration, relaxation=variant)))
+        name: scene.with_model(vibration=replace(scene.model.vibration, relaxation=variant))
         for name, variant in variants.items()
     }
 
