@@ -262,7 +262,7 @@ def test_unrated_conditions_with_one_score_share_a_place() -> None:
     correlations = correlation_table(scores, RATINGS[:0], ORDER[:0], PUBLISHED[:0])
     figure = correlation_figure(scores, RATINGS[:0], correlations, {"unrated": "Histories"}, Kinematics.SMALL)
     for axes in figure.axes:
-        assert [label.get_text() for label in axes.get_yticklabels()] == ["push\nand 1 more"]
+        assert [label.get_text() for label in axes.get_yticklabels()] == ["push +1"]
         assert {line.get_ydata()[0] for line in axes.lines} == {1.0}
 
 

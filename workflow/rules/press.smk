@@ -72,7 +72,16 @@ rule indentation:
     params:
         code=code("indentation.py"),
         scenes=support.fingerprint(
-            [(each.model.contact, each.model.numerics, each.model.skips, each.device) for each in SCENE.values()]
+            [
+                (
+                    each.model.contact,
+                    each.model.numerics,
+                    each.model.skips,
+                    each.device.actuators,
+                    each.device.interfaces(),
+                )
+                for each in SCENE.values()
+            ]
         ),
     script:
         "../scripts/indentation.py"

@@ -48,7 +48,7 @@ from .style import (
 
 ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
 STATISTICS_WIDTH = 22  # characters in a line beside a panel
-MOST_NAMES = 8  # lines of conditions' names that fit a panel's height
+MOST_NAMES = 8  # conditions' names that fit a panel's height
 TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
@@ -86,7 +86,8 @@ def correlation_figure(
         row[0].set_title(as_title(figure, title, len(Readout)), loc="left")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    said = caption(correlations, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
+    shown = correlations[correlations["interface"] == Interface.SHEAR]
+    said = caption(shown, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
     legend_below(figure, as_points(styles.legend), said, as_points(styles.spreads))
     return figure
 
@@ -139,8 +140,8 @@ def correlation_panel(
 def _name_places(axes: Axes, place: FloatArray, names: Sequence[str]) -> None:
     """Names of conditions at their places, lowest score first; places alone where names would not fit."""
     groups = [[name for name, at in zip(names, place, strict=True) if at == each] for each in np.unique(place)]
-    said = [first if not others else f"{first}\nand {len(others)} more" for first, *others in groups]
-    if sum(1 + each.count("\n") for each in said) <= MOST_NAMES:
+    said = [f"{first} +{len(others)}" if others else first for first, *others in groups]
+    if len(said) <= MOST_NAMES:
         axes.set_yticks(np.unique(place), said)
     else:
         axes.locator_params(axis="y", integer=True)

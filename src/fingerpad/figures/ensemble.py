@@ -15,7 +15,7 @@ from ..perception.statements import Kind
 from ..perception.verdicts import Holds
 from ..scene.tissue_law import Kinematics
 from ..words import KINEMATICS_NAME
-from .style import BLUE, GREY, VERMILLION, WIDE, legend_below, new_figure, styled, subtitle
+from .style import BLUE, GREY, VERMILLION, WIDE, legend_below, new_figure, note_in, styled, subtitle
 
 ROW_HEIGHT, LETTER, LEGEND_HEIGHT = 6.6, 1.35, 30.0  # mm: of a statement, of a letter of a name, of title and legend
 CLAIM_WIDTH = 54  # characters in a line of a statement
@@ -26,6 +26,7 @@ MARKS: dict[Holds, dict[str, Any]] = {
     Holds.NO: {"marker": "x", "color": VERMILLION},
     Holds.UNDECIDED: {"marker": "o", "color": GREY, "fillstyle": "none"},
 }
+NO_STATEMENT = "no statement: these are about the paper's devices"
 CAPTION = (
     "n = {count} members: in each one assumption is varied, as named below, or none. Left mark of a pair:"
     " first half-cycle of the stimulus, right: second. No mark: a path that could not be followed, or no prediction."
@@ -36,10 +37,14 @@ CAPTION = (
 
 @styled
 def ensemble_figure(claims: pd.DataFrame) -> Figure:
-    """A mark for every statement, member and half-cycle.
+    """A mark for every statement, member and half-cycle; a note where no statement is about the devices.
 
     claims: rows of results/ensemble_claims.csv with one kinematics.
     """
+    if claims.empty:
+        figure = new_figure(WIDE, LEGEND_HEIGHT)
+        note_in(figure.subplots(), NO_STATEMENT)
+        return figure
     (kinematics,) = claims["kinematics"].unique()
     statements, members = list(claims["claim"].unique()), list(claims["varied"].unique())
     height = ROW_HEIGHT * len(statements) + LETTER * max(map(len, members)) + LEGEND_HEIGHT

@@ -31,10 +31,10 @@ from .style import (
     subtitle,
 )
 
-HEIGHT, SLANTED = 100.0, 34.0  # mm, and what slanted labels take besides
+HEIGHT, UPRIGHT = 100.0, 34.0  # mm, and what upright labels take besides
 WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
-LONG = 6  # characters of a condition's name beyond which names are slanted
+LONG = 6  # characters of a condition's name beyond which names stand upright
 HEADROOM = 1.45  # of the bars' axis over the tallest bar [1]
 MOST_NUMBERS, MOST_NAMES = 5, 12  # conditions whose scores fit above their bars, and whose names below
 NUMBERS = "Small strain. Above bars: scores and their stated errors of discretisation."
@@ -51,8 +51,8 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
     device, gabor = scene.device, scene.model.gabor
     styles = condition_styles(conditions_of([device]))
     names = [shortened(styles.series[device.name, condition.name].label) for condition in device.conditions]
-    slanted = max(map(len, names)) > LONG
-    figure = new_figure(WIDE, HEIGHT + (SLANTED if slanted else 0.0))
+    upright = max(map(len, names)) > LONG
+    figure = new_figure(WIDE, HEIGHT + (UPRIGHT if upright else 0.0))
     grid = figure.subplots(len(Readout), len(WIDTHS), width_ratios=WIDTHS)
     for row, readout in zip(grid, Readout, strict=True):
         receptors, filtered, bars = row
@@ -66,7 +66,7 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
         _draw_curves(receptors, filtered, entry, readout, styles)
         own = scores[scores["readout"] == readout].set_index("condition")
         _draw_bars(bars, own.reindex([condition.name for condition in device.conditions]), device, readout, styles)
-        _name_bars(bars, names, slanted)
+        _name_bars(bars, names, upright)
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     grid[-1][2].set_xlabel(_what_bars_are(names, device))
@@ -109,10 +109,10 @@ def _draw_bars(axes: Axes, scores: pd.DataFrame, device: Device, readout: Readou
     axes.set_ylabel(score_label(readout, str(scores["unit"].iloc[0]), in_two_lines=True))
 
 
-def _name_bars(axes: Axes, names: Sequence[str], slanted: bool) -> None:
+def _name_bars(axes: Axes, names: Sequence[str], upright: bool) -> None:
     """Conditions' names below their bars, unless there are too many."""
     named = names if len(names) <= MOST_NAMES else ()
-    axes.set_xticks(range(len(named)), named, rotation=30.0 if slanted else 0.0, ha="right" if slanted else "center")
+    axes.set_xticks(range(len(named)), named, rotation=90.0 if upright else 0.0)
 
 
 def _what_bars_are(names: Sequence[str], device: Device) -> str:

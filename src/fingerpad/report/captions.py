@@ -103,7 +103,7 @@ def rules_words(graph: Sequence[Row]) -> Words:
 def _correlation_words(row: Row) -> str:
     """One row of the table of correlations as a phrase: R² with its range, slope, tau, p and n."""
     if not row["r2"]:
-        return f"{row['note']}, n = {row['n']}"
+        return f"{row['note']}, n = {row['n']}" if row["n"] != "0" else row["note"]
     p = f", p {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
     tau = tau_text(row)
     return f"R² = {float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}, τ = {tau}{p}, n = {row['n']}"
@@ -205,7 +205,8 @@ def _ablation(results: Results) -> Words:
     return Words(
         "Every score with and without shear",
         "Bars of strain scores (left) and change-of-strain scores (right) of every condition, with and without shear.",
-        f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}.{_range(results)} {ERROR_BARS}",
+        f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}.{_range(results, with_tau=False)}"
+        f" {ERROR_BARS}",
     )
 
 
@@ -276,13 +277,12 @@ def _r2(row: Row) -> str:
     return f"{float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}" if row["r2"] else f"({row['note']})"
 
 
-def _range(results: Results) -> str:
-    """What stands in brackets behind R² and τ, where there is anything."""
+def _range(results: Results, with_tau: bool = True) -> str:
+    """What stands in brackets behind R² and, if it is there, τ, where there is anything."""
     ranges = {
         "the range of R² over all ratings with the stated order": any(row["r2_lowest"] for row in results.correlations),
-        "from where to where errors of scores leave τ": any(
-            row["tau_lowest"] != row["tau_highest"] for row in results.correlations
-        ),
+        "from where to where errors of scores leave τ": with_tau
+        and any(row["tau_lowest"] != row["tau_highest"] for row in results.correlations),
     }
     told = [what for what, is_there in ranges.items() if is_there]
     return f" In brackets {', and '.join(told)}." if told else ""
