@@ -31,7 +31,8 @@ from .style import (
     subtitle,
 )
 
-HEIGHT, UPRIGHT = 100.0, 34.0  # mm, and what upright labels take besides
+HEIGHT, UPRIGHT = 100.0, 17.0  # mm, and what upright labels take besides, which stand in the last row alone
+LAST = list(Readout)[-1]  # row
 WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 LONG = 6  # characters of a condition's name beyond which names stand upright
@@ -66,7 +67,7 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
         _draw_curves(receptors, filtered, entry, readout, styles)
         own = scores[scores["readout"] == readout].set_index("condition")
         _draw_bars(bars, own.reindex([condition.name for condition in device.conditions]), device, readout, styles)
-        _name_bars(bars, names, upright)
+        _name_bars(bars, () if upright and readout is not LAST else names, upright)
     for axes in grid[-1][:2]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     grid[-1][2].set_xlabel(_what_bars_are(names, device))
