@@ -13,12 +13,14 @@ from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact.active_set import NotConvergedError
 from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
-from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest
+from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
+from fingerpad.contact.indentation import raise_until
 from fingerpad.contact.ownership import given_anew, given_to
-from fingerpad.contact.patch import patch_of
+from fingerpad.contact.patch import Patch, patch_of
 from fingerpad.contact.path import advance, follow
 from fingerpad.contact.profile import profile
 from fingerpad.errors import ContactError, ConvergenceError, DepthError
+from fingerpad.scene.contact_law import ContactLaw, Criterion, TurningNormal
 from fingerpad.scene.device import ActuatorRow
 
 SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
@@ -182,6 +184,30 @@ def test_a_halved_increment_is_another(length: float, expected: list[float]) -> 
     reached, _ = advance(problem, rest(problem, 0.0), lift(problem, 0.0, length), 3, None, solve)
     assert tried == pytest.approx(expected)
     assert reached.actuator == pytest.approx(lift(problem, 0.0, length))
+
+
+@pytest.mark.parametrize(("lost", "reached"), [(0.22, True), (0.19, False)])
+def test_a_path_that_is_lost_beyond_a_force_reaches_it(lost: float, reached: bool) -> None:
+    """Pressed with a force that is borne 0.2 mm deep, in increments of 0.3 mm, on skin that is lost somewhat deeper."""
+    problem, force = touched(0.1, 1.0, 0.5), 1.0
+    touch = touching_height(problem)
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
+    ) -> tuple[ContactState, Patch | None]:
+        depth = float(actuator[0, 1]) - touch
+        if depth > lost:
+            raise NotConvergedError(1.0)
+        borne = np.full_like(state.force, 5.0 * depth / state.given.size)
+        return replace(state, actuator=actuator, force=borne), patch
+
+    law = ContactLaw(0.5, TurningNormal.NEVER, Criterion.FORCE, 1.0, force)
+    if reached:
+        state = raise_until(problem, law, 1, 3.0, rest(problem, touch), solve)
+        assert state.force[:, 1].sum() == pytest.approx(force, rel=1e-4)
+    else:
+        with pytest.raises(ConvergenceError):
+            raise_until(problem, law, 1, 3.0, rest(problem, touch), solve)
 
 
 def missed_by_a_patch(compliance: FloatArray) -> float:

@@ -11,7 +11,7 @@ from skfem.utils import solver_direct_scipy
 
 from ..arrays import FloatArray
 from ..errors import ConvergenceError
-from ..finite.deformation import elements_of, internal_force_and_tangent
+from ..finite.deformation import elements_of, internal_force, tangent_stiffness
 from ..finite.hyperelasticity import Tissue
 from ..tissue.elasticity import node_dofs
 from ..tissue.factors import factorise, fill_reducing_order
@@ -43,16 +43,16 @@ def equilibrium(basis: Basis, tissue: Tissue, held: np.ndarray, start: FloatArra
 
     held: unknowns (k,) that stay as they start. Raises ConvergenceError, CondensationError, InvertedError.
     """
-    _, everywhere = internal_force_and_tangent(elements_of(basis, tissue, np.arange(basis.N)), start)
+    everywhere = tangent_stiffness(elements_of(basis, tissue, np.arange(basis.N)), start)
     elements = elements_of(basis, tissue, fill_reducing_order(everywhere, node_dofs(basis), held))
     displacement, residuals, change = start.copy(), [], np.inf
     for _ in range(MAX_STEPS):
-        force, tangent = internal_force_and_tangent(elements, displacement)
+        force = internal_force(elements, displacement)
         residual = (load - force)[elements.free]
         residuals.append(float(np.abs(residual).max()))
         if change <= STEP * np.abs(displacement).max():
             return Equilibrium(displacement, force, tuple(residuals))
-        step = factorise(tangent).solve(residual)
+        step = factorise(tangent_stiffness(elements, displacement)).solve(residual)
         displacement[elements.free] += step
         change = float(np.abs(step).max())
     raise ConvergenceError(f"Newton's method left {residuals[-1]:.1e} N/mm after {MAX_STEPS} steps")

@@ -125,16 +125,15 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
     allowed = PENETRATION_LIMIT * float(np.abs(state.actuator).max())
     active = state.status != Status.OPEN
     adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
-    first = np.append(True, ~adjacent)
-    last = np.append(~adjacent, True)
-    beyond = np.flatnonzero(active & (first | last) | overlapped(problem, state, allowed))
+    reached = active & (np.append(True, ~adjacent) | np.append(~adjacent, True))  # first or last nodes side by side
+    beyond = np.flatnonzero(reached | overlapped(problem, state, allowed))
     if beyond.size:
         node = beyond[0]
         aside = abs(state.place[node] + problem.row.positions[own[node]] + state.actuator[own[node], 0] - x[node])
         moved = bool(np.any(state.actuator != [0.0, state.actuator[0, 1]]))  # pre-indentation raises all alike
         less = "; shorter strokes, or a row that is pressed less deep, move it less" if moved else ""
         centre = problem.row.positions[own[node]]
-        if active[node] and (first | last)[node]:
+        if reached[node]:
             reaches = f"at the actuator at x = {centre:g} mm reaches the edge of the modelled contact zone"
             advice = f"{less}; a larger numerics.contact_margin considers more skin"
         else:

@@ -10,7 +10,7 @@ from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState
 from .ownership import given_as
 from .profile import profile
 
-# What may be missing at its end: mm of face, gap or depth, share [1] of a force; source: 6e-5 of Device 2's indentation
+# What may be missing at its end: mm of face or gap, share [1] of a force; source: 6e-5 of Device 2's indentation
 END_TOLERANCE = 1e-4
 NEARLY = 2.0 * END_TOLERANCE  # mm on top of a gap that must close; source: more than what an end may miss
 NOBODY = -1  # in place of an actuator's index: beyond the mid-line of a half

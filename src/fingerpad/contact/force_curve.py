@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,23 +15,10 @@ from ..scene.tissue_law import Kinematics
 from .formulation import ContactProblem, ContactState, touching_height
 from .increment import solve_increment
 from .linear_solution import raised
-from .path import Carried, SolveIncrement, State
+from .path import recording
 from .symmetry import part_of
 
 RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were taken back differ by, with friction
-
-
-def recording(solve: SolveIncrement[State, Carried], note: Callable[[State], object]) -> SolveIncrement[State, Carried]:
-    """An increment's solver that shows every state it finds."""
-
-    def solve_and_note(
-        problem: ContactProblem, start: State, actuator: FloatArray, carried: Carried
-    ) -> tuple[State, Carried]:
-        state, left = solve(problem, start, actuator, carried)
-        note(state)
-        return state, left
-
-    return solve_and_note
 
 
 def curve_of(states: Sequence[ContactState], touch: float, end: ContactState) -> FloatArray:

@@ -107,7 +107,7 @@ def _solved_as_given(
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
     while iterations < MAX_ITERATIONS:
-        if patch is None or not holds(patch, needed, problem.position.shape[0]):
+        if patch is None or not holds(patch, needed):
             try:
                 patch, bias = patch_of(problem, nodes_of(problem, needed, ahead), there), None
             except np.linalg.LinAlgError:

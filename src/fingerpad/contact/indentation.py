@@ -7,13 +7,13 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..errors import CriterionError
+from ..errors import ContactError, CriterionError
 from ..scene.contact_law import ContactLaw, Criterion
 from .criterion import END_TOLERANCE, missed, missing_of, wanted
 from .formulation import ContactProblem, ContactState, rest, touching_height
 from .increment import solve_increment
 from .patch import Patch
-from .path import Carried, SolveIncrement, advance
+from .path import Carried, SolveIncrement, advance, recording
 
 State = TypeVar("State", bound=ContactState)
 
@@ -52,7 +52,8 @@ def raise_until(
     where the undeformed skin over the outermost face would lie. limit: largest indentation [mm]. state: at first touch.
     solve: an increment.
 
-    Raises CriterionError if the criterion is not met within the limit, and what `path.advance` raises.
+    Raises CriterionError if the criterion is not met within the limit, and what `path.advance` raises, unless that is
+    lost beyond the end.
     """
     touch = float(state.actuator[0, 1])
     carried: Carried | None = None
@@ -61,7 +62,8 @@ def raise_until(
     step = min(stride, missing) if law.criterion in (Criterion.TOUCH, Criterion.DEPTH) else stride  # missing is a way
     least = missing, 0.0  # that was missing, and after which way
     beyond: _Beyond | None = None
-    while missing > END_TOLERANCE:
+    enough = LEAST_STEP if law.criterion is Criterion.DEPTH else END_TOLERANCE  # a way that is known is gone to its end
+    while missing > enough:
         here = float(state.actuator[0, 1])
         if touch + limit - here <= LEAST_STEP:
             raise CriterionError(
@@ -73,15 +75,23 @@ def raise_until(
         height = here + step
         target = state.actuator.copy()
         target[:, 1] = height
-        advanced, carried = advance(problem, state, target, 1, carried, solve)
+        passed = [state]
+        try:
+            advanced, carried = advance(problem, state, target, 1, carried, recording(solve, passed.append))
+        except ContactError:
+            advanced = passed[-1]  # what is lost may lie beyond the end
+            if missing_of(problem, advanced, law, touch) > enough:
+                raise
+            height = float(advanced.actuator[0, 1])
+            step = height - here
         left = missing_of(problem, advanced, law, touch)
-        least = min(least, (left, height - touch))
         if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
             # too far: again from the same state
             beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond else 1.0)
         else:
             closed = (missing - left) / step if np.isfinite(missing) else 0.0
             state, missing = advanced, left
+            least = min(least, (left, height - touch))
             longest = stride * max(1.0, (height - touch) / (FAR * stride * increments))
             step = min(longest, left / closed) if closed > 0.0 else longest
             beyond = beyond.after(height) if beyond else None

@@ -48,11 +48,9 @@ def nodes_of(problem: ContactProblem, needed: np.ndarray, ahead: np.ndarray) -> 
     return np.union1d(needed, np.flatnonzero(ahead)) if problem.patches else np.arange(ahead.size)
 
 
-def holds(patch: Patch, nodes: np.ndarray, count: int) -> bool:
-    """Whether some nodes, of `count` in all, lie within a patch."""
-    held = np.zeros(count, dtype=bool)
-    held[patch.nodes] = True
-    return bool(held[nodes].all())
+def holds(patch: Patch, nodes: np.ndarray) -> bool:
+    """Whether some nodes (k,) lie within a patch."""
+    return bool(np.isin(nodes, patch.nodes).all())
 
 
 def _answers(response: FloatArray, compliance: FloatArray) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, ClassVar, Protocol, TypeVar
 
@@ -76,14 +77,15 @@ def advance(
     if standing and not drifting:
         return state, carried
     target = start if standing else target
-    done, step = 0.0, 1.0 / increments
-    length = float(np.abs(target - start).max())
-    smallest = step / 2.0 ** (0 if standing else problem.max_cuts)  # where nothing moves, half of it is as hard
+    done, step = 0.0, 1.0  # in increments, so that halves are exact
+    ways = np.abs(target - start).max(axis=1)
+    length, moved = float(ways.max()), int(ways.argmax())
+    smallest = 2.0 ** (0 if standing else -problem.max_cuts)  # where nothing moves, half of it is as hard
     cuts, longest = 0, step
-    while done < 1.0:
-        goal = 1.0 if done + step > 1.0 - smallest / 2.0 else done + step
+    while done < increments:
+        goal = increments if done + step > increments - smallest / 2.0 else done + step
         try:
-            place = target if goal == 1.0 else start + goal * (target - start)
+            place = target if goal == increments else start + goal / increments * (target - start)
             state, carried = solve(problem, state, place, carried)
             done = goal
             step = min(2.0 * step, longest)
@@ -93,17 +95,30 @@ def advance(
             state = replace(state, cuts=state.cuts + 1)
             if step < smallest or cuts > CRAWL * problem.max_cuts:
                 kind, advice = _named(failure)
-                halvings = round(-np.log2((goal - done) * increments))
+                halvings = round(-np.log2(goal - done))
                 missed = failure.residual > problem.tolerance
                 residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
                 raise kind(
-                    f"contact did not converge {done:.1%} of the way from {_located(start)} to"
-                    f" {_located(target)} mm, increment {int(done * increments) + 1}/{increments} halved"
+                    f"contact did not converge {done / increments:.1%} of the way from {_located(start[moved])} to"
+                    f" {_located(target[moved])} mm, increment {int(done) + 1}/{increments} halved"
                     f" {halvings} times{residual}; {advice} or"
                     f" {'stiffer bodies' if problem.body else f'a finer mesh at the edges ({SIZES})'}"
                 ) from failure
-            longest = min(longest, max(step, CROSSED * problem.spacing / length))
+            longest = min(longest, max(step, CROSSED * problem.spacing * increments / length))
     return state, carried
+
+
+def recording(solve: SolveIncrement[State, Carried], note: Callable[[State], object]) -> SolveIncrement[State, Carried]:
+    """An increment's solver that shows every state it finds."""
+
+    def solve_and_note(
+        problem: ContactProblem, start: State, actuator: FloatArray, carried: Carried
+    ) -> tuple[State, Carried]:
+        state, left = solve(problem, start, actuator, carried)
+        note(state)
+        return state, left
+
+    return solve_and_note
 
 
 def drifting_to(
@@ -144,5 +159,5 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
 
 
 def _located(actuator: FloatArray) -> str:
-    """Where the actuators stand, in few words: (x, y) of the first."""
-    return f"({actuator[0, 0]:.4g}, {actuator[0, 1]:.4g})"
+    """Where an actuator (2,) stands, in few words."""
+    return f"({actuator[0]:.4g}, {actuator[1]:.4g})"

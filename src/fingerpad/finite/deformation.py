@@ -116,12 +116,12 @@ def internal_force(elements: Elements, displacement: FloatArray) -> FloatArray:
     return _assembled(elements, _first_stress(gradient, stress))
 
 
-def internal_force_and_tangent(elements: Elements, displacement: FloatArray) -> tuple[FloatArray, csc_matrix]:
-    """`internal_force`, and the tangent (n_free, n_free) [N/mm per mm] in the order of `free`. Raises InvertedError."""
+def tangent_stiffness(elements: Elements, displacement: FloatArray) -> csc_matrix:
+    """Tangent (n_free, n_free) [N/mm per mm], in the order of `free`, at a displacement (size,) [mm]. Raises
+    InvertedError.
+    """
     gradient = displacement_gradient(elements, displacement)
     response = respond(elements.tissue, gradient)
-    force = _assembled(elements, _first_stress(gradient, response.stress))
-
     (a, b), (c, d) = gradient[..., None]
     nx, ny = elements.gradient[..., 0], elements.gradient[..., 1]
     # rows of B, (n_elements, n_points, 3, 6, 2): derivatives of E_11, E_22 and 2 E_12 by the nodes' x and y
@@ -144,7 +144,7 @@ def internal_force_and_tangent(elements: Elements, displacement: FloatArray) -> 
     blocks[:, :, 0, :, 0] += geometric
     blocks[:, :, 1, :, 1] += geometric
     data = np.bincount(elements.entry, blocks.ravel(), minlength=elements.rows.size + 1)[:-1]
-    return force, csc_matrix((data, elements.rows, elements.starts), shape=(elements.free.size,) * 2)
+    return csc_matrix((data, elements.rows, elements.starts), shape=(elements.free.size,) * 2)
 
 
 def _first_stress(gradient: FloatArray, stress: FloatArray) -> FloatArray:

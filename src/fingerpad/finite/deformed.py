@@ -31,7 +31,7 @@ from ..contact.stability import unstable_directions
 from ..errors import CondensationError, InvertedError, SnapError
 from ..tissue.condensation import trailing_compliance
 from ..tissue.factors import factorise
-from .deformation import Elements, internal_force, internal_force_and_tangent
+from .deformation import Elements, internal_force, tangent_stiffness
 
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
 LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
@@ -86,15 +86,15 @@ class DeformedState(ContactState):
     """A converged state of contact and tissue.
 
     displacement: (size,) of all unknowns [mm]. rate: its change over the way of the actuators in the last increment
-    [1]. passed: contact one of its increments ago, if there was one. tangents: made so far. changes: of displacement in
-    the iterations of the last increment, over the load [1].
+    [1]. passed: contact one of its increments ago, if there was one. tangents: made so far. change: of displacement in
+    the last iteration of the last increment, over the load [1].
     """
 
     displacement: FloatArray
     rate: FloatArray
     passed: Passed | None
     tangents: int
-    changes: tuple[float, ...] = ()
+    change: float = 0.0
 
 
 def deformed_state(state: ContactState, displacement: FloatArray) -> DeformedState:
@@ -163,7 +163,7 @@ def solve_deformed_increment(
                     rate=(displacement - start.displacement) / length,
                     passed=passed,
                     tangents=start.tangents + made,
-                    changes=tuple(changes),
+                    change=changes[-1],
                 )
                 return reached, tangent
             if not changes[-1] <= LARGEST_CHANGE:
@@ -235,7 +235,7 @@ def require_stable(problem: ContactProblem, state: ContactState, tangent: Tangen
 
 def tangent_at(part: TissuePart, displacement: FloatArray) -> Tangent:
     """Linearise about a displacement (size,) [mm]. Raises InvertedError, CondensationError."""
-    _, matrix = internal_force_and_tangent(part.elements, displacement)
+    matrix = tangent_stiffness(part.elements, displacement)
     factors = factorise(matrix)
     return Tangent(factors, *trailing_compliance(matrix, factors, part.loads))
 

@@ -31,7 +31,7 @@ from ..contact.patch import Patch
 from ..contact.path import advance, drifting_to, stands
 from ..errors import CondensationError, ContactError, InvertedError
 from ..tissue.factors import factorise
-from .deformation import internal_force, internal_force_and_tangent
+from .deformation import internal_force, tangent_stiffness
 from .deformed import (
     Tangent,
     TissuePart,
@@ -118,8 +118,8 @@ def deformed_tissue(
 
     Raises CondensationError if the tangent is singular, InvertedError if elements are turned inside out.
     """
-    _, matrix = internal_force_and_tangent(part.elements, displacement)
-    return _about(displacement, part, factorise(matrix), compliance, condensing, sprung)
+    factors = factorise(tangent_stiffness(part.elements, displacement))
+    return _about(displacement, part, factors, compliance, condensing, sprung)
 
 
 def _about(
@@ -211,14 +211,16 @@ def _corrected(
     power = 2 if exact else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
-    displacement, first, state, patch = start.displacement, None, None, None
+    displacement, first, state = start.displacement, None, None
+    patch: Patch | None = None
     for correction in range(most):
         try:
             back = -tissue.solve(internal_force(part.elements, displacement)[free])
             last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
             if state is None or problem.friction > 0.0:
-                state, patch = _followed(problem, start.state, target, increments, first, last, power, patch)
+                drifting = drifting_to(last, start.state.actuator, target, power)
+                state, patch = advance(replace(problem, free=first), start.state, target, increments, patch, drifting)
             else:
                 there = replace(problem, free=last)
                 state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
@@ -268,22 +270,5 @@ def _followed_newly(
         displacement=reached.displacement,
         free=rest,
         tangents=start.tangents + reached.tangents,
-        defect=max((start.defect, *reached.changes[-1:])),
+        defect=max(start.defect, reached.change),
     )
-
-
-def _followed(
-    problem: ContactProblem,
-    start: ContactState,
-    target: FloatArray,
-    increments: int,
-    first: FloatArray,
-    last: FloatArray,
-    power: int,
-    patch: Patch | None,
-) -> tuple[ContactState, Patch | None]:
-    """State at the end of a move along which contact nodes without forces drift from `first` to `last` (m, 2) [mm], and
-    the last patch.
-    """
-    solve = drifting_to(last, start.actuator, target, power)
-    return advance(replace(problem, free=first), start, target, increments, patch, solve)

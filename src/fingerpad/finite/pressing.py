@@ -15,11 +15,11 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray
-from ..contact.force_curve import curve_of, recording
+from ..contact.force_curve import curve_of
 from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
 from ..contact.indentation import raise_until
 from ..contact.linear_solution import indent_device
-from ..contact.path import SolveIncrement, advance
+from ..contact.path import SolveIncrement, advance, recording
 from ..contact.problem import contact_problem, increments, named_pressing
 from ..contact.symmetry import half_of, mirrors, unfolded
 from ..scene.contact_law import Interface
@@ -177,7 +177,7 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
         compliance = unfold(compliance, tangents[1].compliance, columns, columns)
     moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
-    residual = max((*reached.changes[-1:], *(tangent.residual for tangent in tangents)))
+    residual = max(reached.change, *(tangent.residual for tangent in tangents))
     condensed = replace(start.undeformed, compliance=compliance, residual=residual)
     return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
 

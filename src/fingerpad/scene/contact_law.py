@@ -51,7 +51,10 @@ class ContactLaw:
     force: float
 
     def __post_init__(self) -> None:
-        require(math.isfinite(self.friction) and self.friction >= 0, f"contact: friction {self.friction} < 0")
+        require(
+            math.isfinite(self.friction) and self.friction >= 0,
+            f"contact: friction must be 0 or a positive number, found {self.friction}",
+        )
         require_positive("contact", depth=self.depth, force=self.force)
 
     def coefficient(self, interface: Interface) -> float:
