@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import csv
 import io
 import json
+import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -30,7 +33,8 @@ from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.commands.check import TOO_FAR
 from fingerpad.commands.check import described as told_of
 from fingerpad.commands.options import variations
-from fingerpad.commands.score_table import _contact, as_table
+from fingerpad.commands.score_table import _contact, as_table, named
+from fingerpad.commands.vibrate import add as add_vibrate
 from fingerpad.commands.vibrate import as_table as vibrations
 from fingerpad.commands.vibrate import asked as vibrated_at
 from fingerpad.contact.linear_solution import Indented
@@ -213,6 +217,23 @@ def test_new_device_goes_to_a_folder_of_scenes_with_the_model(
     assert main(["new", "other", "--from", "own/devices/mine.yaml", "--scenes", "own"]) == 0
     assert model.read_text(encoding="utf-8").endswith("# own\n")
     assert main(["check", "own/devices/other.yaml"]) == 0
+
+
+def test_new_device_goes_with_the_model_of_the_one_it_comes_from(checkout: Path) -> None:
+    """Which may have another finger than the checkout's."""
+    main(["new", "mine", "--from", "device2", "--scenes", "own folder"])
+    model = checkout / "own folder/config.yaml"
+    model.write_text(model.read_text(encoding="utf-8") + "# own\n", encoding="utf-8")
+    assert main(["new", "other", "--from", "own folder/devices/mine.yaml", "--scenes", "another"]) == 0
+    assert (checkout / "another/config.yaml").read_bytes() == model.read_bytes()
+
+
+def test_what_new_says_next_can_be_pasted(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "mine", "--from", "device2", "--scenes", "own folder"]) == 0
+    check, predict, everything = map(shlex.split, capsys.readouterr().out.splitlines()[1:])
+    assert main(check[1:]) == 0
+    assert (check[0], predict) == ("fingerpad", ["fingerpad", "predict", "own folder/devices/mine.yaml"])
+    assert everything == ["snakemake", "all", "--config", "scenes=own folder"]
 
 
 def test_new_never_overwrites(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -612,6 +633,20 @@ def test_a_closed_pipe_is_no_mistake() -> None:
         job.stdout.close()
         said = job.stderr.read()
     assert (job.returncode, said) == (0, "")
+
+
+def test_letters_that_a_terminal_lacks_end_no_command(checkout: Path) -> None:
+    Project(checkout).edit("config/devices/device2.yaml", lambda text: text.replace("lateral pins", "手"))
+    command = [sys.executable, "-m", "fingerpad.cli", "check", "config/devices/device2.yaml"]
+    environment = {**os.environ, "PYTHONIOENCODING": "cp1252", "PYTHONPATH": str(ROOT / "src")}
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    assert "\nDevice 2: \\u624b (device2)\n" in done.stdout
+
+
+def test_variants_are_told_apart_however_long_their_values_are() -> None:
+    """By their last digit alone."""
+    one, other = ({"stimulus.phases": [*range(40), last]} for last in (40, 41))
+    assert named(one) != named(other)
 
 
 def test_a_device_that_lifts_off_is_near_no_limit() -> None:
@@ -1116,6 +1151,13 @@ def test_a_file_behind_frequencies_is_no_number(capsys: pytest.CaptureFixture[st
     with pytest.raises(SystemExit):
         main(["vibrate", "--frequency", "10", "20", "mine.yaml"])
     assert "found 'mine.yaml'; allowed: numbers [Hz], as in fingerpad vibrate FILE --freq" in capsys.readouterr().err
+
+
+def test_frequencies_may_be_given_one_by_one() -> None:
+    parser = argparse.ArgumentParser()
+    add_vibrate(parser)
+    given = parser.parse_args(["a.yaml", "--frequency", "10", "--frequency", "20", "30"])
+    assert given.frequency == [10.0, 20.0, 30.0]
 
 
 def test_what_cannot_be_solved_is_3(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,6 +14,7 @@ from fingerpad.contact.active_set import NotConvergedError
 from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
+from fingerpad.contact.increment import solve_increment
 from fingerpad.contact.indentation import raise_until
 from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import Patch, patch_of
@@ -161,6 +162,27 @@ def test_halvings_of_earlier_increments_are_not_counted() -> None:
         advance(problem, rest(problem, 0.0), np.array([[0.0, 1.0]]), 4, None, solve)
 
 
+@pytest.mark.parametrize("count", range(1, 31))
+def test_a_path_is_halved_as_often_as_it_may_be_however_many_increments_it_has(count: int) -> None:
+    """Halves of a count that is no power of two are no fractions of the way that numbers hold. The error is about the
+    increment that is lost, and the actuator that moves."""
+    problem = replace(touched(0.1, 1.0, 0.5), max_cuts=8)
+    start = rest(problem, 0.0)
+    start = replace(start, actuator=np.zeros((2, 2)))
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, carried: None
+    ) -> tuple[ContactState, None]:
+        if actuator[1, 1] > count - 1 + 1e-9:
+            raise NotConvergedError(1.0)
+        return replace(state, actuator=actuator), None
+
+    with pytest.raises(
+        ConvergenceError, match=rf"from \(0, 0\) to \(0, {count}\) mm, increment {count}/{count} halved 8 "
+    ):
+        advance(problem, start, np.array([[0.0, 0.0], [0.0, float(count)]]), count, None, solve)
+
+
 @pytest.mark.parametrize(
     ("length", "expected"),
     [
@@ -208,6 +230,16 @@ def test_a_path_that_is_lost_beyond_a_force_reaches_it(lost: float, reached: boo
     else:
         with pytest.raises(ConvergenceError):
             raise_until(problem, law, 1, 3.0, rest(problem, touch), solve)
+
+
+@pytest.mark.parametrize("depth", [0.001, 0.0015, 0.002, 0.1])
+def test_a_depth_is_gone_to_its_end(depth: float) -> None:
+    """Also where it is as small as what may be missing of a face or of a gap at the end."""
+    problem = touched(0.1, 1.0, 0.0)
+    touch = touching_height(problem)
+    law = ContactLaw(0.0, TurningNormal.NEVER, Criterion.DEPTH, depth, 1.0)
+    state = raise_until(problem, law, 40, 3.0, rest(problem, touch), solve_increment)
+    assert state.actuator[0, 1] - touch == pytest.approx(depth, rel=1e-6)  # the least step is a nanometre
 
 
 def missed_by_a_patch(compliance: FloatArray) -> float:

@@ -281,6 +281,13 @@ def test_command_writes_a_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert text.count("*END STEP") == 5
 
 
+def test_a_title_is_no_keyword() -> None:
+    """CalculiX would take a title that begins with an asterisk for one."""
+    given = scene("device2")
+    titled = replace(given, device=replace(given.device, title="*STEP"))
+    assert [keyword for keyword, _, _ in parsed(titled, DECK)] == [keyword for keyword, _, _ in parsed(given, DECK)]
+
+
 def test_command_says_in_one_line_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(export(tmp_path, "backwards")) == FAILED
     said = capsys.readouterr().err
