@@ -15,6 +15,7 @@ from fingerpad.scene.scenefile import build_model, plain_values, read_yaml, reco
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_config, check_device, known_devices
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
 
 SETTINGS = ("scenes", "stress_scenes", "stress_scenes_finite")  # what --config takes
 if unknown := [name for name in config if name not in SETTINGS]:
@@ -213,6 +214,15 @@ def as_written(names):
 def varied_in(alternative):
     """The devices in whose files an alternative takes the place of an assumption, if it is one of devices."""
     return assuming(device_documents(), alternative.key) if alternative else []
+
+
+def ensemble_results(wildcards):
+    """What is made when the ensemble is asked for; alternatives that no device here has are told."""
+    for each in LEFT_OUT:
+        logger.warning(f"{ENSEMBLE}: {each.name} is left out: no device here assumes a value {each.key}")
+    modes = [mode for mode, kinematics in MODES.items() if kinematics in KINEMATICS]
+    figures = expand("results/figures/ensemble{mode}.{suffix}", mode=modes, suffix=("png", "pdf"))
+    return ["results/ensemble_claims.csv", *figures]
 
 
 def tissue_law(name, kinematics):

@@ -6,8 +6,6 @@
 
 from dataclasses import replace
 
-from snakemake.logging import logger
-
 ENSEMBLE = BASE / "config" / "ensemble.yaml"
 try:
     ALTERNATIVES = read_ensemble(ENSEMBLE)
@@ -18,15 +16,6 @@ LEFT_OUT = [each for each in ALTERNATIVES if each.part == "devices" and not vari
 MEMBERS = {slug(AS_CONFIGURED): None} | {
     slug(each.name): replace(each, source="") for each in ALTERNATIVES if each not in LEFT_OUT
 }
-
-
-def ensemble_results(wildcards):
-    """What is made when the ensemble is asked for; alternatives that no device here has are told."""
-    for each in LEFT_OUT:
-        logger.warning(f"{ENSEMBLE}: {each.name} is left out: no device here assumes a value {each.key}")
-    modes = [mode for mode, kinematics in MODES.items() if kinematics in KINEMATICS]
-    figures = expand("results/figures/ensemble{mode}.{suffix}", mode=modes, suffix=("png", "pdf"))
-    return ["results/ensemble_claims.csv", *figures]
 
 
 rule ensemble:
