@@ -18,6 +18,7 @@ from skfem import MeshTri, MeshTri2
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.crosscheck import (
     ContactModel,
+    Outcome,
     calculix_outcome,
     differences,
     fingerpad_outcome,
@@ -34,6 +35,7 @@ from fingerpad.finite.hyperelasticity import tissue_of
 from fingerpad.prediction.edges import mesh_device
 from fingerpad.scene.device import Condition
 from fingerpad.scene.finger import Material
+from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics, Law, TissueLaw
 from fingerpad.store import load
@@ -308,3 +310,13 @@ def test_a_run_that_does_not_finish_is_an_error(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
     with pytest.raises(CalculixError, match="no convergence"):
         run("", tmp_path / "job", 60.0)
+
+
+def test_differences_of_scores_are_relative() -> None:
+    """Of outcomes that are one in all but a score."""
+    arc = np.linspace(0.0, 1.0, 5)
+    one = Outcome(arc, np.ones((2, 5)) + arc * [[1.0], [2.0]], np.ones((2, 3, 2)), dict.fromkeys(Readout, 2.0))
+    other = replace(one, score={Readout.STRAIN: 2.0, Readout.CHANGE_OF_STRAIN: 1.8})
+    found = differences(other, one)
+    assert found.pop("score_change_of_strain") == pytest.approx(0.1)
+    assert set(found.values()) == {0.0}

@@ -530,6 +530,16 @@ def test_round_actuators_say_where_they_end() -> None:
     assert solution_caveats(domes.with_model(contact=law), solution) == []
 
 
+def test_a_row_that_touches_one_by_one_is_no_caveat() -> None:
+    """As the outer pins of a row on a round finger touch later, `touch` presses some tenths of a millimetre."""
+    given = scene("device2")
+    touch = given.with_model(contact=replace(given.model.contact, criterion=Criterion.TOUCH))
+    solution = solved("device2", "alternate_090", Interface.SHEAR)
+    assert not [each for each in solution_caveats(touch, solution) if "at first touch" in each]
+    at_once = replace(solution, indentation=0.0)
+    assert [each for each in solution_caveats(touch, at_once) if "at first touch" in each]
+
+
 def test_no_friction_is_told_where_shear_is_asked_for() -> None:
     given = scene("device2").model.contact
     slippery = scene("device2").with_model(contact=replace(given, friction=0.0))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 
 from fingerpad.commands.forces import PRESSED, as_table
+from fingerpad.contact.solution import Solution
 from fingerpad.prediction import forces
-from fingerpad.prediction.forces import ERROR, NORMAL, TANGENTIAL, force_rows
+from fingerpad.prediction.forces import DIFFERENCE, ERROR, NORMAL, TANGENTIAL, force_rows
+from fingerpad.prediction.scoring import Solved
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.scene import Scene
@@ -67,6 +69,28 @@ def test_errors_are_honest(device: str) -> None:
     for row, reference in zip(rows(device), finer, strict=True):
         for way in (NORMAL, TANGENTIAL):
             assert abs(row[way] - reference[way]) <= row[ERROR]
+
+
+def test_an_error_is_what_coarser_forces_are_off_by(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Over DIFFERENCE, as from two meshes of sizes 1 and 2; the largest of all actuators and directions."""
+    given, solve, off = scene("device3"), forces.solve_scene, 0.02  # N/mm
+    fine = list[Solved]()
+
+    def shifted(shown: Scene, condensed: Any) -> Iterator[Solved]:
+        if shown is given:
+            for each in solve(shown, condensed):
+                fine.append(each)
+                yield each
+            return
+        for each in fine:
+            assert isinstance(each.solution, Solution)
+            force = each.solution.actuator_force.copy()
+            force[:, 2, 0] -= off
+            yield replace(each, solution=replace(each.solution, actuator_force=force))
+
+    monkeypatch.setattr(forces, "solve_scene", shifted)
+    found = force_rows(given)
+    assert [row[ERROR] for row in found] == pytest.approx([off / DIFFERENCE] * len(found))
 
 
 def test_every_time_of_a_history_has_its_forces() -> None:

@@ -36,6 +36,15 @@ def stress_tensors(components: np.ndarray) -> np.ndarray:
     return lam * np.trace(strain, axis1=1, axis2=2)[:, None, None] * np.eye(3) + 2.0 * mu * strain
 
 
+def test_strains_have_no_unit_and_what_a_modulus_is_in_has_its() -> None:
+    units = {measure: measure.unit for measure in Measure}
+    assert [measure for measure, unit in units.items() if unit == "1"] == [
+        Measure.MAXIMUM_PRINCIPAL,
+        Measure.MAXIMUM_SHEAR,
+    ]
+    assert set(units.values()) == {"1", "MPa"}
+
+
 def test_stress_is_hookes_law_in_three_dimensions() -> None:
     expected = stress_tensors(RANDOM)[:, [0, 1, 2, 0], [0, 1, 2, 1]]
     assert np.abs(stress(RANDOM.ravel(), MATERIAL) - expected).max() < ROUNDING

@@ -289,3 +289,13 @@ def test_skin_too_coarse_for_any_actuator_is_refused() -> None:
     given = replace(base, device=replace(base.device, actuators=pair, conditions=(moved,)))
     with pytest.raises(MeshError, match=r"no element of the skin lies within reach .* numerics\.face_size"):
         contact_tractions(mesh_section(given, nominal_edges(pair)), given)
+
+
+@pytest.mark.parametrize("change", [{"width": 44.0}, {"width": 8.8, "height": 20.0}])
+def test_layers_that_meet_inside_a_bend_are_refused(change: dict[str, float]) -> None:
+    """An ellipse bends most at the ends of its longer half axis a: with radius b^2 / a, whichever axis that is."""
+    finger = scene("device2").model.finger
+    with pytest.raises(
+        SceneError, match=r"2 mm thick, more than the outline's smallest radius of curvature [12]\.\d+ mm"
+    ):
+        replace(finger, nail_width=1.0, bone_width=1.0, **change)

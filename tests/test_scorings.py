@@ -86,6 +86,13 @@ def test_scores_without_a_filter_and_of_the_drive_in_closed_form() -> None:
     assert scores[Scoring.MOTION, CHANGE] == pytest.approx(0.12)
 
 
+def test_motion_between_neighbours_is_that_of_one_time() -> None:
+    """The one at which it is largest, summed over pairs."""
+    normal = np.array([[0.0, 0.01, 0.0], [0.0, 0.03, 0.01]])
+    path = Condition("a", "a", 0.0, np.array([1.0, 2.0]), normal, np.zeros_like(normal))
+    assert relative_motion(path) == pytest.approx(0.05)
+
+
 def test_a_sign_is_lost_where_it_is_said_to_be() -> None:
     """A change that is odd in x: the signed area vanishes, and of its magnitude each half does as much."""
     own = scene("device2")

@@ -284,3 +284,14 @@ def test_stimuli_that_differ_in_any_part_are_not_solved_as_one(part: str) -> Non
     one = Condition("one", "one", 0.0, np.array([1.0]), path, path)
     assert one.same_stimulus(replace(one, name="two"))
     assert not one.same_stimulus(replace(one, **{part: 2.0 * getattr(one, part)}))
+
+
+def test_strokes_are_the_farthest_of_all_conditions() -> None:
+    """In either direction, whichever condition goes there."""
+    still = np.zeros((1, 2))
+    conditions = tuple(
+        Condition(name, name, 0.0, np.array([1.0]), still + normal, still + lateral)
+        for name, normal, lateral in (("a", 0.01, -0.04), ("b", -0.03, 0.02))
+    )
+    device = Device("pins", "Pins", Control.DISPLACEMENT, ActuatorRow((-2.0, 2.0), 1.0, 0.1), conditions)
+    assert device.strokes == (0.03, 0.04)

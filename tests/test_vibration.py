@@ -29,7 +29,7 @@ from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import Vibration, displacement, vibrate
 from fingerpad.vibration.frequency import certified_vibration, cyclic_readouts, frequency_rows
-from fingerpad.vibration.frequency_variants import relaxation_rows
+from fingerpad.vibration.frequency_variants import _relaxation_variants, relaxation_rows
 from fingerpad.vibration.inertia import condense_vibrating, inertia_effect, slipping, stuck
 from fingerpad.vibration.viscoelasticity import retardation_times, stiffening
 from scenes import scene
@@ -490,3 +490,12 @@ def test_cycles_pass_through_the_snapshot() -> None:
             peak = displacement(cycle, 2.0 * np.pi)
             assert np.allclose(peak[:, 0], condition.tangential[-1], rtol=0.0, atol=1e-15)
             assert np.allclose(peak[:, 1], condition.normal[-1], rtol=0.0, atol=1e-15)
+
+
+def test_variants_of_relaxation_leave_what_they_say() -> None:
+    """Of the modulus: as configured, of some layers alone, half-way to all, half, and as much at another speed."""
+    variants = {name: each.model.vibration.relaxation for name, each in _relaxation_variants(scene("device2")).items()}
+    usual, *_ = variants.values()
+    left = 1.0 - sum(usual.shares)
+    found = {name: 1.0 - sum(each.shares) for name, each in variants.items()}
+    assert list(found.values()) == pytest.approx([left, left, (1.0 + left) / 2.0, left / 2.0, left])
