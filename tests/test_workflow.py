@@ -427,11 +427,15 @@ def test_notebooks_rerun_for_the_scenes_that_they_read(long: Project) -> None:
     assert "design_your_own" not in rerun()
 
 
-def test_value_that_is_no_assumption_any_more_reruns_the_members_that_vary_it(long: Project) -> None:
+def test_value_that_no_device_assumes_any_more_is_left_out_of_the_ensemble(long: Project) -> None:
+    """Which says so, and makes its tables anew."""
+    assert "is left out" not in long.snakemake("-n", "ensemble").text
     long.edit(DEVICE, lambda text: re.sub('(pitch: .*source: ")assumption: ', r"\1our drawing: ", text))
-    jobs = [job for job in long.snakemake("-n", "ensemble").jobs if job.rule == "ensemble_member"]
-    assert len(jobs) == 8  # two factors, two kinematics, two half-cycles
-    assert all("/actuators_pitch_times_" in output for job in jobs for output in job.outputs)
+    run = long.snakemake("-n", "ensemble")
+    for times in ("0.8", "1.2"):
+        assert f"actuators.pitch times {times} is left out: no device here assumes a value actuators.pitch" in run.text
+    assert "ensemble_tables" in rules(run)
+    assert "ensemble_member" not in rules(run)
 
 
 def test_pressed_finger_that_equals_the_old_one_hides_no_edited_increments(long: Project) -> None:
