@@ -784,12 +784,8 @@ def test_a_larger_margin_considers_as_much_more_skin() -> None:
     """To an element: 0.6 mm beside the row in place of 0.25."""
     base = scene("device2")
     section, numerics = mesh_device(base), base.model.numerics
-    near, far = (
-        contact_tractions(section, base.with_model(numerics=replace(numerics, contact_margin=margin)))
-        .position[:, 0]
-        .max()
-        for margin in (0.25, 0.6)
-    )
+    margins = (replace(numerics, contact_margin=margin) for margin in (0.25, 0.6))
+    near, far = (contact_tractions(section, base.with_model(numerics=each)).position[:, 0].max() for each in margins)
     assert far - near == pytest.approx(0.35, abs=numerics.face_size)
 
 

@@ -34,8 +34,8 @@ TOO_WIDE = (
 WIDE = 0.3
 TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
 TOO_SHALLOW = (
-    "contact.depth is less than the height of the skin over some actuators, which may"
-    " bear nothing; counted from the left: {clear}"
+    "contact.depth is less than the height of the skin over some actuators, which may bear nothing;"
+    " counted from the left: {clear}"
 )
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
@@ -95,15 +95,16 @@ def described(scene: Scene) -> str:
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
     rises, pad = _rises(scene), scene.model.finger.pad_thickness
-    rise = rises.max()
+    rise = float(rises.max())
     law = scene.model.contact
     wide = law.criterion is Criterion.FULL and rise > WIDE * pad
     indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
     farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
+    clear = numbers_of(rises > law.depth)
     warned = {
         TOO_WIDE: wide,
         TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
-        TOO_SHALLOW.format(clear=numbers_of(rises > law.depth)): law.criterion is Criterion.DEPTH and law.depth < rise,
+        TOO_SHALLOW.format(clear=clear): law.criterion is Criterion.DEPTH and bool(clear),
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
