@@ -204,6 +204,12 @@ def test_page_counts_members_and_names_what_turns_a_statement(tables: tuple[pd.D
     assert "| small | device3 | change_of_strain | 0.959, rising | 1, rising | 1, rising | 2 of 2 |" in counted
 
 
+def test_figure_of_devices_that_the_paper_does_not_know_says_so(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+    """Their table has its header alone."""
+    (axes,) = ensemble_figure(tables[0][:0]).axes
+    assert [text.get_text() for text in axes.texts] == ["no statement: these are about the paper's devices"]
+
+
 def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
     figure = ensemble_figure(tables[0])
     figure.draw_without_rendering()
