@@ -237,6 +237,8 @@ def test_a_device_varies_in_what_it_assumes_and_in_what_its_model_may_be() -> No
         assert member["contact"]["friction"]["value"] == (0.38 if varies else 0.3)
     with pytest.raises(SceneError, match=r"contact\.fricton: found no such value"):
         varied_values(CONFIG, known, [Alternative("model", "contact.fricton", 0.1, None, "s")])
+    of_devices = Alternative("devices", "contact.friction", 0.1, None, "s")  # which this one leaves to the model
+    assert of_devices.name not in varied_values(CONFIG, DEVICES["device2"], [of_devices])
 
 
 def table_of(**scores: float | None) -> list[dict[str, Any]]:
@@ -268,6 +270,7 @@ def test_a_score_that_is_another_or_gone_has_changed() -> None:
     configured = table_of(a=1.0, b=None)
     assert not changed(configured, table_of(a=1.0 + 1e-9, b=None))
     assert changed(configured, table_of(a=1.01, b=None))
+    assert changed(configured, table_of(a=0.99, b=None))
     assert changed(configured, table_of(a=None, b=None))
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import fingerpad.vibration.cycling
 from fingerpad.contact.certificate import certify
+from fingerpad.contact.formulation import OPEN
 from fingerpad.contact.linear_solution import Indented, indent_device
 from fingerpad.contact.path import follow
 from fingerpad.errors import CondensationError, CycleError, DepthError, ReachError, SceneError
@@ -325,6 +326,17 @@ def test_inertia_is_the_norm_of_strain_within_the_span() -> None:
         assert inertia_effect(given, driven, still, outside) == 0.0
 
 
+def test_skin_that_sticks_moves_with_its_actuators_and_open_skin_bears_nothing() -> None:
+    indented, cycle = pressed(Interface.SHEAR), normal(0.01, (1.0, 2.0, 3.0, 4.0))
+    driven = stuck(indented, cycle)
+    closed = indented.state.status != OPEN
+    moved = driven.amplitude.reshape(-1, 2)
+    assert np.array_equal(moved[closed, 1], cycle.normal[indented.state.given[closed]])
+    assert not moved[closed, 0].any()
+    assert np.isnan(moved[~closed]).all()
+    assert not driven.force.any()
+
+
 def test_skin_that_never_opens_moves_with_the_faces_where_nothing_sticks() -> None:
     found = slipping(vibration(Interface.FRICTIONLESS, normal(SMALL), 80.0, sharp=True))
     own = pressed(Interface.FRICTIONLESS, sharp=True).problem.actuator_of
@@ -375,12 +387,14 @@ def test_table_says_where_inertia_forbids_a_prediction() -> None:
     condensed = condense_mesh(given, mesh(("device2", False)))
     for model, predicted in ((given.model, True), (careful, False)):
         asked = Scene(model, device)
-        speeds = [None, condense_vibrating(mesh(("device2", False)), asked, 5.0)]
-        rows = frequency_rows(asked, condensed, creeping(), speeds, Interface.SHEAR)
+        at = condense_vibrating(mesh(("device2", False)), asked, 5.0)
+        rows = frequency_rows(asked, condensed, creeping(), [None, at], Interface.SHEAR)
         assert [row["frequency_hz"] for row in rows] == [0.0, 0.0, 5.0, 5.0]
         assert all(row["score"] > 0.0 for row in rows[:2])  # slow cycles have no inertia
         assert all((row["score"] is not None) is predicted for row in rows[2:])
         assert predicted or all("inertia" in row["note"] and "try about" in row["note"] for row in rows[2:])
+        effect = inertia_effect(given, stuck(pressed(Interface.SHEAR), device.cycles[0]), at.still, at.moving)
+        assert all(row["inertia"] == pytest.approx(effect, rel=1e-12) for row in rows[2:])
 
 
 def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> None:
@@ -442,6 +456,7 @@ def test_cycles_without_an_actuator_at_its_peak_are_refused() -> None:
     assert normal(0.0).is_at_peak
     with pytest.raises(SceneError, match=r"no actuator is at its peak .* group index 0"):
         replace(device, cycles=(late,))
+    assert replace(device, cycles=(late,), frequencies=()).cycles == (late,)  # nothing is read
 
 
 def test_what_rounding_leaves_of_a_change_is_none() -> None:
