@@ -225,6 +225,9 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     assert "(open)" not in text
     open_ = words(correlation_figure(SCORES, RATINGS, correlations.assign(slope_open=1), TITLES, Kinematics.SMALL))
     assert open_.replace("\n", " ").count("ing (open)") == open_.count("R² = ") > 0
+    other = words(correlation_figure(SCORES, RATINGS, correlations.assign(range_open=1), TITLES, Kinematics.SMALL))
+    assert "behind a range: with some of its ratings" in other.replace("\n", " ")
+    assert other.replace("\n", " ").count(", open") == other.count("range ") - 1 > 0  # but for one in the caption
 
 
 def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) -> None:
@@ -469,8 +472,11 @@ def test_accuracy_of_finite_kinematics_stands_apart_and_tolerances_have_their_qu
     drawn = {line.get_ydata()[0]: line.get_color() for line in small.axes[0].lines if line.get_linestyle() == "--"}
     marks = {line.get_ydata()[0]: line.get_color() for line in small.axes[0].lines if line.get_linestyle() != "--"}
     assert drawn == {0.011: marks[0.003], 0.009: marks[0.002]}
-    assert "in its quantity's colour" in words(small)
-    assert "in its quantity's colour" not in words(finite)
+    assert "have the colours of their quantities" in words(small)
+    assert "have the colours of their quantities" not in words(finite)
+    loose = table[table["case"] == "Spence"].assign(tolerance=[0.011, None])  # as no quantity but one is held
+    lines = accuracy_figure(loose, Kinematics.SMALL).axes[0].lines
+    assert [line.get_color() for line in lines if line.get_linestyle() == "--"] == [marks[0.003]]
 
 
 @pytest.mark.parametrize("devices", [DEVICES, [UNRATED], [SINGLE]], ids=len)

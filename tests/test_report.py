@@ -15,7 +15,7 @@ import pytest
 
 from fingerpad.digraph import layers, placed, read_dot, reduced
 from fingerpad.figures.rules import rules_figure
-from fingerpad.perception.wording import p_text
+from fingerpad.perception.wording import OPEN_SLOPE, p_text
 from fingerpad.report.captions import Results, Words, rules_words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -70,6 +70,7 @@ def correlation(device: str, interface: Interface, readout: Readout, r2: str) ->
         "r2": r2,
         "r_error": "0.1",
         "slope_open": "0",
+        "range_open": "0",
         "r2_lowest": "0.25",
         "r2_highest": "0.75",
         "kendall_tau": "-0.5",
@@ -293,6 +294,11 @@ def test_captions_explain_the_range_where_there_is_one(results: Results) -> None
     without = dataclasses.replace(results, correlations=unordered)
     assert said in words(["figure_6_shear"], results)["figure_6_shear"].caption
     assert said not in words(["figure_6_shear"], without)["figure_6_shear"].caption
+    opened = tuple(row | {"range_open": "1"} for row in results.correlations)
+    told = words(["figure_6_shear"], dataclasses.replace(results, correlations=opened))["figure_6_shear"].caption
+    assert ", open), " in told
+    assert OPEN_SLOPE in told
+    assert OPEN_SLOPE not in words(["figure_6_shear"], results)["figure_6_shear"].caption
 
 
 def test_a_map_names_the_conditions_of_its_dispersion_alone(results: Results) -> None:

@@ -17,6 +17,9 @@ from .style import COLOURS, GREY, LETTER_NEAR, MARKERS, WIDE, legend_below, lett
 
 COLUMNS = 3
 TYPESET = {
+    "exx": "\N{GREEK SMALL LETTER EPSILON}xx",
+    "eyy": "\N{GREEK SMALL LETTER EPSILON}yy",
+    "gxy": "\N{GREEK SMALL LETTER GAMMA}xy",
     "nu = ": "\N{GREEK SMALL LETTER NU} = ",
     "mu = ": "\N{GREEK SMALL LETTER MU} = ",
     "neo_hookean": "neo-Hookean",
@@ -26,7 +29,10 @@ TYPESET = {
 }
 ROW_HEIGHT, LEGEND_HEIGHT = 45.0, 13.0  # mm
 FINITE_CASES = ("Finite", "Bent")  # how cases with finite kinematics begin
-CAPTION = "Where quantities of a panel have tolerances of their own, each is drawn in its quantity's colour."
+CAPTION = (
+    "Where not all quantities of a panel are held to one tolerance, tolerances have the colours of their quantities."
+)
+BASE_SIZE, LARGER = 3.6, 1.2  # pt: the mark of a panel's last curve, and how much larger each before it is, to be seen
 LABELS = 3  # of a legend in one column [1]; more are short, and stand in two
 LABEL_HEIGHT, MARGIN = 0.145, 0.06  # of a label of a legend, and around all, of a panel's height [1]
 
@@ -53,7 +59,7 @@ def accuracy_figure(rows: pd.DataFrame, kinematics: Kinematics) -> Figure:
             Line2D([], [], color=GREY, marker="o", markerfacecolor="white", label="coarser mesh, or not held to any"),
             Line2D([], [], color=GREY, linestyle="--", label="tolerance"),
         ],
-        CAPTION if (_tolerances(shown).groupby("case")["tolerance"].nunique() > 1).any() else "",
+        CAPTION if any(_has_own_tolerances(own) for _, own in shown.groupby("case")) else "",
     )
     return figure
 
@@ -63,27 +69,36 @@ def _tolerances(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[rows["tolerance"].notna() & ~rows["quantity"].str.startswith(ORDER_OF)]
 
 
+def _has_own_tolerances(rows: pd.DataFrame) -> bool:
+    """Whether quantities of one case are held to several tolerances, or some of them to none."""
+    held = _tolerances(rows)
+    every = rows.loc[~rows["quantity"].str.startswith(ORDER_OF), "quantity"]
+    return bool(held["tolerance"].nunique() > 1 or 0 < held["quantity"].nunique() < every.nunique())
+
+
 def _panel(axes: Axes, rows: pd.DataFrame) -> None:
     """Errors of one case."""
     ordered = rows[rows["quantity"].str.startswith(ORDER_OF)]
     order = {row.quantity.removeprefix(ORDER_OF): row.computed for row in ordered.itertuples()}
     curves = rows.drop(ordered.index)
-    tolerances = _tolerances(rows)["tolerance"].unique()
+    tolerances, own_tolerances = _tolerances(rows)["tolerance"].unique(), _has_own_tolerances(rows)
+    count = curves["quantity"].nunique()
     for number, (quantity, curve) in enumerate(curves.groupby("quantity", sort=False)):
         label = _typeset(str(quantity))
         label += f": order {order[quantity]:.2f}" if quantity in order else ""
         look: dict[str, Any] = {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
+        look["markersize"] = BASE_SIZE + LARGER * (count - 1 - number)
         asked = curve["tolerance"].notna()
         axes.plot(curve["spacing"], curve["error"], markerfacecolor="white", label=label, **look)
         axes.plot(curve.loc[asked, "spacing"], curve.loc[asked, "error"], linestyle="none", **look)
-        if len(tolerances) > 1 and asked.any():
+        if own_tolerances and asked.any():
             axes.axhline(curve.loc[asked, "tolerance"].iloc[0], color=look["color"], linestyle="--", zorder=0)
-    if len(tolerances) == 1:
+    if len(tolerances) == 1 and not own_tolerances:
         axes.axhline(tolerances[0], color=GREY, linestyle="--", zorder=0)
     axes.set(xscale="log", yscale="log", xlabel="Element length (mm)", ylabel="Relative error")
     every = pd.concat([curves["error"], curves["tolerance"].dropna()])
-    columns = 1 if curves["quantity"].nunique() <= LABELS else 2
-    below = LABEL_HEIGHT * np.ceil(curves["quantity"].nunique() / columns) + MARGIN  # where the legend stands
+    columns = 1 if count <= LABELS else 2
+    below = LABEL_HEIGHT * np.ceil(count / columns) + MARGIN  # where the legend stands
     decades = np.log10(every.max() / every.min()) / (1.0 - below - MARGIN)
     axes.set_ylim(every.min() / 10.0 ** (decades * below), every.max() * 10.0 ** (decades * MARGIN))
     spacings = sorted(curves["spacing"].unique())

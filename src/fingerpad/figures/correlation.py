@@ -16,6 +16,7 @@ from ..perception.ratings import NO_RATINGS
 from ..perception.wording import (
     OPEN_SLOPE,
     SMALLEST_P,
+    has_open,
     has_p,
     is_open,
     p_text,
@@ -58,7 +59,7 @@ CAPTION = (
 )
 RATED = " Line: least squares, where the slope is not open.{ratings} τ: Kendall's{between}.{p}"
 BETWEEN = " (from where to where errors of scores leave it)"
-RANGE = " range: of R², over all ratings with the stated order."
+RANGE = " range: of R², over all ratings with the stated order; errors of scores are not in it."
 P = " p: two-sided, of R² over distinct conditions."
 UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."
 
@@ -183,7 +184,7 @@ def ratings_caption(correlations: pd.DataFrame) -> str:
     """What ratings are, if there are any, and what a range of R² and an open slope mean, if they are shown."""
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     ranges = RANGE if correlations["r2_lowest"].notna().any() else ""
-    opened = f" {OPEN_SLOPE}" if any(map(is_open, correlations.to_dict("records"))) else ""
+    opened = f" {OPEN_SLOPE}" if has_open(correlations.to_dict("records")) else ""
     return f" Ratings: {kinds}.{ranges}{opened}" if kinds else ""
 
 

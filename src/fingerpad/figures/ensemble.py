@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..ensemble.alternatives import FIRST, SECOND
+from ..ensemble.effect import with_effect
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
 from ..scene.tissue_law import Kinematics
@@ -20,24 +21,27 @@ from .style import BLUE, GREY, VERMILLION, WIDE, legend_below, new_figure, note_
 ROW_HEIGHT, LETTER, LEGEND_HEIGHT = 6.6, 1.35, 30.0  # mm: of a statement, of a letter of a name, of title and legend
 CLAIM_WIDTH = 54  # characters in a line of a statement
 ASIDE = {FIRST: -0.22, SECOND: 0.22}  # of a member's place [1], where its half-cycles are drawn
-SIZE = 3.4  # of a mark [pt]
+SIZE, EDGE, BETWEEN = 2.4, 0.6, 0.4  # pt: a mark, its edge, the lines between members
 MARKS: dict[Holds, dict[str, Any]] = {
     Holds.YES: {"marker": "o", "color": BLUE, "fillstyle": "full"},
     Holds.NO: {"marker": "x", "color": VERMILLION},
     Holds.UNDECIDED: {"marker": "o", "color": GREY, "fillstyle": "none"},
 }
+LOOK: dict[str, Any] = {"linestyle": "none", "markersize": SIZE, "markeredgewidth": EDGE}
 NO_STATEMENT = "no statement: these are about the paper's devices"
 CAPTION = (
-    "n = {count} members: in each one assumption is varied, as named below, or none. Left mark of a pair:"
-    " first half-cycle of the stimulus, right: second. No mark: a path that could not be followed, or no prediction."
-    " (weaker): asks less than the paper says."
+    "n = {count} members: in each one assumption is varied, as named under its marks, or none (lengths in mm, moduli in"
+    " MPa). Left mark of a pair: first half-cycle of the stimulus, right: second. No mark: the numbers behind the"
+    " statement do not change, or a path could not be followed, or there is no prediction. (weaker):"
+    " asks less than the paper says."
     " Ratings: ordinal surrogates where data/ratings.csv calls them so."
 )
 
 
 @styled
 def ensemble_figure(claims: pd.DataFrame) -> Figure:
-    """A mark for every statement, member and half-cycle; a note where no statement is about the devices.
+    """A mark for every statement, member and half-cycle whose numbers are not those as configured; a note where no
+    statement is about the devices.
 
     claims: rows of results/ensemble_claims.csv with one kinematics.
     """
@@ -46,14 +50,17 @@ def ensemble_figure(claims: pd.DataFrame) -> Figure:
         note_in(figure.subplots(), NO_STATEMENT)
         return figure
     (kinematics,) = claims["kinematics"].unique()
-    statements, members = list(claims["claim"].unique()), list(claims["varied"].unique())
+    groups = claims.groupby(["claim", "half_cycle"], sort=False)
+    shown = pd.concat([with_effect(own, "evidence") for _, own in groups])
+    statements = list(claims["claim"].unique())
+    members = [each for each in claims["varied"].unique() if each in set(shown["varied"])]
     height = ROW_HEIGHT * len(statements) + LETTER * max(map(len, members)) + LEGEND_HEIGHT
     figure = new_figure(WIDE, height)
     axes = figure.subplots()
-    _marks(axes, claims, statements, members)
+    _marks(axes, shown, statements, members)
     subtitle(axes, KINEMATICS_NAME[Kinematics(kinematics)].capitalize(), "")
     axes.set_xticks(range(len(members)), members, rotation=90)
-    handles = [Line2D([], [], linestyle="none", markersize=SIZE, label=str(each), **MARKS[each]) for each in Holds]
+    handles = [Line2D([], [], label=str(each), **LOOK, **MARKS[each]) for each in Holds]
     legend_below(figure, handles, CAPTION.format(count=len(members)))
     return figure
 
@@ -64,12 +71,12 @@ def _marks(axes: Axes, claims: pd.DataFrame, statements: list[str], members: lis
     row = claims["claim"].map(statements.index)
     for holds, look in MARKS.items():
         own = claims["holds"] == str(holds)
-        axes.plot(place[own], row[own], linestyle="none", markersize=SIZE, **look)
+        axes.plot(place[own], row[own], **LOOK, **look)
     weaker = set(claims.loc[claims["kind"] == Kind.WEAKER, "claim"])
     told = [f"{each} (weaker)" if each in weaker else each for each in statements]
     axes.set_yticks(range(len(statements)), ["\n".join(wrap(each, CLAIM_WIDTH)) for each in told])
     axes.set_xlim(-0.5, len(members) - 0.5)
     axes.set_ylim(len(statements) - 0.5, -0.5)
     for between in range(1, len(members)):
-        axes.axvline(between - 0.5, color=GREY, linewidth=0.2)
+        axes.axvline(between - 0.5, color=GREY, linewidth=BETWEEN)
     axes.tick_params(length=0.0)

@@ -45,6 +45,7 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
     for row, (device, title) in zip(grid, titles.items(), strict=True):
         pressed = curves[curves["device"] == device]
         _curves(row[0], pressed)
+        row[0].set_xlabel("Indentation from first touch (mm)")
         alone = rows_with(pressed, Kinematics.FINITE).empty
         named = f"{title}{SMALL_ALONE if alone else ''}"
         row[0].set_title(as_title(figure, named, TITLES), loc="left")
@@ -52,7 +53,6 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
         for axes, readout in zip(row[1:], Readout, strict=True):
             pair = [rows_with(own[own["readout"] == readout], kinematics) for kinematics in Kinematics]
             draw_pairs(axes, readout, pair, is_short=own["condition"].nunique() > MANY)
-    grid[-1][0].set_xlabel("Indentation from first touch (mm)")
     for axes, text in zip(grid[0], "ABC", strict=True):
         letter(axes, text)
     handles: list[Any] = [

@@ -50,7 +50,8 @@ TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 26.0  # mm: a traction panel; lab
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
     "{counted}, {kinematics}, {when}; displacements to scale. Strain: square-root scale. Change: from the pre-indented"
-    " state, at the same points of tissue. Tractions: linear between nodes."
+    " state, at the same points of tissue. Lines: interfaces of layers; receptors lie on that of epidermis and dermis."
+    " Tractions: linear between nodes."
 )
 AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
@@ -62,7 +63,7 @@ STEP, CHANGE_STEP = 5.0, 0.5  # per cent of strain, and of its change, to which 
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "log. strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
-CHANGE_COLOURS = "RdBu_r"  # red and blue are told apart whichever colours one sees; white is no change
+CHANGE_COLOURS = "cividis"  # blue is less, yellow more, whichever colours one sees; darker and lighter in print
 
 Window = tuple[tuple[float, float], tuple[float, float]]  # ((left, right), (bottom, top)) that is shown [mm]
 
@@ -250,7 +251,7 @@ def _change(scene: Scene, shown: _Shown, read: float) -> _Mapped:
         values=shown.change,
         norm=Normalize(-end, end),
         colours=CHANGE_COLOURS,
-        lines=GREY,
+        lines="white",
         label=f"Change of\n{STRAIN_NAME[scene.kinematics]} (%)",
         extend="both",
     )

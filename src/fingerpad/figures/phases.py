@@ -39,8 +39,9 @@ from .style import (
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 26.0  # mm
 TICKS = 45.0  # deg
 CAPTION = (
-    "With shear. Vertical bars: estimated discretisation errors. Grey lines: phases at which the device is tried. A"
-    " score orders the conditions of one device."
+    "With shear. Vertical bars: estimated discretisation errors; where none is seen it is smaller than the mark. Grey"
+    " lines: phases in the device's file. The mesh is made for all phases together, so that scores at these differ from"
+    " scores.csv within their errors. A score orders the conditions of one device."
 )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 import pandas as pd
 
 from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES
+from ..ensemble.effect import with_effect
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
 from ..perception.wording import published_text, slope_name
@@ -71,19 +72,12 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
     for (claim, kind), own in claims.groupby(TOLD, sort=False):
         row: dict[str, object] = {"statement": _told(claim, kind)}
         for half_cycle in HALF_CYCLES:
-            found = _different(own[own["half_cycle"] == half_cycle], "evidence").set_index("varied")["holds"]
+            found = with_effect(own[own["half_cycle"] == half_cycle], "evidence").set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)
             row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
             row[f"changed in {half_cycle} by"] = _by_key(found[found != usual].index)
         rows.append(row)
     return pd.DataFrame(rows)
-
-
-def _different(members: pd.DataFrame, *columns: str) -> pd.DataFrame:
-    """Rows of one half-cycle as configured, and of the members that have another value in one of the columns."""
-    usual = members["varied"] == AS_CONFIGURED
-    values = members[list(columns)].apply(tuple, axis=1)
-    return members[usual | ~values.isin(values[usual])]
 
 
 def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
@@ -98,7 +92,7 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
         published = published_text(own.iloc[0])
         usual = own[own["varied"] == AS_CONFIGURED].set_index("half_cycle")
         halves = {each: f"{usual.loc[each, 'r2']:.3g}, {slope_name(usual.loc[each])}" for each in HALF_CYCLES}
-        different = pd.concat([_different(own[own["half_cycle"] == each], "r2", "slope_sign") for each in HALF_CYCLES])
+        different = pd.concat([with_effect(own[own["half_cycle"] == each], "r2", "slope_sign") for each in HALF_CYCLES])
         rising = int((different["slope_sign"] > 0).sum())
         rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(different)}"})
     return pd.DataFrame(rows)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import pandas as pd
@@ -13,7 +13,8 @@ from .ratings import RatingKind
 SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
 TAU = ("kendall_tau", "tau_lowest", "tau_highest")
 SMALLEST_P = 0.001  # below it p is given as a bound
-OPEN_SLOPE = "open: errors of scores leave the slope's sign open."  # behind `slope_name`, in captions
+# behind `slope_name` and `range_text`, in captions
+OPEN_SLOPE = "open: errors of scores leave the slope's sign open; behind a range: with some of its ratings."
 
 
 def has_p(p: object, kind: object) -> bool:
@@ -51,6 +52,16 @@ def is_open(row: Mapping[str, Any]) -> bool:
     return has_error(row) and bool(int(row["slope_open"]))
 
 
+def is_range_open(row: Mapping[str, Any]) -> bool:
+    """Whether errors of scores leave open which way the slope is with some ratings that have the stated order."""
+    return _is_there(row["range_open"]) and bool(int(row["range_open"]))
+
+
+def has_open(rows: Iterable[Mapping[str, Any]]) -> bool:
+    """Whether a slope of some rows is open, with their own ratings or with others."""
+    return any(is_open(row) or is_range_open(row) for row in rows)
+
+
 def has_error(row: Mapping[str, Any]) -> bool:
     """Whether it is known what errors of scores add up to."""
     return _is_there(row["r_error"])
@@ -68,12 +79,17 @@ def slope_name(row: Mapping[str, Any]) -> str:
 
 
 def range_text(row: Mapping[str, Any]) -> str:
-    """Lowest and highest R² over all ratings with the stated order; nothing without an order.
+    """Lowest and highest R² over all ratings with the stated order, and whether the slope of some of them is open where
+    its own is not; nothing without an order.
 
-    >>> range_text({"r2_lowest": "0.0", "r2_highest": "0.75"}), range_text({"r2_lowest": ""})
-    ('0.00 to 0.75', '')
+    >>> row = {"r_error": "0.2", "slope_open": "0", "r2_lowest": "0.0", "r2_highest": "0.75"}
+    >>> [range_text(row | {"range_open": is_open}) for is_open in "01"], range_text({"r2_lowest": ""})
+    (['0.00 to 0.75', '0.00 to 0.75, open'], '')
     """
-    return f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}" if _is_there(row["r2_lowest"]) else ""
+    if not _is_there(row["r2_lowest"]):
+        return ""
+    doubt = ", open" if is_range_open(row) and not is_open(row) else ""
+    return f"{float(row['r2_lowest']):.2f} to {float(row['r2_highest']):.2f}{doubt}"
 
 
 def published_text(row: Mapping[str, Any]) -> str:

@@ -6,7 +6,15 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..perception.wording import has_p, p_text, range_text, slope_name, tau_text
+from ..perception.wording import (
+    OPEN_SLOPE,
+    has_open,
+    has_p,
+    p_text,
+    range_text,
+    slope_name,
+    tau_text,
+)
 from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import Readout
@@ -280,12 +288,15 @@ def _r2(row: Row) -> str:
 def _range(results: Results, with_tau: bool = True) -> str:
     """What stands in brackets behind R² and, if it is there, τ, where there is anything."""
     ranges = {
-        "the range of R² over all ratings with the stated order": any(row["r2_lowest"] for row in results.correlations),
+        "the range of R² over all ratings with the stated order, without errors of scores": any(
+            row["r2_lowest"] for row in results.correlations
+        ),
         "from where to where errors of scores leave τ": with_tau
         and any(row["tau_lowest"] != row["tau_highest"] for row in results.correlations),
     }
     told = [what for what, is_there in ranges.items() if is_there]
-    return f" In brackets {', and '.join(told)}." if told else ""
+    opened = f" {OPEN_SLOPE}" if has_open(results.correlations) else ""
+    return (f" In brackets {', and '.join(told)}." if told else "") + opened
 
 
 def _kinds(results: Results) -> str:

@@ -110,7 +110,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
 
 
 CORRELATION_COLUMNS = (
-    "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published R²", "Note",
+    "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published", "Note",
 )  # fmt: skip
 
 
