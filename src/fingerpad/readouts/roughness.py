@@ -31,7 +31,7 @@ def scene_span(scene: Scene) -> tuple[float, float]:
 
 
 def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, float]) -> float:
-    """Area [mm2] of |g * s| over the span: the trapezoidal integral of |filtered| ds.
+    """Area [mm2] of |G * e| over the span: the trapezoidal integral of |filtered| ds.
 
     Rectified, as the signed area of the RA-1 filter's output all but vanishes; that of the SA-1 filter's does not
     (decision 37). grid: (k,) [mm], filtered: (k,) [mm]. Where the span goes beyond
