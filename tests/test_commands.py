@@ -270,6 +270,16 @@ def test_check_says_what_there_is_and_draws(checkout: Path, capsys: pytest.Captu
     assert (checkout / "third.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_check_says_until_where_round_actuators_are_pressed(
+    checkout: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """They have no face to cover."""
+    known = (checkout / "config/devices/device2.yaml").read_text()
+    (tmp_path / "round.yaml").write_text(re.sub(r"edge_radius: \{value: [\d.]+", "edge_radius: {value: 0.5", known))
+    assert main(["check", str(tmp_path / "round.yaml"), "--config", "config/config.yaml"]) == 0
+    assert "pressed until contact reaches the middle of each, and held" in capsys.readouterr().out
+
+
 def test_check_shows_its_progress_on_a_terminal(coarse: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = on_a_terminal(monkeypatch)
     assert main(["check", "config/devices/device2.yaml", "-o", "second.png"]) == 0
@@ -765,7 +775,8 @@ def test_caveats_name_each_condition_once() -> None:
 
 
 def test_ranks_that_errors_leave_open_are_ranges() -> None:
-    """Three scores, of which two are closer than their errors; equal ones share a rank, unknown errors leave it."""
+    """Three scores, of which two are closer than their errors; equal ones share a rank. One whose error is not known
+    may lie on either side of all others."""
     scores = {"a": (1.0, 0.1), "b": (1.1, 0.1), "c": (2.0, 0.1), "same": (2.0, 0.1), "unknown": (1.05, None)}
     rows = [
         ROW | {"condition": name, "score": score, "score_error": error, "caveats": []}
@@ -774,7 +785,8 @@ def test_ranks_that_errors_leave_open_are_ranges() -> None:
     found = ranks(rows)
     assert [each["rank"] for each in found] == [5, 3, 1, 1, 4]
     printed = as_table(scene("device2"), [row | rank for row, rank in zip(rows, found, strict=True)]).splitlines()[-5:]
-    assert [line.split()[-1] for line in printed] == ["3-4", "3-4", "1", "1", "4?"]
+    assert [line.split()[-1] for line in printed] == ["3-5", "3-5", "1-2", "1-2", "4?"]
+    assert all(each["first_rank"] <= each["rank"] <= each["last_rank"] for each in found if each["first_rank"])
 
 
 def test_caveats_that_differ_in_a_share_are_told_as_one() -> None:

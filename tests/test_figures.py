@@ -929,6 +929,23 @@ def test_stimuli_of_several_times_are_drawn_where_actuators_have_moved_farthest(
     assert [bar.get_height() for bar in axes.patches] == pytest.approx([20.0] * 3 + [-10.0] * 3)
 
 
+def test_of_peaks_that_noise_tells_apart_the_first_is_drawn_and_what_is_next_to_nothing_is_not() -> None:
+    """A swing to 20 and -20.1 µm, beside which noise goes aside by half a micrometre: bars of the rise alone, with
+    values."""
+    moved = np.outer([0.5, 1.0, 0.0, -1.005, -0.5], np.ones(3))
+    swing = replace(
+        PHASED.conditions[0], time=np.arange(1.0, 6.0), normal=0.02 * moved, tangential=np.full(moved.shape, 0.0005)
+    )
+    figure = stimuli_figure([replace(PHASED, conditions=(swing,))])
+    (axes,) = figure.axes
+    assert [bar.get_height() for bar in axes.patches] == pytest.approx([20.0] * 3)
+    assert [text.get_text() for text in axes.texts if text.get_text() == "20"] == ["20"] * 3
+    assert "below 5 %" in words(figure)
+    assert "Numbers: values" in words(figure)
+    both = replace(swing, tangential=0.01 * moved)
+    assert "Numbers: values" not in words(stimuli_figure([replace(PHASED, conditions=(both,))]))
+
+
 def test_frequency_figure_shows_scores_at_each_interface_apart_from_slow_cycles() -> None:
     """Of the change of strain in thousandths, with shear at the left, twice as large as without; of slow cycles a point
     of its own, at half of the lowest frequency.

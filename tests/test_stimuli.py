@@ -16,7 +16,7 @@ from fingerpad.errors import SceneError
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Cycle, Device
 from fingerpad.scene.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
 from fingerpad.scene.scenefile import recordings
-from fingerpad.scene.stimuli import KINDS, alternating, alternating_cycles, measured, phased, phased_cycles
+from fingerpad.scene.stimuli import KINDS, SETTLING, alternating, alternating_cycles, measured, phased, phased_cycles
 from fingerpad.scene.validation import check_device
 from fingerpad.vibration import cycling
 
@@ -134,8 +134,8 @@ def test_a_snapshot_needs_an_actuator_whose_peak_it_is() -> None:
     ):
         phased(stimulus, 2, ROOT)
     (made, _) = phased({**stimulus, "playback": "cycle"}, 2, ROOT)
-    assert made.time[made.settling - 1] == 1.0
-    assert made.time[-1] == 2.0
+    assert made.time[made.settling - 1] == SETTLING
+    assert made.time[-1] == SETTLING + 1.0
 
 
 def narrow(cycles: bool, tangential: list[list[float]]) -> Device:

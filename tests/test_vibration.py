@@ -247,6 +247,10 @@ def test_cycles_that_do_not_repeat_say_what_helps(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(fingerpad.vibration.cycling, "MAX_CYCLES", 2)
     with pytest.raises(CycleError, match=r"no periodic state after 2 cycles at 80 Hz: .*; try a smaller amplitude"):
         vibration(Interface.SHEAR, coarse().device.cycles[2], 80.0)
+    with pytest.raises(
+        CycleError, match=r"no periodic state after 2 cycles without creep: friction ratchets the skin; try"
+    ):
+        vibration(Interface.SHEAR, coarse().device.cycles[2], 0.0)
     with pytest.raises(CycleError, match=r"no periodic state after 2 cycles at 80 Hz: tissue still creeps$"):
         vibration(Interface.FRICTIONLESS, coarse().device.cycles[2], 80.0)
 

@@ -45,6 +45,7 @@ PRESSED = {
     Criterion.DEPTH: "{depth:g} mm deep from first touch",
     Criterion.FORCE: "with {force:g} N per mm of finger",
 }
+DOMED = "until contact reaches the middle of each"  # as there is no flat face to cover
 STEPS = 3  # of the progress: mesh, figure, picture
 
 
@@ -108,7 +109,8 @@ def described(scene: Scene) -> str:
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
-    pressed = PRESSED[law.criterion].format(depth=law.depth, force=law.force)
+    domed = law.criterion is Criterion.FULL and row.half_face <= 0.0
+    pressed = DOMED if domed else PRESSED[law.criterion].format(depth=law.depth, force=law.force)
     doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]
     return (
         f"{device.title} ({device.name})\n"

@@ -81,7 +81,8 @@ def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
     if not device.cycles:
         raise UsageError(
             f"{device.name}: found displacements that are given in time; allowed: a stimulus of kind phased or"
-            " alternating, which can be a vibration"
+            " alternating, which can be a vibration (alternating, relative_to: leader, absolute 0: every second"
+            " actuator rests)"
         )
     if frequencies is None and not device.frequencies:
         raise UsageError(f"{device.name}: found no stimulus.frequency_hz; give it, or --frequency HZ")

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from ..arrays import FloatArray
 from ..scene.device import Condition, Device
-from ..words import KILO, MINUS, counted
+from ..words import KILO, MINUS, PERCENT, counted
 from .style import (
     BLUE,
     GREY,
@@ -39,8 +39,12 @@ HEADROOM = 1.25  # of the axes beyond the largest displacement [1]
 MOST_NUMBERS, MOST_VALUES = 16, 6  # actuators up to which each has its number, and up to which bars have their values
 CAPTION = (
     "Displacements from the pre-indented position; of a stimulus with several times, where actuators have moved"
-    " farthest (scores are read where strain has changed most). Numbers: values (µm), opposite their bars."
+    " farthest, first (scores are read where strain has changed most)."
 )
+NUMBERS = " Numbers: values (µm), opposite their bars."
+LEFT_OUT = " A direction is left out where all strokes in it are below {slight:g} % of those in the other."
+SLIGHT = 0.05  # of the stroke [1], to which a direction is left out, as noise of a recording is
+NEARLY = 0.95  # of the farthest [1], from which a peak is as far; of equal ones noise would choose
 NORMAL, LATERAL = "normal", "lateral"
 LABELS = {NORMAL: "normal, into the skin", LATERAL: "lateral, to the right"}  # in the order of a device's strokes
 LOOKS: dict[str, dict[str, Any]] = {
@@ -79,7 +83,7 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
                 title.set_in_layout(False)  # its room is that of the panels' titles, whose first lines are empty
     figure.supylabel("Displacement (µm)", fontsize=TEXT, y=1.0 - 0.5 * sum(heights) / height)
     handles = [Patch(label=label, **LOOKS[kind]) for kind, label in LABELS.items()]
-    legend_below(figure, handles, CAPTION)
+    legend_below(figure, handles, _caption(devices))
     return figure
 
 
@@ -91,22 +95,42 @@ def _rows(device: Device) -> Iterator[Sequence[Condition]]:
 
 
 def _farthest(condition: Condition) -> dict[str, FloatArray]:
-    """Displacements (n_actuators,) [µm] by direction at the time at which an actuator has moved farthest."""
+    """Displacements (n_actuators,) [µm] by direction at the first peak that is about as far as the farthest."""
     moves = KILO * condition.moves
-    lateral, normal = moves[np.abs(moves).max(axis=(1, 2)).argmax()].T
+    far = np.abs(moves).max(axis=(1, 2))
+    before, after = np.pad(far, (1, 0))[:-1], np.pad(far, (0, 1))[1:]
+    first = np.flatnonzero((far >= before) & (far >= after) & (far >= NEARLY * far.max()))[0]
+    lateral, normal = moves[first].T
     return {NORMAL: normal, LATERAL: lateral}
+
+
+def _directions(device: Device) -> list[str]:
+    """Directions in which a device moves, but for next to nothing."""
+    return [kind for kind, stroke in zip(LABELS, device.strokes, strict=True) if stroke > SLIGHT * device.stroke]
+
+
+def _has_values(device: Device) -> bool:
+    """Whether bars have room for their values."""
+    return len(_directions(device)) == 1 and len(device.actuators.positions) <= MOST_VALUES
+
+
+def _caption(devices: Sequence[Device]) -> str:
+    """What bars and numbers are."""
+    slight = any(0.0 < min(device.strokes) <= SLIGHT * device.stroke for device in devices)
+    numbers = NUMBERS if any(map(_has_values, devices)) else ""
+    return CAPTION + numbers + (LEFT_OUT.format(slight=PERCENT * SLIGHT) if slight else "")
 
 
 def _draw(axes: Axes, device: Device, condition: Condition) -> None:
     """A bar an actuator, or two where the device moves in both directions."""
     stroke, count = KILO * device.stroke, len(device.actuators.positions)
     number = np.arange(1, count + 1)
-    directions = [kind for kind, farthest in zip(LABELS, device.strokes, strict=True) if farthest > 0.0]
+    directions = _directions(device)
     for place, kind in enumerate(directions):
         width = BARS / len(directions)
         across, heights = number + ((place + 0.5) * width - BARS / 2.0), _farthest(condition)[kind]
         axes.bar(across, heights, width, **LOOKS[kind])
-        if len(directions) == 1 and count <= MOST_VALUES:
+        if _has_values(device):
             _write_values(axes, across, heights)
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     axes.set_xlim(0.5, count + 0.5)

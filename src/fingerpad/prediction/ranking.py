@@ -16,7 +16,7 @@ def ranks(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, int | None]]:
     """Of each row of the score table its `rank` among those of its device, interface and read-out, 1 the largest, equal
     scores sharing one; and `first_rank` to `last_rank`, which errors leave it. None without a score, or an error.
 
-    Scores whose errors are not known are left out of what is open.
+    A score whose error is not known may lie on either side of any other.
 
     >>> key = {"kinematics": "small", "device": "d", "interface": "shear", "readout": "strain", "score_error": 0.1}
     >>> [list(each.values()) for each in ranks([key | {"score": score} for score in (0.1, 0.9, 0.1, 1.0, None)])]
@@ -44,7 +44,8 @@ def _rank(row: Mapping[str, Any], rivals: Sequence[Mapping[str, Any]]) -> dict[s
         return {"rank": rank, "first_rank": None, "last_rank": None}
     relations = [relation(_score(row), _score(each)) for each in rivals if has_error(each)]
     first = 1 + relations.count(Relation.LESS)
-    return {"rank": rank, "first_rank": first, "last_rank": first + relations.count(Relation.NEAR)}
+    either = relations.count(Relation.NEAR) + len(rivals) - len(relations)
+    return {"rank": rank, "first_rank": first, "last_rank": first + either}
 
 
 def _score(row: Mapping[str, Any]) -> Score:

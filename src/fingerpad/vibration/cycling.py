@@ -109,11 +109,12 @@ def vibrate(
             # forces answer what has crept, so that less is left for ever: as much as if all tissue crept alike
             answered = np.tensordot(share, for_ever - moment.memory, 1)
             moment = replace(moment, memory=for_ever - answered)
-    why = "friction ratchets the skin, or tissue still creeps; try a smaller amplitude"
-    raise CycleError(
-        f"no periodic state after {MAX_CYCLES} cycles at {frequency:g} Hz: "
-        + (why if problem.friction > 0.0 else "tissue still creeps")
-    )
+    rubbing = "friction ratchets the skin" if problem.friction > 0.0 else ""
+    creeping = "tissue still creeps" if frequency > 0.0 else ""
+    why = ", or ".join(filter(None, [rubbing, creeping])) or "contact does not repeat itself"
+    where = f"at {frequency:g} Hz" if frequency > 0.0 else "without creep"
+    advice = "; try a smaller amplitude" if rubbing else ""
+    raise CycleError(f"no periodic state after {MAX_CYCLES} cycles {where}: {why}{advice}")
 
 
 def _repeated(now: FloatArray, then: FloatArray, noise: float) -> bool:
