@@ -57,7 +57,7 @@ CAPTION = (
     " spread: range of scores over their mean. Bars: estimated discretisation error of a score; where none is seen it"
     " is smaller than the mark."
 )
-RATED = " Line: least squares, where the slope is not open.{ratings} τ: Kendall's{between}.{p}"
+RATED = " Line: least squares, where the slope is not open.{p}{ratings} τ: Kendall's{between}."
 BETWEEN = " (from where to where errors of scores leave it)"
 RANGE = " range: of R², over all ratings with the stated order; errors of scores are not in it."
 P = " p: two-sided, of R² over distinct conditions."
@@ -153,13 +153,16 @@ def statistics(row: Mapping[str, Any], n: int) -> str:
     """What the correlation table says of one panel with n scores, line by line."""
     lines = [f"n = {n}"]
     if pd.notna(row["r2"]):
-        lines.append(f"R² = {row['r2']:.3f}, {slope_name(row)}")
+        p = (
+            f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
+            if has_p(row["p"], row["rating_kind"])
+            else ""
+        )
+        lines.append(f"R² = {row['r2']:.3f}{p}, {slope_name(row)}")
     if spread_of_r2 := range_text(row):
         lines.append(f"range {spread_of_r2}")
     if pd.notna(row["r2"]):
         lines.append(f"τ = {tau_text(row)}")
-        if has_p(row["p"], row["rating_kind"]):
-            lines[-1] += f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
     if published := published_text(row):
         lines.append(f"published{' R²' if pd.notna(row['published_r2']) else ':'} {published}")
     if pd.notna(row["spread"]):

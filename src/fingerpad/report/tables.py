@@ -97,10 +97,10 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             READOUT_NAME[Readout(row["readout"])],
             row["n"],
             f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
+            p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             range_text(row) or NOTHING,
             slope_name(row) if row["r2"] else NOTHING,
             tau_text(row) if row["kendall_tau"] else NOTHING,
-            p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
             published_text(row) or NOTHING,
             row["note"] or NOTHING,
@@ -110,7 +110,8 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
 
 
 CORRELATION_COLUMNS = (
-    "Interface", "Read-out", "n", "R²", "Range of R²", "Slope", "Kendall's τ", "p", "Ratings", "Published", "Note",
+    "Interface", "Read-out", "n", "R²", "p of R²", "Range of R²", "Slope", "Kendall's τ", "Ratings",
+    "Published", "Note",
 )  # fmt: skip
 
 
