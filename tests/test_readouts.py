@@ -65,20 +65,22 @@ def test_the_peak_does_not_depend_on_where_receptors_lie_close(finer: str) -> No
 
 
 @pytest.mark.parametrize(
-    ("other", "rival"),
+    ("other", "mirrors", "rival"),
     [
-        ([0.0, 0.0, 0.0, 0.99, 0.0], 0.0),  # but for 1 %, the mirror image of what is read
-        ([0.0, 0.99, 0.0, 0.0, 0.0], 0.0),  # as just beside the peak
-        ([0.0, 0.0, 0.99, 0.0, 0.0], 0.99),
-        ([0.0, 0.5, 0.0, 0.5, 0.0], 0.5**0.5),
+        ([0.0, 0.0, 0.0, 0.99, 0.0], True, 0.0),  # but for 1 %, the mirror image of what is read
+        ([0.0, 0.0, 0.0, 0.99, 0.0], False, 0.99),  # which is another pattern to a row that does not mirror
+        ([0.0, 0.99, 0.0, 0.0, 0.0], True, 0.0),  # as just beside the peak
+        ([0.0, 0.99, 0.0, 0.0, 0.0], False, 0.0),
+        ([0.0, 0.0, 0.99, 0.0, 0.0], True, 0.99),
+        ([0.0, 0.5, 0.0, 0.5, 0.0], True, 0.5**0.5),
     ],
 )
-def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], rival: float) -> None:
+def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], mirrors: bool, rival: float) -> None:
     """Five receptors, of which one is stretched by 1 at the time that is read."""
     exx = np.array([np.zeros(5), np.array([0.0, 1.0, 0.0, 0.0, 0.0]), other])
     components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
-    assert read_receptors(components, np.arange(5.0)).rival_peak == pytest.approx(rival)
-    assert read_receptors(components[:2], np.arange(5.0)).rival_peak == 0.0
+    assert read_receptors(components, np.arange(5.0), mirrors=mirrors).rival_peak == pytest.approx(rival)
+    assert read_receptors(components[:2], np.arange(5.0), mirrors=mirrors).rival_peak == 0.0
 
 
 @pytest.mark.parametrize("wavelength", [2.8, 1.15])

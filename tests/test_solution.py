@@ -25,7 +25,7 @@ from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.faces import face_shape, touch
 from fingerpad.contact.force_curve import small_strain_curve
 from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
-from fingerpad.contact.increment import AMISS
+from fingerpad.contact.increment import AMISS, solve_increment
 from fingerpad.contact.indentation import indent
 from fingerpad.contact.linear_solution import (
     follow_condition,
@@ -35,7 +35,7 @@ from fingerpad.contact.linear_solution import (
     stimulate,
 )
 from fingerpad.contact.ownership import handed_over
-from fingerpad.contact.path import follow
+from fingerpad.contact.path import follow, recording
 from fingerpad.contact.problem import contact_problem, named_stimulus
 from fingerpad.contact.profile import profile
 from fingerpad.contact.solution import Solution
@@ -487,6 +487,22 @@ def test_round_pins_are_pressed_until_contact_reaches_the_middle_of_each() -> No
     outermost = [each.place[(each.actuator == 3) & (each.status != 0)].max() for each in (covered, touching)]
     assert outermost[0] == pytest.approx(0.0, abs=0.05)  # to an element
     assert outermost[1] < -0.05
+
+
+def test_round_pins_are_pressed_in_about_as_many_increments_as_flat_ones() -> None:
+    """The way to the skin over their middles is as long as that to faces: within a third, as contact is found there by
+    increments that grow shorter."""
+    counts = {}
+    for share in (0.45, 0.5):
+        base, _ = row_of(4, 2.5, 1.0, [0.0] * 4, edge_radius=share)
+        found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+        problem = contact_problem(base, found, None, Interface.SHEAR)
+        passed: list[ContactState] = []
+        indent(
+            problem, base.model.contact, 20, base.model.finger.pad_thickness, recording(solve_increment, passed.append)
+        )
+        counts[share] = len(passed)
+    assert counts[0.5] == pytest.approx(counts[0.45], rel=1.0 / 3.0)
 
 
 def test_skin_that_is_handed_over_keeps_actuators_in_order() -> None:

@@ -29,7 +29,7 @@ from fingerpad.tissue.elasticity import mass
 from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import Vibration, displacement, vibrate
-from fingerpad.vibration.frequency import certified_vibration, cyclic_readouts, frequency_rows
+from fingerpad.vibration.frequency import certified_vibration, cyclic_readouts, frequency_rows, without_caveats
 from fingerpad.vibration.frequency_variants import _relaxation_variants, relaxation_rows
 from fingerpad.vibration.inertia import condense_vibrating, inertia_effect, slipping, stuck
 from fingerpad.vibration.viscoelasticity import retardation_times, stiffening
@@ -319,7 +319,8 @@ def test_inertia_is_the_norm_of_strain_within_the_span() -> None:
     section = condense_section(mesh(("device2", False)), given)
     driven, nothing = stuck(pressed(Interface.SHEAR), normal(0.01, (1.0,) * 4)), np.zeros((section.arc.size, 3))
     start, stop = scene_span(given)
-    beyond = (section.arc < start) | (section.arc > stop)
+    outermost = np.searchsorted(section.arc, [start, stop]) - [1, 0]  # the span ends between these and their neighbours
+    beyond = (section.arc < section.arc[outermost[0]]) | (section.arc > section.arc[outermost[1]])
     assert beyond.any()
     assert not beyond.all()
     for change, effect in (([0.0, 0.0, 2.0], 2.0**0.5), ([0.0, 1.0, 0.0], 1.0), ([1.0, 0.0, 0.0], 1.0)):
@@ -328,6 +329,22 @@ def test_inertia_is_the_norm_of_strain_within_the_span() -> None:
         still = answers(section, nothing)
         assert inertia_effect(given, driven, still, everywhere) == pytest.approx(effect, rel=1e-12)
         assert inertia_effect(given, driven, still, outside) == 0.0
+
+
+def test_inertia_counts_in_a_span_narrower_than_a_receptors_element() -> None:
+    """As much as in a wide one, where it is everywhere the same."""
+    given = coarse()
+    pin = replace(given.device.actuators, positions=(0.001,), width=0.002, edge_radius=0.0)
+    readout = replace(given.model.readout, span_margin=0.0)
+    still = replace(given.device.conditions[0], normal=np.zeros((1, 1)), tangential=np.zeros((1, 1)))
+    alone = replace(given.device, actuators=pin, conditions=(still,), cycles=())
+    narrow = Scene(replace(given.model, readout=readout), alone)
+    section = condense_section(mesh(("device2", False)), given)
+    start, stop = scene_span(narrow)
+    assert not ((section.arc > start) & (section.arc < stop)).any()
+    light, heavy = (answers(section, np.tile([0.0, each, 0.0], (section.arc.size, 1))) for each in (0.0, 3.0))
+    driven = stuck(pressed(Interface.SHEAR), normal(0.01, (1.0,) * 4))
+    assert inertia_effect(narrow, driven, light, heavy) == pytest.approx(3.0, rel=1e-12)
 
 
 def test_skin_that_sticks_moves_with_its_actuators_and_open_skin_bears_nothing() -> None:
@@ -410,12 +427,15 @@ def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> Non
     condensed = condense_mesh(given, mesh(("device2", False)))
     strained = replace(condensed, section=replace(condensed.section, strain=3.0 * condensed.section.strain))
     plain, told = (
-        frequency_rows(Scene(each, device), over, creeping(), [None], Interface.SHEAR)[0]["note"]
+        frequency_rows(Scene(each, device), over, creeping(), [None], Interface.SHEAR)[0]
         for each, over in ((given.model, condensed), (model, strained))
     )
-    assert plain == ""
-    assert "receptors are strained by up to" in told
-    assert "the filter's wavelength is 1.3 receptor elements" in told
+    assert plain["caveats"] == []
+    strain, filtered = told["caveats"]
+    assert strain.startswith("receptors are strained by up to")
+    assert filtered.startswith("the filter's wavelength is 1.3 receptor elements")
+    assert [row["note"] for row in without_caveats([plain, told])] == ["", f"{strain}; {filtered}"]
+    assert "caveats" not in without_caveats([told])[0]
 
 
 def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:

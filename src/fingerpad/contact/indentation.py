@@ -47,9 +47,10 @@ def raise_until(
 ) -> State:
     """Raise all actuators together until the law's criterion holds.
 
-    FULL: contact reaches both ends of every flat face. TOUCH: every actuator carries some skin. DEPTH: that of the row
-    from first touch. FORCE: that all press with. increments: number for the way to that depth, or from first touch to
-    where the undeformed skin over the outermost face would lie. limit: largest indentation [mm]. state: at first touch.
+    FULL: contact reaches both ends of every flat face, or the middle of a round one. TOUCH: every actuator carries some
+    skin. DEPTH: that of the row from first touch. FORCE: that all press with. increments: number for the way to that
+    depth, or from first touch to where the undeformed skin over the outermost face, or its middle, would lie. limit:
+    largest indentation [mm]. state: at first touch.
     solve: an increment.
 
     Raises CriterionError if the criterion is not met within the limit, and what `path.advance` raises, unless that is
@@ -118,15 +119,17 @@ class _Beyond:
         return before / (before - self.missing) if np.isfinite(missing) else 0.5
 
     def after(self, height: float) -> _Beyond | None:
-        """Once a height [mm] on this side is reached: none if it was, as what lay beyond in one increment does not in
-        many, which friction remembers.
+        """Once a height [mm] on this side is reached: none any more where that is the height that was too far. Friction
+        remembers the way, so that one long increment may go too far where many short ones do not.
         """
         return None if height > self.height - LEAST_STEP else replace(self, weight=2.0 * self.weight)
 
 
 def _way(problem: ContactProblem, law: ContactLaw, limit: float, state: ContactState) -> float:
     """The way [mm] that is gone in the increments of pre-indentation, from a state at first touch."""
-    touch = float(state.actuator[0, 1])
-    over_face = np.abs(state.place) <= problem.row.half_face
+    touch, aside = float(state.actuator[0, 1]), np.abs(state.place)
+    over_face = aside <= problem.row.half_face
+    for own in problem.spans:  # a round actuator has no face, a narrow one maybe no node over it
+        over_face[own.start + int(aside[own].argmin())] = True
     rise = float(problem.position[over_face, 1].max(initial=touch)) - touch
     return {Criterion.DEPTH: law.depth, Criterion.FORCE: max(rise, SHALLOW * limit)}.get(law.criterion, rise)

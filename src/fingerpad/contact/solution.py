@@ -85,7 +85,7 @@ def solution(
     """Gather a solution from the pre-indented state and those at the stimulus's times, and the receptors' strains
     (1 + n_times, 3m) [1] in them, which may be read after so many times of settling.
     """
-    reading = read_receptors(strains, section.arc, settling=settling)
+    reading = read_receptors(strains, section.arc, settling=settling, mirrors=problem.row.mirrors)
     before, last, shown = states[0], states[-1], states[1 + reading.time]
     contact = shearing_and_pressing(problem, states)
     height = float(before.actuator[0, 1])

@@ -16,6 +16,7 @@ import yaml
 
 from ..errors import SceneError
 from ..files import write_text
+from ..guess import closest, hint
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
 from ..scene.validation import is_number
@@ -48,12 +49,15 @@ class Alternative:
         return f"{self.key} {self.value}" if self.times is None else f"{self.key} times {self.times:g}"
 
     def instead_of(self, value: Any) -> Any:
-        """What takes the place of a value. Raises SceneError if a factor is to multiply what is no number."""
+        """What takes the place of a value; of a whole number a whole one, where the factor leaves it whole. Raises
+        SceneError if a factor is to multiply what is no number.
+        """
         if self.times is None:
             return self.value
         if not is_number(value):
             raise SceneError(f"ensemble: {self.key}: found {value!r}; allowed: a number, as `times` multiplies it")
-        return float(f"{value * self.times:.12g}")
+        product = float(f"{value * self.times:.12g}")
+        return int(product) if isinstance(value, int) and product.is_integer() else product
 
 
 @dataclass(frozen=True)
@@ -130,7 +134,7 @@ def member_scenes(
     if alternative.part == "model":
         return Scenes(_varied(config, alternative), cycled | assumed)
     if not assumed:
-        raise SceneError(f"ensemble: no device assumes a value {alternative.key}")
+        raise SceneError(f"ensemble: {assumed_by_none(cycled, alternative.key)}")
     return Scenes(config, assumed)
 
 
@@ -151,6 +155,12 @@ def assuming(devices: Mapping[str, Document], key: str) -> list[str]:
     """Names of the devices whose value at a key is an assumption, by their documents."""
     found = {name: dict(quantities_of(document)).get(key, {}) for name, document in devices.items()}
     return [name for name, quantity in found.items() if is_assumed(quantity)]
+
+
+def assumed_by_none(devices: Mapping[str, Document], key: str) -> str:
+    """What is wrong with a key whose value no device assumes, by their documents."""
+    known = {known for document in devices.values() for known, _ in quantities_of(document)}
+    return f"no device here assumes a value {key}{hint('' if key in known else closest(key, sorted(known)))}"
 
 
 def is_assumed(quantity: Mapping[str, Any]) -> bool:

@@ -11,8 +11,8 @@ from ..arrays import FloatArray
 from ..scene.readout import CONSTANT, Readout
 from ..tissue.compliance import VOIGT
 
-# Least relative difference [1] at which two changes count as different patterns; source: proportional ones that are
-# nearly as large as the peak's (`caveats.RIVAL`) differ by a fiftieth
+# Least relative difference [1] at which two changes count as different patterns; source: a pattern that is as large as
+# its peak but for what makes a rival (`caveats.RIVAL`, a fiftieth) differs from it by no more than that
 UNLIKE = 0.1
 # Relative difference [1] up to which changes count as equally large; source: those at times that mirror differ by 1e-11
 TIED = 1e-6
@@ -55,13 +55,14 @@ def read_receptors(
     arc: FloatArray,
     measure: Callable[[FloatArray], FloatArray] = maximum_principal,
     settling: int = 0,
+    mirrors: bool = False,
 ) -> Reading:
     """Read-outs at the time at which a measure has changed most: the largest root mean square over arc length, so that
     no mesh matters. That is the reference actuator's peak for a snapshot, the peak of the cycle otherwise.
 
-    components: (1 + n_times, 3m) strains at receptors that mirror, of the pre-indented state and along the stimulus.
-    arc: (m,) [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. settling: times that pass
-    before any is read. Where all values count as equal the change is zero.
+    components: (1 + n_times, 3m) strains at receptors, of the pre-indented state and along the stimulus. arc: (m,)
+    [mm]. measure: of strains (3m,), maximum principal strain [1] if not given. settling: times that pass before any is
+    read. mirrors: whether the row does, and its receptors. Where all values count as equal the change is zero.
     """
     # ASSUME: readout: the change of strain is that from the pre-indented state, with its sign (docs/scorings.md)
     before, *strains = (measure(each) for each in (components[0], *components[1 + settling :]))
@@ -69,7 +70,7 @@ def read_receptors(
     size = _size(changes, arc)
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
     time = int(np.argmax(size >= (1.0 - TIED) * size.max()))  # the first of those that mirror
-    return Reading(settling + time, strains[time], changes[time], _rival_peak(changes, size, time, arc))
+    return Reading(settling + time, strains[time], changes[time], _rival_peak(changes, size, time, arc, mirrors))
 
 
 def without_rounding(change: FloatArray, value: FloatArray) -> FloatArray:
@@ -77,13 +78,13 @@ def without_rounding(change: FloatArray, value: FloatArray) -> FloatArray:
     return change if np.abs(change).max() > CONSTANT * np.abs(value).max() else np.zeros_like(change)
 
 
-def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray) -> float:
+def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray, mirrors: bool) -> float:
     """`Reading.rival_peak` of changes (n_times, m) of some size (n_times,).
 
-    Only times count at which the change is another, by UNLIKE, than what is read, and than its mirror image: those just
-    beside a peak would score alike, as does the other half of a cycle whose row mirrors.
+    Only times count at which the change is another, by UNLIKE, than what is read, and where the row mirrors than its
+    mirror image: those just beside a peak would score alike, as does the other half of such a row's cycle.
     """
-    images = np.array([changes[time], changes[time, ::-1]])
+    images = [changes[time], changes[time, ::-1]] if mirrors else [changes[time]]
     apart = np.min([_size(changes - image, arc) for image in images], axis=0)
     return float((size[apart > UNLIKE * size[time]] / size[time]).max(initial=0.0))
 

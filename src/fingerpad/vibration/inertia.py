@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix
 from ..arrays import ComplexArray, FloatArray
 from ..contact.formulation import Status
 from ..contact.linear_solution import Indented
-from ..readouts.roughness import scene_span
+from ..readouts.roughness import over_span, scene_span
 from ..scene.device import Cycle
 from ..scene.scene import Scene
 from ..tissue.compliance import VOIGT, CondensedSection
@@ -91,16 +91,15 @@ def inertia_effect(scene: Scene, driven: Driven, still: CondensedSection, moving
     """Change of the receptors' strain by inertia over that strain's own amplitude [1], root mean squares over arc
     length within the score's span. still, moving: the finger condensed at the frequency without its mass and with it.
     """
-    start, stop = scene_span(scene)
-    inside = (still.arc > start) & (still.arc < stop)
-    first, second = (_strain(each, driven).reshape(-1, VOIGT)[inside] for each in (still, moving))
-    strained, changed = (_norm(each, still.arc[inside]) for each in (first, second - first))
+    first, second = (_strain(each, driven).reshape(-1, VOIGT) for each in (still, moving))
+    strained, changed = (_norm(each, still.arc, scene_span(scene)) for each in (first, second - first))
     return 0.0 if strained == 0.0 else changed / strained
 
 
-def _norm(strain: ComplexArray, arc: FloatArray) -> float:
-    """Norm of strain amplitudes (m, 3) over arc length (m,) [mm], of which gxy = 2 exy stands for exy and eyx."""
-    return float(np.sqrt(np.trapezoid(np.abs(strain) ** 2 @ [1.0, 1.0, 0.5], arc)))
+def _norm(strain: ComplexArray, arc: FloatArray, span: tuple[float, float]) -> float:
+    """Norm of strain amplitudes (m, 3) over a span of arc length (m,) [mm]; gxy = 2 exy stands for exy and eyx."""
+    points, squares = over_span(arc, np.abs(strain) ** 2 @ [1.0, 1.0, 0.5], span)
+    return float(np.sqrt(np.trapezoid(squares, points)))
 
 
 def _strain(maps: CondensedSection, driven: Driven) -> ComplexArray:
