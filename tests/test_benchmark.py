@@ -42,6 +42,7 @@ from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows
 from fingerpad.tissue.condensation import condense_section
+from fingerpad.words import PERCENT
 from scenes import scene
 
 COARSE = 3.0  # times the shipped sizes [1]: seconds instead of minutes
@@ -387,11 +388,13 @@ def test_benchmark_figure_shows_every_solver_and_where_they_are_compared() -> No
         for against in ("unknowns", "contact_nodes", "increments", "actuators")
         for step in ("setup", "condition")
     ]
-    left, _ = benchmark_figure(pd.DataFrame(rungs), pd.DataFrame(sizes), pd.DataFrame(fits)).axes
+    figure = benchmark_figure("d, a_180", pd.DataFrame(rungs), pd.DataFrame(sizes), pd.DataFrame(fits))
+    left, _ = figure.axes
     *climbed, compared = left.lines
     assert {str(line.get_label()).partition(",")[0].partition(" for ")[0] for line in climbed} == set(solvers)
-    assert all(list(line.get_xdata()) == [0.01, 0.02] for line in climbed)
-    assert list(compared.get_xdata()) == [COMPARED_AT, COMPARED_AT]
+    assert all(list(line.get_xdata()) == [1.0, 2.0] for line in climbed)
+    assert list(compared.get_xdata()) == [PERCENT * COMPARED_AT, PERCENT * COMPARED_AT]
+    assert "d, a 180" in figure.legends[0].get_title().get_text()
 
 
 def test_benchmark_figure_draws_seconds_and_their_growth_over_the_smallest_size() -> None:
@@ -411,7 +414,7 @@ def test_benchmark_figure_draws_seconds_and_their_growth_over_the_smallest_size(
         for against in size
         for step, exponent in (("setup", 1.0), ("condition", 2.0))
     ]
-    left, right = benchmark_figure(ladder, pd.DataFrame(sizes), pd.DataFrame(fits)).axes
+    left, right = benchmark_figure("d, a_180", ladder, pd.DataFrame(sizes), pd.DataFrame(fits)).axes
     assert [list(line.get_ydata()) for line in left.lines[:-1]] == [[each, each] for each in seconds.values()]
     for line in right.lines:
         power = 1.0 if str(line.get_label()).startswith("set-up") else 2.0

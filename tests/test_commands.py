@@ -1384,12 +1384,12 @@ def test_frequencies_that_are_asked_for_take_the_place_of_the_files() -> None:
         vibrated_at(silent, None)
 
 
-def test_a_vibration_without_a_prediction_is_a_dash_and_its_note_is_told_once() -> None:
+def test_a_vibration_without_a_prediction_is_a_dash_and_why_is_told_once() -> None:
     given = vibrated_at(scene("device2"), [25.0])
     row = {"interface": "shear", "condition": "a", "unit": "mm2"}
     rows = [
-        row | {"readout": readout, "frequency_hz": hertz, "score": score, "note": note}
-        for hertz, score, note in ((0.0, 0.0123, ""), (25.0, None, "no prediction: why"))
+        row | {"readout": readout, "frequency_hz": hertz, "score": score, "caveats": caveats}
+        for hertz, score, caveats in ((0.0, 0.0123, []), (25.0, None, ["no prediction: why"]))
         for readout in ("strain", "change_of_strain")
     ]
     cells = ["condition    slow  25 Hz", "a          0.0123      -", ""]
@@ -1402,15 +1402,18 @@ def test_a_vibration_without_a_prediction_is_a_dash_and_its_note_is_told_once() 
     ]
 
 
-def test_notes_of_vibrations_say_which_frequencies_they_are_about() -> None:
+def test_caveats_of_vibrations_say_which_frequencies_they_are_about() -> None:
+    """Each once, those that differ in a share as one."""
     given = vibrated_at(scene("device2"), [25.0])
     row = {"interface": "shear", "condition": "a", "unit": "mm2", "readout": "strain", "score": 0.1}
     rows = [
-        row | {"frequency_hz": hertz, "note": note} for hertz, note in ((0.0, "idle: 1"), (25.0, "idle: 1; left: 3"))
+        row | {"frequency_hz": hertz, "caveats": caveats}
+        for hertz, caveats in ((0.0, ["idle: 1", "up to 31%"]), (25.0, ["idle: 1", "left: 3", "up to 28%"]))
     ]
-    assert vibrations(given, rows).splitlines()[-2:] == [
-        "a (shear, slow): idle: 1",
-        "a (shear, 25 Hz): idle: 1; left: 3",
+    assert vibrations(given, rows).splitlines()[-3:] == [
+        "a (shear, slow and 25 Hz): idle: 1",
+        "a (shear, slow and 25 Hz): up to 28% to 31%",
+        "a (shear, 25 Hz): left: 3",
     ]
 
 

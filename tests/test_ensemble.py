@@ -138,7 +138,11 @@ def test_bad_alternatives_are_named(document: dict[str, object], said: str, tmp_
     ("alternative", "said"),
     [
         (Alternative("model", "contact.fricton", 0.1, None, "s"), "contact.fricton: found no such value"),
-        (Alternative("devices", "actuators.ptich", None, 2.0, "s"), "no device assumes a value actuators.ptich"),
+        (
+            Alternative("devices", "actuators.ptich", None, 2.0, "s"),
+            r"no device here assumes a value actuators.ptich; did you mean actuators.pitch\?",
+        ),
+        (Alternative("devices", "title", None, 2.0, "s"), "no device here assumes a value title$"),
         (Alternative("model", "readout.side", None, 2.0, "s"), "found 'dermis'; allowed: a number"),
     ],
 )

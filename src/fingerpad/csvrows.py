@@ -11,6 +11,7 @@ from io import StringIO
 from pathlib import Path
 
 from .errors import FingerpadError
+from .guess import closest, hint
 
 LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, ten thousand times of 64 actuators
 
@@ -62,9 +63,9 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
             if any(map(str.strip, row)):
                 lines.append((line, [cell.strip() for cell in row]))
     except OSError as failure:
-        close = get_close_matches(path.name, [other.name for other in sorted(path.parent.glob("*.csv"))], n=1)
-        hint = f"; did you mean {close[0]}?" if close and not path.exists() else ""
-        raise error(f"{path}: cannot be read: {failure.strerror}{hint}") from failure
+        others = [] if path.exists() else sorted(path.parent.glob("*.csv"))
+        meant = hint(closest(path.name, [other.name for other in others]))
+        raise error(f"{path}: cannot be read: {failure.strerror}{meant}") from failure
     except UnicodeDecodeError as failure:
         line = 1 + failure.object.count(b"\n", 0, failure.start)
         found = f"a byte {failure.object[failure.start]:#x} that is not UTF-8"
@@ -83,8 +84,8 @@ def told(path: Path, line: int, column: str, found: str, allowed: Sequence[str],
     names = allowed if isinstance(allowed, str) else listed(allowed)
     comma = re.fullmatch(r"[+-]?\d+,\d+", found) if isinstance(allowed, str) else None
     meant = found.replace(",", ".") if comma else next(iter(guess), meant)
-    hint = f"; did you mean '{meant}'?" if meant else ""
-    return f"{path}, line {line}, column {column}: found '{found}'; allowed: {names}{hint}"
+    guessed = hint(meant, "'")
+    return f"{path}, line {line}, column {column}: found '{found}'; allowed: {names}{guessed}"
 
 
 def listed(names: Iterable[str]) -> str:

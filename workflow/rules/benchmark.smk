@@ -173,5 +173,6 @@ rule figure_benchmark:
         ENVIRONMENT
     params:
         code=code("figure_benchmark.py"),
+        case=f"{COMPARED_DEVICE}, {COMPARED_CONDITION}",
     script:
         "../scripts/figure_benchmark.py"

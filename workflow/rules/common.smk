@@ -7,7 +7,7 @@ from functools import cache
 
 from fingerpad.calculix.run import installed
 from fingerpad.scene.contact_law import Interface
-from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assuming, read_ensemble, slug
+from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assumed_by_none, assuming, read_ensemble, slug
 from fingerpad.errors import FingerpadError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.example import COMPARED, compares_interfaces, example_condition, example_device
@@ -219,7 +219,7 @@ def varied_in(alternative):
 def ensemble_results(wildcards):
     """What is made when the ensemble is asked for; alternatives that no device here has are told."""
     for each in LEFT_OUT:
-        logger.warning(f"{ENSEMBLE}: {each.name} is left out: no device here assumes a value {each.key}")
+        logger.warning(f"{ENSEMBLE}: {each.name} is left out: {assumed_by_none(device_documents(), each.key)}")
     modes = [mode for mode, kinematics in MODES.items() if kinematics in KINEMATICS]
     figures = expand("results/figures/ensemble{mode}.{suffix}", mode=modes, suffix=("png", "pdf"))
     return ["results/ensemble_claims.csv", *figures]
@@ -306,15 +306,26 @@ def code(script):
     return code_of(BASE / "workflow" / "scripts" / script)
 
 
-def cases(pattern, kinematics=KINEMATICS):
-    """The pattern for those kinematics, and every device, condition and interface that can be predicted with them."""
+def predicted(kinematics=KINEMATICS):
+    """Those kinematics, and every device, condition and interface that can be predicted with them."""
     return [
-        pattern.format(kinematics=each, device=name, condition=condition.name, interface=interface)
+        (str(each), name, condition.name, str(interface))
         for each in kinematics
         for name in DEVICES_WITH[each]
         for condition in SCENE[name].device.conditions
         for interface in SCENE[name].device.interfaces()
     ]
+
+
+def cases(pattern, kinematics=KINEMATICS):
+    """The pattern for all that is `predicted`, in that order."""
+    named = ("kinematics", "device", "condition", "interface")
+    return [pattern.format(**dict(zip(named, each, strict=True))) for each in predicted(kinematics)]
+
+
+def sheared(kinematics):
+    """Devices and their conditions with those kinematics."""
+    return [(name, condition.name) for name in DEVICES_WITH[kinematics] for condition in SCENE[name].device.conditions]
 
 
 def body_of(wildcards):

@@ -77,9 +77,7 @@ rule figure_receptors:
             for name in DEVICES_WITH[mode_of(w)]
         ],
         filtered=lambda w: [
-            f"results/{mode_of(w)}/{name}/{condition.name}/shear/filtered.npz"
-            for name in DEVICES_WITH[mode_of(w)]
-            for condition in SCENE[name].device.conditions
+            f"results/{mode_of(w)}/{name}/{condition}/shear/filtered.npz" for name, condition in sheared(mode_of(w))
         ],
     output:
         png="results/figures/figure_4_receptors{mode}.png",
@@ -90,6 +88,7 @@ rule figure_receptors:
         ENVIRONMENT
     params:
         code=code("figure_receptors.py"),
+        cases=lambda w: sheared(mode_of(w)),
         kinematics=mode_of,
         scene=lambda w: support.fingerprint([SCENE[name].device for name in DEVICES_WITH[mode_of(w)]]),
     script:

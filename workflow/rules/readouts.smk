@@ -12,10 +12,8 @@ rule readouts:
         meshes=expand("results/small/{device}/mesh.npz", device=DEVICES),
         condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
         solutions=[
-            f"results/small/{name}/{SCENE[name].solved_as(condition.name).name}/{interface}/solution.npz"
-            for name in DEVICES
-            for condition in SCENE[name].device.conditions
-            for interface in SCENE[name].device.interfaces()
+            f"results/small/{name}/{SCENE[name].solved_as(condition).name}/{interface}/solution.npz"
+            for _, name, condition, interface in predicted([Kinematics.SMALL])
         ],
     output:
         table="results/ablation_readout.csv",
@@ -28,6 +26,7 @@ rule readouts:
         ENVIRONMENT
     params:
         code=code("readouts.py"),
+        cases=predicted([Kinematics.SMALL]),
         scenes=[scored(name) for name in DEVICES],
     script:
         "../scripts/readouts.py"

@@ -37,6 +37,7 @@ rule other_scores:
         ENVIRONMENT
     params:
         code=code("other_scores.py"),
+        cases=predicted(),
         conditions=KNOWN,
         scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each]],
     script:

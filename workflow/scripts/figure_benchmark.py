@@ -9,12 +9,18 @@ from fingerpad.figures.style import save
 from fingerpad.jobs import logged
 
 
-def main(ladder: Path, sizes: Path, fits: Path, stem: Path) -> None:
-    """Read the tables, draw, write PNG and PDF."""
-    save(benchmark_figure(pd.read_csv(ladder), pd.read_csv(sizes), pd.read_csv(fits)), stem)
+def main(case: str, ladder: Path, sizes: Path, fits: Path, stem: Path) -> None:
+    """Read the tables, draw what is about that condition, write PNG and PDF."""
+    save(benchmark_figure(case, pd.read_csv(ladder), pd.read_csv(sizes), pd.read_csv(fits)), stem)
 
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
     with logged(job.log):
-        main(Path(job.input.ladder), Path(job.input.sizes), Path(job.input.fits), Path(job.output.png).with_suffix(""))
+        main(
+            job.params.case,
+            Path(job.input.ladder),
+            Path(job.input.sizes),
+            Path(job.input.fits),
+            Path(job.output.png).with_suffix(""),
+        )

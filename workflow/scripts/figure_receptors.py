@@ -1,5 +1,6 @@
 """Draw strain and change of strain at the receptors of all devices."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
@@ -18,16 +19,16 @@ def main(
     devices: list[Path],
     condensed: list[Path],
     solutions: list[Path],
-    filtered: list[Path],
+    filtered: Mapping[tuple[str, str], Path],
     kinematics: str,
     stem: Path,
 ) -> None:
-    """Read every device's read-outs (in the order of devices and their conditions), draw, write PNG and PDF."""
-    waiting = iter(filtered)
+    """Read every device's read-outs (by device and condition), draw, write PNG and PDF."""
     entries = []
     for path, section, solution in zip(devices, condensed, solutions, strict=True):
         device = load_scene(config, path).device
-        readouts = {condition.name: load(next(waiting), FilteredReadouts) for condition in device.conditions}
+        names = [condition.name for condition in device.conditions]
+        readouts = {name: load(filtered[device.name, name], FilteredReadouts) for name in names}
         faces = face_arcs(device, load(section, CondensedSection), load(solution, Solution))
         entries.append(DeviceReadouts(device, readouts, faces))
     save(receptor_figure(entries, Kinematics(kinematics)), stem)
@@ -41,7 +42,7 @@ if __name__ == "__main__":
             [Path(path) for path in job.input.devices],
             [Path(path) for path in job.input.condensed],
             [Path(path) for path in job.input.solutions],
-            [Path(path) for path in job.input.filtered],
+            dict(zip(job.params.cases, map(Path, job.input.filtered), strict=True)),
             job.params.kinematics,
             Path(job.output.png).with_suffix(""),
         )

@@ -9,6 +9,7 @@ from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from fingerpad.tissue.mesh import load_section
+from fingerpad.vibration.frequency import without_caveats
 from fingerpad.vibration.frequency_variants import relaxation_rows
 
 
@@ -27,7 +28,7 @@ def main(
     shared = Condensed(
         load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
     )
-    write_rows(table, relaxation_rows(scene, load_section(mesh), shared, frequency))
+    write_rows(table, without_caveats(relaxation_rows(scene, load_section(mesh), shared, frequency)))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Score what was solved in other ways, correlate these scores with perceived roughness, and check the statements."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -19,26 +19,26 @@ from fingerpad.store import load, read_rows, write_rows, write_table
 def main(
     config: Path,
     devices: Sequence[Path],
-    filtered: Sequence[Path],
+    filtered: Mapping[tuple[str, ...], Path],
     scores: Path,
     literature: tuple[Path, Path, Path],
     conditions: dict[str, list[str]],
     tables: dict[str, Path],
 ) -> None:
-    """Read scenes, filtered read-outs (conditions by device, interfaces by condition, for each kinematics), errors of
-    scores, and ratings, order and published numbers; write the scores, their correlations and claims, and what the
-    filter leaves. conditions: of every known device.
+    """Read scenes, filtered read-outs (by kinematics, device, condition and interface), errors of scores, and ratings,
+    order and published numbers; write the scores, their correlations and claims, and what the filter leaves.
+    conditions: of every known device.
     """
     scenes = [load_scene(config, path) for path in devices]
     errors = relative_errors(read_rows(scores))
-    waiting = iter(filtered)
     rows = [
         row
         for kinematics in Kinematics
         for scene in (each.with_kinematics(kinematics) for each in scenes if kinematics in each.computed)
         for condition in scene.device.conditions
         for interface in scene.device.interfaces()
-        for row in scoring_rows(scene, condition, interface, load(next(waiting), FilteredReadouts), errors)
+        for path in [filtered[kinematics, scene.device.name, condition.name, interface]]
+        for row in scoring_rows(scene, condition, interface, load(path, FilteredReadouts), errors)
     ]
     write_rows(tables["scores"], rows)
     ratings, order, published = literature
@@ -60,7 +60,7 @@ if __name__ == "__main__":
         main(
             Path(job.input.config),
             [Path(path) for path in job.input.devices],
-            [Path(path) for path in job.input.filtered],
+            dict(zip(job.params.cases, map(Path, job.input.filtered), strict=True)),
             Path(job.input.scores),
             (Path(job.input.ratings), Path(job.input.order), Path(job.input.published)),
             job.params.conditions,

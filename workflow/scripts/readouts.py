@@ -1,6 +1,6 @@
 """Score all solved conditions under other read-outs, and compare with the scores as configured."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
@@ -18,20 +18,21 @@ def main(
     devices: Sequence[Path],
     meshes: Sequence[Path],
     condensed: Sequence[Path],
-    solutions: Sequence[Path],
+    solutions: Mapping[tuple[str, ...], Path],
     table: Path,
     compared: Path,
 ) -> None:
-    """Read devices, their meshes and maps, and solutions (conditions by device, interfaces by condition); condense for
+    """Read devices, their meshes and maps, and solutions (by kinematics, device, condition and interface); condense for
     the other side; write a row per score and a row per comparison.
     """
-    waiting = iter(solutions)
     rows, compared_rows = [], []
     for path, mesh, stored in zip(devices, meshes, condensed, strict=True):
         scene = load_scene(config, path)
         sections = on_both_sides(scene, load(stored, CondensedSection), load_section(mesh))
         solved: dict[tuple[str, Interface], Solution] = {
-            (condition.name, interface): load(next(waiting), Solution)
+            (condition.name, interface): load(
+                solutions[scene.kinematics, scene.device.name, condition.name, interface], Solution
+            )
             for condition in scene.device.conditions
             for interface in scene.device.interfaces()
         }
@@ -50,7 +51,7 @@ if __name__ == "__main__":
             [Path(path) for path in job.input.devices],
             [Path(path) for path in job.input.meshes],
             [Path(path) for path in job.input.condensed],
-            [Path(path) for path in job.input.solutions],
+            dict(zip(job.params.cases, map(Path, job.input.solutions), strict=True)),
             Path(job.output.table),
             Path(job.output.agreement),
         )

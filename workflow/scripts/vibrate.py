@@ -9,7 +9,7 @@ from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 from fingerpad.tissue.mesh import load_section
-from fingerpad.vibration.frequency import vibration_rows
+from fingerpad.vibration.frequency import vibration_rows, without_caveats
 
 
 def main(
@@ -20,7 +20,7 @@ def main(
     shared = Condensed(
         load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
     )
-    write_rows(scores, vibration_rows(scene, section, shared))
+    write_rows(scores, without_caveats(vibration_rows(scene, section, shared)))
 
 
 if __name__ == "__main__":

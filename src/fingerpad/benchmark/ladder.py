@@ -27,7 +27,7 @@ from .timing import fewest, peak_memory
 Row = dict[str, Any]
 OWN_LADDER, FIRST_ORDER_LADDER, PLAIN_LADDER = "fingerpad", "first-order elements", "factorised anew"
 CALCULIX_LADDER = "CalculiX"
-COMPARED_AT = 0.01  # error of a score [1] at which run times are compared
+COMPARED_AT = 0.01  # error of a score [1] at which run times are compared; source: twice what default meshes aim at
 PATH = 1.8  # ways from first touch to the outermost face [1] that pre-indentation takes; source: devices (measured)
 
 

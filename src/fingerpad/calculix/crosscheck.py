@@ -45,7 +45,7 @@ from .run import Printed, read_printed, run
 # source: the change of strain no longer moves in its fourth digit (measured)
 INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]
 STIMULUS_INCREMENTS = 32  # of fingerpad's side, a segment [1]
-# of a deck's mesh; source: CalculiX has been followed down to 1.4 times these sizes (docs/accuracy.md)
+# of a deck's mesh; source: chosen; CalculiX's own convergence, down to 1.4 times these sizes, is in docs/accuracy.md
 DECK_EDGE_SIZE = 0.03  # mm
 DECK_EDGE_ZONE = 0.015  # mm around an edge, half an element
 DECK_FACE_SIZE = 0.08  # mm

@@ -28,8 +28,8 @@ from ..contact.path import SolveIncrement, advance
 from ..errors import ContactError
 from ..scene.device import ActuatorRow
 
-MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]
-MAX_HALVINGS = 8  # of a Newton step [1]
+MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: as `active_set`'s
+MAX_HALVINGS = 8  # of a Newton step [1]; source: chosen, as what needs more is halved as an increment
 TOLERANCE = 1e-10  # mm of residual displacement; source: 1e-6 of the smallest penetration that matters
 
 

@@ -18,8 +18,8 @@ from .blocks import face_means, half_plane, lift, pressed
 from .comparison import ACCURACY, Comparison, compare, refined
 from .hertz import CYLINDER, DEPTH, INCREMENTS, INNER, SPACINGS, half_width, pressure
 
-POISSON = 0.3
-FRICTION = 0.5
+POISSON = 0.3  # [1]; source: chosen; without coupling the closed form holds for any
+FRICTION = 0.5  # [1]; source: the same
 SHIFT = 2.5e-4  # sideways [mm]; leaves the contact half stuck
 SHIFT_INCREMENTS = 10  # [1]; source: the stick zone only shrinks, so more change nothing
 

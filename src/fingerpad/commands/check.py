@@ -109,8 +109,7 @@ def described(scene: Scene) -> str:
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
-    domed = law.criterion is Criterion.FULL and row.half_face <= 0.0
-    pressed = DOMED if domed else PRESSED[law.criterion].format(depth=law.depth, force=law.force)
+    pressed = DOMED if scene.lacks_faces else PRESSED[law.criterion].format(depth=law.depth, force=law.force)
     doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]
     return (
         f"{device.title} ({device.name})\n"

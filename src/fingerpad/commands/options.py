@@ -7,7 +7,6 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from ..checkout import find_checkout, model_for, schemas_for
 from ..csvrows import listed
 from ..errors import UsageError
 from ..files import require_folder
+from ..guess import closest, hint
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
@@ -185,6 +185,6 @@ def existing_file(device: Path) -> Path:
     with suppress(UsageError):
         folders.insert(0, find_checkout(Path.cwd()).devices)  # of two of one name that beside it is meant
     known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
-    close = [] if device.is_dir() else get_close_matches(device.stem, known, n=1)
-    hint = f"; did you mean {os.path.relpath(known[close[0]])}?" if close else ""
-    raise UsageError(f"{device}: found {found}; allowed: a device file, such as those in config/devices{hint}")
+    stem = "" if device.is_dir() else closest(device.stem, known)
+    meant = hint(os.path.relpath(known[stem]) if stem else "")
+    raise UsageError(f"{device}: found {found}; allowed: a device file, such as those in config/devices{meant}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from ..errors import ContactError
@@ -17,6 +18,7 @@ from ..words import enumerated
 Row = TypeVar("Row", bound=Mapping[str, Any])
 
 GAP = "  "
+SHARE = re.compile(r"\d+(?:\.\d+)?%")
 
 
 def titled(scene: Scene) -> str:
@@ -63,6 +65,29 @@ def noted(rows: Sequence[Row], every: Sequence[str], detail: Callable[[Row], str
     """Each note of the rows once, after the cases that it is about."""
     notes = dict.fromkeys(row["note"] for row in rows if row["note"])
     return [f"{cases([row for row in rows if row['note'] == note], every, detail)}: {note}" for note in notes]
+
+
+def caveats_told(rows: Sequence[Row], every: Sequence[str], detail: Callable[[Row], str]) -> list[str]:
+    """Each caveat of the rows once, after the cases that it is about; those that differ in one share alone as one."""
+    return [f"{cases(own, every, detail)}: {caveat}" for caveat, own in _alike(rows)]
+
+
+def _alike(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
+    """Each caveat once, with the rows that have it; those that differ in one share alone as one, with both ends."""
+    alike: dict[str, list[tuple[str, Row]]] = {}
+    for row in rows:
+        for caveat in row["caveats"]:
+            kind = SHARE.sub("%", caveat) if len(SHARE.findall(caveat)) == 1 else caveat
+            alike.setdefault(kind, []).append((caveat, row))
+    for found in alike.values():
+        caveats = sorted({caveat for caveat, _ in found}, key=_share)
+        ends = f"{SHARE.findall(caveats[0])[0]} to {SHARE.findall(caveats[-1])[0]}" if len(caveats) > 1 else ""
+        yield SHARE.sub(ends, caveats[0]) if ends else caveats[0], [row for _, row in found]
+
+
+def _share(caveat: str) -> float:
+    """The first share in a caveat [%], or zero."""
+    return float(next(iter(SHARE.findall(caveat)), "0%").removesuffix("%"))
 
 
 def require_scores(rows: Sequence[Mapping[str, Any]]) -> None:

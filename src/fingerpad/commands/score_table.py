@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..rounding import rounded
@@ -13,10 +12,9 @@ from ..scene.scene import Scene
 from ..scene.validation import written
 from ..scene.variation import NO_VALUES
 from ..store import csv_text
-from .printing import aligned, cases, in_order, read_times, titled
+from .printing import aligned, caveats_told, in_order, read_times, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
-SHARE = re.compile(r"\d+(?:\.\d+)?%")
 RIGHT = {"score", "score_error", "rank"}  # columns that are aligned at the right
 
 
@@ -48,25 +46,7 @@ def as_csv(rows: Sequence[Mapping[str, Any]], header: bool) -> str:
 def caveat_lines(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """What to know before believing the scores of one device, each once, with those that it is about."""
     every = [condition.name for condition in scene.device.conditions]
-    return [f"caveat: {cases(own, every, lambda row: row['readout'])}: {caveat}" for caveat, own in _told(rows)]
-
-
-def _told(rows: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, list[Mapping[str, Any]]]]:
-    """Each caveat once, with the rows that have it; those that differ in one share alone as one, with both ends."""
-    alike: dict[str, list[tuple[str, Mapping[str, Any]]]] = {}
-    for row in rows:
-        for caveat in row["caveats"]:
-            kind = SHARE.sub("%", caveat) if len(SHARE.findall(caveat)) == 1 else caveat
-            alike.setdefault(kind, []).append((caveat, row))
-    for found in alike.values():
-        caveats = sorted({caveat for caveat, _ in found}, key=_share)
-        ends = f"{SHARE.findall(caveats[0])[0]} to {SHARE.findall(caveats[-1])[0]}" if len(caveats) > 1 else ""
-        yield SHARE.sub(ends, caveats[0]) if ends else caveats[0], [row for _, row in found]
-
-
-def _share(caveat: str) -> float:
-    """The first share in a caveat [%], or zero."""
-    return float(next(iter(SHARE.findall(caveat)), "0%").removesuffix("%"))
+    return [f"caveat: {told}" for told in caveats_told(rows, every, lambda row: row["readout"])]
 
 
 def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -15,9 +15,9 @@ from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
-from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows
+from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows, without_caveats
 from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene, with_asked_conditions
-from .printing import aligned, in_order, noted, print_rows, require_scores, titled
+from .printing import aligned, caveats_told, in_order, print_rows, require_scores, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 STEPS = 2  # of the progress before vibrations: mesh, compliance
@@ -47,7 +47,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="frequencies (default: the file's frequency_hz)",
     )
     add_conditions(parser)
-    add_forms(parser, "a list of objects, one a score", "the columns of results/frequency.csv")
+    add_forms(parser, "a list of objects, one a score, with caveats", "the columns of results/frequency.csv")
     add_scene_options(parser)
 
 
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> None:
         condensed = condense_mesh(scene, section)
         bar.update()
         rows = vibration_rows(scene, section, condensed, bar.update)
-    print_rows(options, rows, lambda: as_table(scene, rows))
+    print_rows(options, without_caveats(rows) if options.csv else rows, lambda: as_table(scene, rows))
     require_scores(rows)
 
 
@@ -95,7 +95,7 @@ def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
     """A table for each interface and read-out with scores, one line per condition and one column per frequency; then
-    the notes.
+    the caveats.
     """
     frequencies = (SLOWLY, *scene.device.frequencies)
     header = ["condition", *map(frequency_name, frequencies)]
@@ -111,5 +111,5 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
         right = [False, *(True for _ in frequencies)]
         parts.append("\n".join([f"{interface}, {readout} [{own[0]['unit']}]", *aligned([header, *cells], right)]))
     every = [cycle.name for cycle in scene.device.cycles]
-    notes = noted(rows, every, lambda row: frequency_name(row["frequency_hz"]))
-    return "\n\n".join([*parts, "\n".join(notes)]).rstrip()
+    told = caveats_told(rows, every, lambda row: frequency_name(row["frequency_hz"]))
+    return "\n\n".join([*parts, "\n".join(told)]).rstrip()

@@ -36,7 +36,9 @@ MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; s
 # alone; source: fewest seconds of 3, 6, 12 (strokes of 0.02 to 0.6 mm, measured)
 PATIENCE = 12
 MAX_HALVINGS = 5  # of a Newton step in the line search [1]; source: 1/32 is below any step that was ever needed
-SETTLED = 1e-6  # relative residual [1] below which forces are good enough to judge a single node's state
+# Relative residual [1] below which forces are good enough to judge a single node's state; source: chosen, far above
+# rounding and far below the forces that decide
+SETTLED = 1e-6
 EACH = 0.01  # share [1] of the tolerance for each force, as errors add up in a gap; source: some 100 nodes
 
 SMALLEST = float(np.finfo(float).tiny)  # N/mm, in place of no force at all

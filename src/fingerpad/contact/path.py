@@ -35,7 +35,9 @@ NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 time
 # at once fail again and again; source: fewest seconds of 1, 2, 4 (a stroke of 1 mm of six close pins, measured)
 CROSSED = 2.0
 SIZES = "numerics.edge_size, or finite_edge_size"  # what config.yaml calls those at the edges
-CRAWL = 2  # times as many halvings in a straight line as one increment may have [1]; a path that needs more is lost
+# Times as many halvings [1] in a straight line as one increment may have; a path that needs more is lost. source:
+# chosen, as a bound on time
+CRAWL = 2
 
 
 class SolveIncrement(Protocol[State, Carried]):

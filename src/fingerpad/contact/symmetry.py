@@ -2,7 +2,7 @@
 
 Raising a row of actuators that mirrors about x = 0 against a section that does loads both halves alike, so the right
 half answers with C_RR + C_RL M, where M mirrors the forces on the right to the left. Half the unknowns, an eighth of
-the work, and the same state: the mirrored one, though from first touch on some states that sway might do as well.
+the work, and the state that mirrors; with friction states that lean to one side may be solutions as well.
 
 A node on x = 0 stays there, and the half bears half of its force.
 """

@@ -7,10 +7,11 @@ from typing import Any
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
 
 from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
 from ..scene.tissue_law import Kinematics
-from ..words import PERCENT
+from ..words import PERCENT, plain
 from .style import (
     BLACK,
     BLUE,
@@ -40,24 +41,24 @@ LINES: dict[Kinematics, dict[str, Any]] = {
     Kinematics.SMALL: {},
     Kinematics.FINITE: {"linestyle": "--", "markerfacecolor": "white"},
 }
-FINITE = "Dashed, open marks: finite strain."
 CAPTION = (
-    "The error is against each solver's own reference: CalculiX's against its finest mesh, all others' against a finer"
-    " one of fingerpad."
+    "A: {case}, with shear{finite}. The error is the larger of its two scores': CalculiX's against its finest mesh,"
+    " all others' against a finer one of fingerpad."
 )
-GROWTHS = (  # what is varied, size, seconds, label, colour, marker
-    ("mesh", "unknowns", "setup_s", "set-up, unknowns", BLUE, "o"),
-    ("mesh", "contact_nodes", "condition_s", "condition, contact nodes", ORANGE, "s"),
-    ("increments", "increments", "condition_s", "condition, increments", GREEN, "v"),
-    ("actuators", "actuators", "setup_s", "set-up, actuators", BLACK, "D"),
-    ("actuators", "actuators", "condition_s", "condition, actuators", VERMILLION, "P"),
+FINITE = "; dashed, open marks: finite strain"
+GROWTHS = (  # what is varied, size, seconds, label, colour, marker; colours are A's for the same seconds, marks are not
+    ("mesh", "unknowns", "setup_s", "set-up, unknowns", BLUE, "X"),
+    ("actuators", "actuators", "setup_s", "set-up, actuators", BLUE, "*"),
+    ("mesh", "contact_nodes", "condition_s", "condition, contact nodes", ORANGE, "<"),
+    ("actuators", "actuators", "condition_s", "condition, actuators", ORANGE, "*"),
+    ("increments", "increments", "condition_s", "condition, increments", ORANGE, ">"),
 )
 
 
 @styled
-def benchmark_figure(ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFrame) -> Figure:
+def benchmark_figure(case: str, ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFrame) -> Figure:
     """A: wall time against the larger error of both scores of one condition. B: wall time against size, each over its
-    smallest, with fitted exponents. ladder, sizes, fits: tables of `benchmark`.
+    smallest, with fitted exponents. case: that condition's name. ladder, sizes, fits: tables of `benchmark`.
     """
     figure = new_figure(WIDE, HEIGHT)
     left, right = figure.subplots(1, 2)
@@ -66,24 +67,24 @@ def benchmark_figure(ladder: pd.DataFrame, sizes: pd.DataFrame, fits: pd.DataFra
     for axes, name in ((left, "A"), (right, "B")):
         letter(axes, name, LETTER_NEAR)
     with_finite = (ladder["kinematics"] == Kinematics.FINITE).any()
-    legend_below(figure, handles, f"{FINITE} {CAPTION}" if with_finite else CAPTION)
+    legend_below(figure, handles, CAPTION.format(case=plain(case), finite=FINITE if with_finite else ""))
     return figure
 
 
 def _draw_ladders(axes: Axes, ladder: pd.DataFrame) -> list[object]:
     handles: list[object] = []
+    limit = PERCENT * COMPARED_AT
     for solver, column, label, colour, marker in LADDERS:
         for kinematics, line in LINES.items():
             own = rows_with(ladder[ladder["solver"] == solver], kinematics)
             if own.empty:
                 continue
-            error = own[["error_strain", "error_change_of_strain"]].max(axis=1)
+            error = PERCENT * own[["error_strain", "error_change_of_strain"]].max(axis=1)
             drawn = axes.plot(error, own[column], color=colour, marker=marker, label=label, **line)
             handles += drawn if kinematics is Kinematics.SMALL else []
-    handles.append(
-        axes.axvline(COMPARED_AT, color=GREY, linestyle=":", zorder=0, label=f"error of {PERCENT * COMPARED_AT:g} %")
-    )
-    axes.set(xscale="log", yscale="log", xlabel="Error of the score (relative)", ylabel="Wall time (s)")
+    handles.append(axes.axvline(limit, color=GREY, linestyle=":", zorder=0, label=f"error of {limit:g} %"))
+    _logarithmic(axes)
+    axes.set(xlabel="Error of the score (%)", ylabel="Wall time (s)")
     axes.set_title("Time against error", loc="left")
     return handles
 
@@ -96,7 +97,16 @@ def _draw_growth(axes: Axes, sizes: pd.DataFrame, fits: pd.DataFrame) -> None:
         axes.plot(
             own[size] / own[size].iloc[0], own[seconds] / own[seconds].iloc[0], color=colour, marker=marker, label=power
         )
-    axes.set(xscale="log", yscale="log", xlabel="Size relative to the smallest")
+    _logarithmic(axes)
+    axes.set_xlabel("Size relative to the smallest")
     axes.set_ylabel("Wall time relative\nto the smallest size")
     axes.set_title("Growth, and its exponent", loc="left")
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def _logarithmic(axes: Axes) -> None:
+    """Logarithmic axes whose decades are plain numbers: exponents would be too small to read."""
+    axes.set(xscale="log", yscale="log")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_minor_formatter("")

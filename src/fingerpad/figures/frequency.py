@@ -35,8 +35,8 @@ HEADROOM = 0.1  # above the highest point, of the axis [1]
 BELOW = 2.0  # slow cycles are drawn at this part of the lowest frequency [1]
 CAPTION = (
     "Small strain, viscoelastic. Slow: tissue is always relaxed. Change of strain at phase zero from the cycle's mean."
-    " Marks on the axis: frequencies asked for; where a point is missing there is no prediction, and a note in"
-    " frequency.csv says why."
+    " No discretisation error is estimated. Marks on the axis: frequencies asked for; where a point is missing there is"
+    " no prediction, and a note in frequency.csv says why."
 )
 
 

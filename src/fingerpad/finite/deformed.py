@@ -36,7 +36,9 @@ from .deformation import Elements, internal_force, tangent_stiffness
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
 LARGEST_CHANGE = 1.0  # of displacement [1] over the load; source: none that came back from further was seen
 FARTHEST = 4.0  # way of tissue [1] over that of the actuators in an increment; source: 1 in devices, 3.1 before a snap
-FAST = 2.0  # the same [1], beyond which a path that ends is said to snap; source: the way grows there without bound
+# Way of tissue [1] over that of the actuators in the last increment that converged: where it is more, and the next one
+# does not converge, tissue is said to snap; source: before a snap the way grows without bound
+FAST = 2.0
 SLIGHT = 1e-3  # of the load [1], by which tissue may move besides; source: equilibrium where corrected moves end
 LOOSER = 1e3  # times [1] the tolerance of contact, to which tissue settles; source: scores then hold to 3e-6 (measured)
 CONTRACTION = 0.4  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds

@@ -55,8 +55,8 @@ MOST_CORNERS = 12  # scores [1] whose box of errors is gone through, corner by c
 
 
 def angle_of_errors(score: FloatArray, error: FloatArray) -> float:
-    """Largest angle [rad] by which errors (n,) d of scores (n,) can turn these, centred to S: pi where they can turn
-    the slope of the scores with themselves, as no direction is then left out; not a number if they are not known.
+    """Largest angle [rad] by which errors (n,) d of scores (n,) can turn these, centred to S; not a number if errors
+    are not known. Where some S + e in their box is at a right angle to S, or beyond, pi stands for every angle.
 
     Else <S, S + e> > 0 in all of the box |e_i| <= d_i. Its ratio to the norm of S + e is then quasi-concave in e, so
     that the angle is largest at a corner. Of more than MOST_CORNERS scores, whose corners are too many, it is at most

@@ -65,7 +65,7 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
     lines: dict[tuple[str, str], int] = {}
     for line, row in _read_rows(path, RATING_COLUMNS):
         device, condition, kind = row["device"], row["condition"], row["kind"]
-        _check_name(path, line, "device", device, conditions_by_device)
+        _check_device(path, line, device, conditions_by_device)
         if not conditions_by_device[device]:
             continue
         _check_condition(path, line, "condition", condition, device, conditions_by_device)
@@ -100,7 +100,7 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
     """
     rows: list[dict[str, Any]] = []
     for line, row in _read_rows(path, ORDER_COLUMNS):
-        _check_name(path, line, "device", row["device"], conditions_by_device)
+        _check_device(path, line, row["device"], conditions_by_device)
         if not conditions_by_device[row["device"]]:
             continue
         for column in ("lower", "higher"):
@@ -176,6 +176,13 @@ def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, 
         if not row["source"]:
             raise _error(path, line, "source", "", "where the row comes from")
     return rows
+
+
+def _check_device(path: Path, line: int, found: str, known: Collection[str]) -> None:
+    try:
+        _check_name(path, line, "device", found, known)
+    except RatingError as error:
+        raise RatingError(f"{error} (a device with a file, in config/devices or among the scenes asked for)") from None
 
 
 def _check_condition(

@@ -63,7 +63,7 @@ def scene_caveats(scene: Scene) -> list[str]:
     found = []
     if scene.model.contact.friction == 0.0:
         found.append("contact.friction is 0: the interface called shear has no friction here either")
-    if scene.model.contact.criterion is Criterion.FULL and scene.device.actuators.half_face <= 0.0:
+    if scene.lacks_faces:
         found.append(
             "round actuators have no flat face to cover: pre-indentation ends where contact reaches the middle of each;"
             f" {PRESS_AS_ASKED}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from enum import StrEnum
 from itertools import pairwise
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
 from ..errors import SceneError
+from ..guess import closest, hint
 from ..requirements import require, require_positive
 from .contact_law import Interface
 from .finger import Material
@@ -302,8 +302,8 @@ class Device:
             if condition.name == name:
                 return condition
         names = [condition.name for condition in self.conditions]
-        hint = "".join(f"; did you mean '{close}'?" for close in get_close_matches(name, names, n=1))
-        raise SceneError(f"{self.name}: no condition '{name}'; allowed: {', '.join(names)}{hint}")
+        meant = hint(closest(name, names), "'")
+        raise SceneError(f"{self.name}: no condition '{name}'; allowed: {', '.join(names)}{meant}")
 
     def first_with_stimulus_of(self, name: str) -> Condition:
         """The first condition with the same stimulus. Raises SceneError if there is no condition of that name."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..requirements import require
-from .contact_law import ContactLaw
+from .contact_law import ContactLaw, Criterion
 from .device import Condition, Device
 from .finger import Finger
 from .numerics import Numerics, Skips
@@ -96,6 +96,11 @@ class Scene:
     def computed(self) -> tuple[Kinematics, ...]:
         """Kinematics that the workflow computes: those of the model that the device's file does not leave out."""
         return tuple(each for each in self.model.tissue.computed if each in self.device.kinematics)
+
+    @property
+    def lacks_faces(self) -> bool:
+        """Whether skin is to cover all faces of actuators that are round, and have none."""
+        return self.model.contact.criterion is Criterion.FULL and self.device.actuators.half_face <= 0.0
 
     def with_kinematics(self, kinematics: Kinematics) -> Scene:
         """The scene with other kinematics."""

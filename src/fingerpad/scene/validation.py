@@ -24,6 +24,7 @@ import yaml
 
 from ..csvrows import listed
 from ..errors import SceneError, UsageError
+from ..guess import hint
 from ..imports import without
 from .contact_law import Criterion
 from .scene import Model, Scene
@@ -44,6 +45,7 @@ RESERVED = {"false", "inf", "infinity", "nan", "null", "true"}
 NAME = f"small letters, digits and underscores that begin with a letter, at most {LONGEST_NAME}"
 YAML_ENDINGS = {".yaml", ".yml"}
 LONGEST_SHOWN = 60  # characters of a found value in a message [1]
+SIMILAR = 0.7  # likeness of words [1] above which one is taken for the other (difflib's); source: chosen
 FACTORS: Mapping[tuple[str, str], float] = {
     **{("mm", unit): 1e-3 for unit in ("um", "\N{GREEK SMALL LETTER MU}m", "\N{MICRO SIGN}m")},
     **{("mm", "nm"): 1e-6, ("mm", "cm"): 10.0, ("mm", "m"): 1e3},
@@ -168,9 +170,9 @@ def require_name(path: Path) -> None:
     if not fits or path.suffix != ".yaml":
         allowed = f"{_allowed_name(path.stem)}, then .yaml"
         meant = path.stem if fits else _as_name(path.stem)
-        hint = f"{meant}.yaml" if meant and path.suffix.lower() in YAML_ENDINGS else ""
+        file = f"{meant}.yaml" if meant and path.suffix.lower() in YAML_ENDINGS else ""
         about = "the file name is the device's name"
-        _report(path, [_problem(0, "file name", _shown_name(path.name), allowed, meant=hint, about=about)])
+        _report(path, [_problem(0, "file name", _shown_name(path.name), allowed, meant=file, about=about)])
 
 
 def require_new_name(name: str) -> None:
@@ -212,8 +214,7 @@ def allowed_values(schema: Schema) -> str:
 
 
 def _problem(rank: int, key: str, found: str, allowed: str, *, about: str, meant: str = "") -> Problem:
-    hint = f"; did you mean {meant}?" if meant else ""
-    return rank, f"{key}: found {found}; allowed: {allowed}{hint} ({about})"
+    return rank, f"{key}: found {found}; allowed: {allowed}{hint(meant)} ({about})"
 
 
 def _named(path: Path, values: Mapping[str, Any]) -> str:
@@ -454,7 +455,7 @@ def _closest(word: object, known: Iterable[str]) -> str:
     """The known word that contains a word or else is most similar to it, or nothing."""
     text, words = str(word).lower(), list(known)
     longer = [word for word in words if len(text) > 3 and text in word]
-    return next(iter(longer or difflib.get_close_matches(text, words, 1, 0.7)), "")
+    return next(iter(longer or difflib.get_close_matches(text, words, 1, SIMILAR)), "")
 
 
 def _as_name(text: object) -> str:

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from difflib import get_close_matches
 from itertools import product
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from ..errors import SceneError, UsageError
+from ..guess import closest, hint
 
 Document = dict[str, Any]
 NO_VALUES: Mapping[str, Any] = MappingProxyType({})  # in place of those in scene files: they are taken as they are
@@ -132,6 +132,5 @@ def by_number(key: str, documents: Iterable[Document]) -> str:
 
 def no_such_value(key: str, where: str, known: Sequence[str]) -> SceneError:
     """The error that a key is none of the known ones of some files, with the one that was probably meant."""
-    close = [each for each in known if each.endswith(f".{key}")] or get_close_matches(key, known, n=1)
-    hint = f"; did you mean {close[0]}?" if close else ""
-    return SceneError(f"{key}: found no such value in {where}; allowed: a value that is written there{hint}")
+    meant = next((each for each in known if each.endswith(f".{key}")), "") or closest(key, known)
+    return SceneError(f"{key}: found no such value in {where}; allowed: a value that is written there{hint(meant)}")

@@ -106,7 +106,7 @@ def vibrate(
         if number > 0:  # the first cycle is another than all that follow
             left = stepping.fading**steps
             for_ever = (moment.memory - left * memory) / (1.0 - left)
-            # forces answer what has crept, so that less is left for ever: as much as if all tissue crept alike
+            # forces answer what creeps and drive it back: by as much as if all tissue crept alike
             answered = np.tensordot(share, for_ever - moment.memory, 1)
             moment = replace(moment, memory=for_ever - answered)
     rubbing = "friction ratchets the skin" if problem.friction > 0.0 else ""

@@ -6,7 +6,7 @@ these afferents answer change, not what stays.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -49,19 +49,20 @@ def frequency_name(frequency: float) -> str:
 @dataclass(frozen=True)
 class Outcome:
     """Scores [mm2] by read-out, none if there is no prediction; inertia: its effect [1], None where it is not known;
-    note: why there is no prediction, or what to beware of.
+    caveats: why there is no prediction, or what to beware of.
     """
 
     scores: dict[Readout, float]
     inertia: float | None
-    note: str
+    caveats: list[str]
 
 
 def vibration_rows(
     scene: Scene, section: SectionMesh, condensed: Condensed, step: Callable[[], object] = lambda: None
 ) -> list[dict[str, Any]]:
-    """Rows of the frequency table of a scene, of slow cycles first. section, condensed: of the scene. step: called
-    after each of `steps`. Raises MeshError, CondensationError.
+    """Rows of the frequency table of a scene, of slow cycles first, with `caveats` (a list of sentences) behind, which
+    the note joins. section, condensed: of the scene. step: called after each of `steps`. Raises MeshError,
+    CondensationError.
     """
     creep = condense_creep(section, scene)
     step()
@@ -105,7 +106,7 @@ def frequency_rows(
             frequency = at.frequency if at else SLOWLY
             if (stimulus, frequency) not in found:
                 found[stimulus, frequency] = (
-                    Outcome({}, None, f"{NO_PREDICTION}: {indented}")
+                    Outcome({}, None, [f"{NO_PREDICTION}: {indented}"])
                     if isinstance(indented, UnsolvedError)
                     else _outcome(scene, condensed, creep, indented, cycle, at)
                 )
@@ -137,9 +138,9 @@ def _outcome(
         deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
         pressing = actuator_forces(indented.problem, [indented.state, *vibration.states])[:, :, 1]
         told = [*state_caveats(scene, deepest, read), *scene_caveats(scene), *pressing_caveats(pressing)]
-        return Outcome(_vibration_scores(scene, condensed, vibration), effect, "; ".join(told))
+        return Outcome(_vibration_scores(scene, condensed, vibration), effect, told)
     except ContactError as error:
-        return Outcome({}, effect, f"{NO_PREDICTION}: {error}")
+        return Outcome({}, effect, [f"{NO_PREDICTION}: {error}"])
 
 
 def certified_vibration(
@@ -206,5 +207,11 @@ def _row(
         "score": outcome.scores.get(readout),
         "unit": SCORE_UNIT,
         "inertia": outcome.inertia,
-        "note": outcome.note,
+        "note": "; ".join(outcome.caveats),
+        "caveats": outcome.caveats,
     }
+
+
+def without_caveats(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Rows as a table holds them: of caveats, the note that joins them."""
+    return [{name: value for name, value in row.items() if name != "caveats"} for row in rows]

@@ -36,8 +36,8 @@ def _relaxation_variants(scene: Scene) -> dict[str, Scene]:
 
 
 def relaxation_rows(scene: Scene, section: SectionMesh, condensed: Condensed, frequency: float) -> list[dict[str, Any]]:
-    """Rows of the frequency table for shear at a frequency [Hz] under other assumptions on how tissue relaxes, each
-    with its `assumption`. Raises what `condense_creep` and `condense_vibrating` raise.
+    """Rows of `frequency_rows` for shear at a frequency [Hz] under other assumptions on how tissue relaxes, each with
+    its `assumption`. Raises what `condense_creep` and `condense_vibrating` raise.
     """
     return [
         {"assumption": name, **row}
