@@ -138,7 +138,7 @@ def test_every_script_and_page_is_one_of_a_rule() -> None:
     assert scripts == {Path(rule.script).name for rule in WORKING if rule.script}
     pages = (ROOT / "workflow" / "rules" / "pages.smk").read_text(encoding="utf-8")
     listed = pages.partition("PAGE_TABLES = {")[2].partition("\n}\n")[0]
-    named = set(re.findall(r'^    "(\w+)": \{', listed, re.MULTILINE))
+    named = set(re.findall(r'^    "([\w-]+)": \{', listed, re.MULTILINE))
     assert named == {path.stem for path in (ROOT / "workflow" / "pages").glob("*.md")}
 
 

@@ -11,6 +11,7 @@ from fingerpad.pages.claims import claims_values
 from fingerpad.pages.filling import filled
 from fingerpad.pages.frequency import frequency_values
 from fingerpad.pages.robustness import robustness_values
+from fingerpad.pages.run_time import run_time_values
 from fingerpad.pages.scorings import scorings_values
 from fingerpad.pages.skipping import skipping_values
 
@@ -19,6 +20,7 @@ VALUES = {
     "claims": claims_values,
     "frequency": frequency_values,
     "robustness": robustness_values,
+    "run-time": run_time_values,
     "scorings": scorings_values,
     "skipping": skipping_values,
 }
