@@ -162,7 +162,8 @@ def test_response_is_what_the_filter_leaves_of_a_wave(period: float, wavelength:
 
 def test_response_is_asked_of_faces_and_pitches() -> None:
     rows = response_rows(scene("device3"))
-    assert [(row["length"], row["period"]) for row in rows[:3]] == [
+    assert [(row["length"], row["period"]) for row in rows[:4]] == [
+        ("uniform", math.inf),
         ("face width", 1.5),
         ("pitch", 2.5),
         ("two pitches", 5.0),
@@ -303,6 +304,7 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
     assert str(values["drives"]).count("no finger") == len(DRIVES)
     assert "no finger" not in str(values["change"])
     assert "| device1 | face width | 1 | 0.0036 % | 66 % |" in str(values["response"])
+    assert "| device1 | uniform | ∞ | 8.5 % |" in str(values["response"])
     assert values["published"] == "device1 0.0004; device2 0.989, rising; device3 negative correlation"
 
 
@@ -327,7 +329,7 @@ def test_a_signed_area_ends_with_the_span() -> None:
 def test_a_single_pin_has_no_pitch() -> None:
     pin = Device("single", "One pin", Control.DISPLACEMENT, ActuatorRow((0.0,), 1.0, 0.1), (moved([[0.02]], [[0.0]]),))
     rows = response_rows(Scene(scene("device2").model, pin))
-    assert [(row["length"], row["period"]) for row in rows] == [("face width", 1.0)] * 2
+    assert [(row["length"], row["period"]) for row in rows] == [("uniform", math.inf), ("face width", 1.0)] * 2
 
 
 def test_what_is_no_area_of_a_filtered_curve_is_in_mm() -> None:

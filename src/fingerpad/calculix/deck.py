@@ -55,7 +55,7 @@ class DeckSettings:
     face each other, and in which direction.
 
     Raises SceneError if a slope or a number of increments is not positive, another number negative or not finite, or
-    friction falls with pre-indentation.
+    friction falls after pre-indentation.
     """
 
     indentation: float
@@ -302,6 +302,7 @@ def _contact(scene: Scene, settings: DeckSettings) -> list[str]:
     lines = [
         "**",
         "** ---- contact: pressure [MPa] = slope [MPa/mm] x penetration; Coulomb friction [1], stick slope [MPa/mm]",
+        "** Abaqus reads the stick slope as a slip rate: set SLIP TOLERANCE or ELASTIC SLIP on every *FRICTION there",
         "*SURFACE INTERACTION, NAME=SKIN_ON_ACTUATOR",
         "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
         f"{settings.pressure_slope:.12g}",
@@ -344,16 +345,16 @@ def _step(
     step: str,
     displacement: Sequence[tuple[float, float]],
     increments: int,
-    before: list[str],
+    change: list[str],
     output: list[str],
 ) -> list[str]:
     """One static step in equal increments: displacement (x, y) [mm] of every actuator from its place in the row; lines
-    before, and the output at its end.
+    that change friction, which follow the procedure, as Abaqus wants that first; and the output at its end.
     """
     length = f"{1.0 / increments:.9g}"
     return [
         *("**", f"** ---- {title}: displacement [mm] of the actuators from their place in the row and y = 0"),
-        *(step, *before, "*STATIC", f"{length}, 1.0, {SMALLEST_INCREMENT:g}, {length}"),
+        *(step, "*STATIC", f"{length}, 1.0, {SMALLEST_INCREMENT:g}, {length}", *change),
         "*BOUNDARY",
         *(
             f"{actuator_name(number)}, {axis}, {axis}, {value:.9e}"

@@ -18,9 +18,11 @@ from .options import add_case_options, add_scene_options, checked_case, writable
 
 DECK = ".inp"
 STEPS = 2  # of the progress: mesh, pre-indentation
-# MPa/mm of pressure over penetration, of shear over elastic slip; source: CalculiX does not settle on stiffer ones
+# MPa/mm of pressure over penetration, of shear over elastic slip; source: CalculiX did not settle on ones four times as
+# stiff (measured)
 PRESSURE_SLOPE, STICK_SLOPE = 500.0, 100.0
-# Increments [1] of pre-indentation, of each time of the stimulus, and at rest after it; source: docs/calculix.md
+# Increments [1] of pre-indentation, of each time of the stimulus, and at rest after it; source: chosen; the cases in
+# workflow/rules/calculix.smk say what others do
 INDENTING, ACTING, RESTING = 20, 4, 3
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes

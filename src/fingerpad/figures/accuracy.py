@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from string import ascii_uppercase
 from typing import Any
 
 import numpy as np
@@ -46,7 +47,7 @@ def accuracy_figure(rows: pd.DataFrame, kinematics: Kinematics) -> Figure:
     shown = rows[rows["case"].isin(cases)]
     figure = new_figure(WIDE, ROW_HEIGHT * lines + LEGEND_HEIGHT)
     grid = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
-    for axes, case, name in zip(grid, cases, "ABCDEFGHIJKLMNOPQRSTUVWXYZ", strict=False):
+    for axes, case, name in zip(grid[: len(cases)], cases, ascii_uppercase[: len(cases)], strict=True):
         _panel(axes, rows[rows["case"] == case])
         axes.set_title(_typeset(case), loc="left")
         letter(axes, name, LETTER_NEAR)

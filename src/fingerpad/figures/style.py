@@ -39,8 +39,9 @@ MARKER = 4.5  # marker size [pt]
 LETTER_OFFSET = (-30.0, 4.0)  # of a panel's letter from its upper left corner [pt]
 LETTER_NEAR = (-26.0, 4.0)  # the same, where the labels of ticks are short [pt]
 POINTS = 72.0  # in an inch
-CHARACTER, HANDLE = 0.56, 4.6  # widths of a letter and of what stands before a legend's label, of the font size [1]
-BOLD = 1.2  # width of bold letters, of plain ones [1]
+# Widths of a letter and of what stands before a legend's label, of the font size [1]; source: measured in this font
+CHARACTER, HANDLE = 0.56, 4.6
+BOLD = 1.2  # width of bold letters, of plain ones [1]; source: the same
 LONGEST_KEY = 40  # characters of a name in a legend
 RESOLUTION = 300  # of PNG files [dots per inch]
 PNG_LEVEL = 3  # of 9; source: half the seconds of the default, files up to a sixth larger (measured)

@@ -102,7 +102,7 @@ def _response(response: pd.DataFrame) -> pd.DataFrame:
     rows = wide.reset_index().rename(
         columns={"period": "mm", "strain": "SA-1 filter", "change_of_strain": "RA-1 filter"}
     )
-    return rows.assign(mm=rows["mm"].map("{:g}".format))
+    return rows.assign(mm=rows["mm"].map("{:g}".format).replace("inf", "∞"))
 
 
 def _frictions(frictions: pd.DataFrame) -> pd.DataFrame:

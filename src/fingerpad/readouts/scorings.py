@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from enum import StrEnum
 from typing import Any
@@ -111,6 +112,8 @@ def response(period: float, wavelength: float, sigma: float) -> float:
 
     >>> round(response(1.15, 1.15, 1.12), 12), response(5.0, 1.15, 1.12) < 1e-4
     (1.0, True)
+    >>> round(response(math.inf, 2.8, 1.12), 3)
+    0.085
     """
     own = 2.0 * np.pi / wavelength
 
@@ -121,11 +124,11 @@ def response(period: float, wavelength: float, sigma: float) -> float:
 
 
 def response_rows(scene: Scene) -> list[dict[str, Any]]:
-    """What each read-out's filter leaves of waves as long as a device's faces, its pitch and two pitches: one row for
-    each, with `period` [mm] and `response` [1].
+    """What each read-out's filter leaves of waves as long as a device's faces, its pitch and two pitches, and of what
+    is everywhere the same: one row for each, with `period` [mm] and `response` [1].
     """
     row, gabor = scene.device.actuators, scene.model.gabor
-    lengths = {"face width": row.width}
+    lengths = {"uniform": math.inf, "face width": row.width}
     if len(row.positions) > 1:
         pitch = float(np.diff(row.positions).mean())
         lengths |= {"pitch": pitch, "two pitches": 2.0 * pitch}
