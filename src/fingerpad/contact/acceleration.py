@@ -21,6 +21,6 @@ def accelerated(steps: Sequence[FloatArray], ends: Sequence[FloatArray]) -> Floa
     """
     if len(steps) == 1:
         return ends[0]
-    step, end = np.stack(steps[-MEMORY:], axis=1), np.stack(ends[-MEMORY:], axis=1)
-    weights = np.linalg.lstsq(np.diff(step, axis=1), steps[-1], rcond=None)[0]
-    return np.asarray(ends[-1] - np.diff(end, axis=1) @ weights)
+    step, end = np.array(steps[-MEMORY:]), np.array(ends[-MEMORY:])
+    weights = np.linalg.lstsq(np.diff(step, axis=0).T, steps[-1], rcond=None)[0]
+    return np.asarray(ends[-1] - weights @ np.diff(end, axis=0))

@@ -28,19 +28,18 @@ NODE_COUNT = NODES.shape[1]  # of a second-order triangle [1]
 class Elements:
     """Second-order elements of hyperelastic tissue, and where their entries go in the tangent.
 
-    centre: (n_elements, 2) [mm]. gradient: (n_elements, n_points, 6, 2) of the shape functions [1/mm]. weight:
-    (n_elements, n_points) [mm2]. unknowns: (n_elements, 12), x and y by node. tissue: constants at (n_elements, 1).
-    size: number of unknowns.
+    centre: (n_elements, 2) [mm]. shape_gradient: (n_elements, n_points, 6, 2) of the shape functions [1/mm]. gradient:
+    (4 n_elements n_points, size) displacement gradient by the unknowns [1/mm], H_11, H_12, H_21 and H_22 of all points
+    one after the other. weight: (n_elements, n_points) [mm2]. tissue: constants at (n_elements, 1).
     free: (n_free,) unknowns that move, in the order of the tangent's rows. rows, starts: of the tangent's columns
     (compressed). entry: (n_elements 144,) place of each element entry among them, the last for none.
     """
 
     centre: FloatArray
-    gradient: FloatArray
+    shape_gradient: FloatArray
+    gradient: csr_matrix
     weight: FloatArray
-    unknowns: np.ndarray
     tissue: Tissue
-    size: int
     free: np.ndarray
     rows: np.ndarray
     starts: np.ndarray
@@ -50,23 +49,32 @@ class Elements:
 def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
     """Elements of a basis; `free` orders the tangent's rows and columns."""
     # (6, 2, n_elements, n_points)
-    gradient = np.array([basis.basis[2 * node][0].grad[0] for node in range(NODE_COUNT)])
-    unknowns = basis.element_dofs.T
+    by_node = np.array([basis.basis[2 * node][0].grad[0] for node in range(NODE_COUNT)])
+    shape_gradient = np.ascontiguousarray(by_node.transpose(2, 3, 0, 1))
+    unknowns = basis.element_dofs.T  # x and y by node
     place = np.full(basis.N, free.size, dtype=np.int32)
     place[free] = np.arange(free.size)
     rows, starts, entry = _tangent_pattern(place[unknowns], free.size)
     return Elements(
         centre=basis.global_coordinates().mean(axis=-1).T,
-        gradient=np.ascontiguousarray(gradient.transpose(2, 3, 0, 1)),
+        shape_gradient=shape_gradient,
+        gradient=_displacement_gradient(shape_gradient, unknowns, basis.N),
         weight=np.asarray(basis.dx),
-        unknowns=unknowns,
         tissue=tissue,
-        size=basis.N,
         free=free,
         rows=rows,
         starts=starts,
         entry=entry,
     )
+
+
+def _displacement_gradient(shape_gradient: FloatArray, unknowns: np.ndarray, size: int) -> csr_matrix:
+    """`gradient` of elements with those shape functions and unknowns (n_elements, 12)."""
+    count, points, nodes, _ = shape_gradient.shape
+    value = np.broadcast_to(shape_gradient.transpose(3, 0, 1, 2), (2, 2, count, points, nodes))
+    column = np.broadcast_to(unknowns.reshape(count, 1, nodes, 2).transpose(3, 0, 1, 2)[:, None], value.shape)
+    starts = np.arange(0, value.size + 1, nodes)
+    return csr_matrix((value.ravel(), column.ravel(), starts), shape=(starts.size - 1, size))
 
 
 def _tangent_pattern(place: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -97,8 +105,7 @@ def displacement_gradient(elements: Elements, displacement: FloatArray) -> Float
 
     Raises InvertedError, with the first place, where elements are turned inside out.
     """
-    nodal = displacement[elements.unknowns].reshape(-1, 1, NODE_COUNT, 2)
-    gradient = np.asarray((nodal.transpose(0, 1, 3, 2) @ elements.gradient).transpose(2, 3, 0, 1))
+    gradient = np.asarray(elements.gradient @ displacement).reshape(2, 2, *elements.weight.shape)
     inverted = ~is_upright(gradient).all(axis=-1)
     if inverted.any():
         x, y = elements.centre[np.flatnonzero(inverted)[0]]
@@ -113,7 +120,7 @@ def internal_force(elements: Elements, displacement: FloatArray) -> FloatArray:
     """Forces (size,) [N/mm] that hold the tissue at a displacement (size,) [mm]. Raises InvertedError."""
     gradient = displacement_gradient(elements, displacement)
     stress = stress_of(elements.tissue, gradient)
-    return _assembled(elements, _first_stress(gradient, stress))
+    return np.asarray(elements.gradient.T @ (elements.weight * _first_stress(gradient, stress)).ravel())
 
 
 def tangent_stiffness(elements: Elements, displacement: FloatArray) -> csc_matrix:
@@ -123,7 +130,7 @@ def tangent_stiffness(elements: Elements, displacement: FloatArray) -> csc_matri
     gradient = displacement_gradient(elements, displacement)
     response = respond(elements.tissue, gradient)
     (a, b), (c, d) = gradient[..., None]
-    nx, ny = elements.gradient[..., 0], elements.gradient[..., 1]
+    nx, ny = elements.shape_gradient[..., 0], elements.shape_gradient[..., 1]
     # rows of B, (n_elements, n_points, 3, 6, 2): derivatives of E_11, E_22 and 2 E_12 by the nodes' x and y
     strain = np.empty((*nx.shape[:2], VOIGT, NODE_COUNT, 2))
     strain[:, :, 0, :, 0], strain[:, :, 0, :, 1] = (1.0 + a) * nx, c * nx
@@ -137,7 +144,7 @@ def tangent_stiffness(elements: Elements, displacement: FloatArray) -> csc_matri
     )
     s11, s22, s12 = (response.stress * elements.weight)[..., None]
     pulled = np.stack([s11 * nx + s12 * ny, s12 * nx + s22 * ny], axis=-1)
-    geometric = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODE_COUNT, -1) @ pulled.transpose(
+    geometric = elements.shape_gradient.transpose(0, 2, 1, 3).reshape(count, NODE_COUNT, -1) @ pulled.transpose(
         0, 1, 3, 2
     ).reshape(count, -1, NODE_COUNT)
     blocks = material.reshape(count, NODE_COUNT, 2, NODE_COUNT, 2)
@@ -157,11 +164,3 @@ def _first_stress(gradient: FloatArray, stress: FloatArray) -> FloatArray:
             [c * s11 + (1.0 + d) * s12, c * s12 + (1.0 + d) * s22],
         ]
     )
-
-
-def _assembled(elements: Elements, stress: FloatArray) -> FloatArray:
-    """Forces (size,) [N/mm] of first Piola-Kirchhoff stresses (2, 2, n_elements, n_points)."""
-    weighted = (stress * elements.weight).transpose(2, 3, 1, 0)  # (n_elements, n_points, J, component)
-    count = weighted.shape[0]
-    nodal = elements.gradient.transpose(0, 2, 1, 3).reshape(count, NODE_COUNT, -1) @ weighted.reshape(count, -1, 2)
-    return np.asarray(np.bincount(elements.unknowns.ravel(), nodal.ravel(), minlength=elements.size), dtype=float)

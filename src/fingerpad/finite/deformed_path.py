@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import eigh
@@ -70,6 +71,18 @@ class DeformedTissue:
         """Displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
         field = np.asarray(self.factors.solve(load))
         return field if self.spring is None else field - self.spring.takes(load)
+
+    def back_from(self, displacement: FloatArray) -> FloatArray:
+        """-K^-1 R (n_free,) [mm] at a displacement (size,) [mm]: how far tissue that nothing holds there goes back.
+        Raises InvertedError.
+        """
+        elements = self.part.elements
+        return -self.solve(internal_force(elements, displacement)[elements.free])
+
+    @cached_property
+    def back(self) -> FloatArray:
+        """`back_from` u_0, with which all moves from there begin."""
+        return self.back_from(self.displacement)
 
 
 @dataclass(frozen=True)
@@ -207,15 +220,15 @@ def _corrected(
     """`move` on the tissue's tangent alone, with so many corrections at most. Raises _UnsettledError."""
     part, free = tissue.part, tissue.part.elements.free
     problem = replace(problem, compliance=tissue.compliance)
-    exact = tissue.spring is None and np.array_equal(start.displacement, tissue.displacement)
-    power = 2 if exact else 1
+    begins_there = np.array_equal(start.displacement, tissue.displacement)
+    power = 2 if begins_there and tissue.spring is None else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
     displacement, first, state = start.displacement, None, None
     patch: Patch | None = None
     for correction in range(most):
         try:
-            back = -tissue.solve(internal_force(part.elements, displacement)[free])
+            back = tissue.back if begins_there and correction == 0 else tissue.back_from(displacement)
             last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
             if state is None or problem.friction > 0.0:
