@@ -15,7 +15,7 @@ from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
 from fingerpad.contact.increment import solve_increment
-from fingerpad.contact.indentation import raise_until
+from fingerpad.contact.indentation import SHALLOW, raise_until
 from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import Patch, patch_of
 from fingerpad.contact.path import advance, follow
@@ -230,6 +230,27 @@ def test_a_path_that_is_lost_beyond_a_force_reaches_it(lost: float, reached: boo
     else:
         with pytest.raises(ConvergenceError):
             raise_until(problem, law, 1, 3.0, rest(problem, touch), solve)
+
+
+def test_a_way_that_goes_too_far_is_taken_back_no_farther_than_needed() -> None:
+    """Pressed with a force that is borne 0.2 mm deep, where an increment of 0.3 mm is halved: its first half stays."""
+    problem, begun = touched(0.1, 1.0, 0.5), list[float]()
+    touch = touching_height(problem)
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
+    ) -> tuple[ContactState, Patch | None]:
+        if actuator[0, 1] - state.actuator[0, 1] > 0.2:
+            raise NotConvergedError(1.0)
+        begun.append(float(state.actuator[0, 1]) - touch)
+        borne = np.full_like(state.force, 5.0 * (float(actuator[0, 1]) - touch) / state.given.size)
+        return replace(state, actuator=actuator, force=borne), patch
+
+    law = ContactLaw(0.5, TurningNormal.NEVER, Criterion.FORCE, 0.3, 1.0)
+    reached = raise_until(problem, law, 1, 0.3 / SHALLOW, rest(problem, touch), solve)
+    assert reached.force[:, 1].sum() == pytest.approx(1.0, rel=1e-4)
+    assert begun[:2] == pytest.approx([0.0, 0.15])
+    assert min(begun[1:]) == pytest.approx(0.15)
 
 
 @pytest.mark.parametrize("depth", [0.001, 0.0015, 0.002, 0.1])

@@ -209,6 +209,11 @@ def test_jobs_that_read_solutions_load_no_solver(project: Project, script: str) 
     assert "fingerpad.contact.active_set" not in loaded(project, f"workflow/scripts/{script}.py")
 
 
+@pytest.mark.parametrize("script", ["solve", "filter", "score"])
+def test_jobs_of_every_condition_load_no_scipy(project: Project, script: str) -> None:
+    assert not {"scipy", "numpy.f2py"} & loaded(project, f"workflow/scripts/{script}.py")
+
+
 @pytest.mark.parametrize("script", ["check", "notebook", "report"])
 def test_jobs_compile_no_grammar_of_web_addresses(project: Project, script: str) -> None:
     assert "rfc3987_syntax" not in loaded(project, f"workflow/scripts/{script}.py")

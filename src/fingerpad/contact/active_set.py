@@ -24,7 +24,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg.lapack import dgesv
 
 from ..arrays import FloatArray
 from .formulation import OPEN, ContactProblem, ContactState, Status, resolved
@@ -113,10 +112,15 @@ class Trial:
 
 @dataclass(frozen=True)
 class _Step:
-    """Change (2b,) [mm] of the displacements in a Newton step; whether its equations' determinant is negative."""
+    """Change (2b,) [mm] of the displacements in a Newton step, and the matrix (m, m) of its equations."""
 
     moved: FloatArray
-    turned: bool
+    matrix: FloatArray
+
+    @cached_property
+    def turned(self) -> bool:
+        """Whether the equations' determinant is negative."""
+        return bool(np.linalg.slogdet(self.matrix).sign < 0.0)
 
 
 @dataclass(frozen=True)
@@ -288,15 +292,12 @@ def _newton_equations(increment: PatchProblem, trial: Trial, states: _States) ->
 def _newton_step(increment: PatchProblem, trial: Trial, states: _States) -> _Step | None:
     """The Newton step within the given states; None if its equations are singular."""
     moved = np.zeros(2 * states.status.size)
-    if states.unknown.size == 0:  # all nodes stick; LAPACK takes no empty matrix
-        return _Step(moved, turned=False)
     matrix, right = _newton_equations(increment, trial, states)
-    factors, pivots, found, singular = dgesv(matrix, right, overwrite_a=True, overwrite_b=True)
-    if singular or not np.isfinite(found).all():
+    try:
+        moved[states.unknown] = np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
         return None
-    moved[states.unknown] = found
-    exchanges = np.count_nonzero(pivots != np.arange(pivots.size))
-    return _Step(moved, turned=(exchanges + np.count_nonzero(factors.diagonal() < 0.0)) % 2 == 1)
+    return _Step(moved, matrix) if np.isfinite(moved).all() else None
 
 
 def _stepped(increment: PatchProblem, trial: Trial, step: FloatArray, states: _States, reference: FloatArray) -> Trial:

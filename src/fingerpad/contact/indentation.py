@@ -87,8 +87,10 @@ def raise_until(
             step = height - here
         left = missing_of(problem, advanced, law, touch)
         if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
-            # too far: again from the same state
-            beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond else 1.0)
+            # too far: again from the last state on the way that was not
+            state = next(each for each in reversed(passed) if missing_of(problem, each, law, touch) > enough)
+            missing = missing_of(problem, state, law, touch)
+            beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond and state is passed[0] else 1.0)
         else:
             closed = (missing - left) / step if np.isfinite(missing) else 0.0
             state, missing = advanced, left
