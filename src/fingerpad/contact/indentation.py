@@ -87,7 +87,7 @@ def raise_until(
             step = height - here
         left = missing_of(problem, advanced, law, touch)
         if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
-            # too far: again from the last state on the way that was not
+            # too far: again from the last state on the way that was not; beside a new one, what is beyond weighs whole
             state = next(each for each in reversed(passed) if missing_of(problem, each, law, touch) > enough)
             missing = missing_of(problem, state, law, touch)
             beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond and state is passed[0] else 1.0)
