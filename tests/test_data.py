@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
+from fingerpad.perception.order import order_matrix
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scenefile import build_device, build_model, read_yaml

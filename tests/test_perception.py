@@ -19,8 +19,9 @@ from fingerpad.perception.correlation import (
     is_turned,
     tau_range,
 )
-from fingerpad.perception.extremes import rating_range, up_sets
-from fingerpad.perception.ratings import order_matrix, read_published, read_ratings, read_stated_order
+from fingerpad.perception.extremes import rating_range
+from fingerpad.perception.order import order_matrix, up_sets
+from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 
 Array = NDArray[np.float64]
 Matrix = NDArray[np.bool_]
@@ -177,6 +178,19 @@ def test_up_sets_are_all_those_which_brute_force_finds(seed: int) -> None:
         if 0 < sum(subset) < 7 and all(subset[j] for i in range(7) for j in range(7) if subset[i] and at_most[i, j])
     ]
     assert sorted(map(tuple, up_sets(at_most).tolist())) == sorted(brute)
+
+
+@pytest.mark.parametrize(("count", "pairs", "message"), [(3, 2, "makes all ratings equal"), (20, 1, "65536 up-sets")])
+def test_an_order_without_a_range_is_refused_as_it_is_read(
+    count: int, pairs: int, message: str, tmp_path: Path
+) -> None:
+    """Before anything is computed."""
+    names = [f"c{number}" for number in range(count)]
+    rows = [f"own,{one},=,{other},us" for one, other in itertools.pairwise(names[: pairs + 1])]
+    path = tmp_path / "order.csv"
+    path.write_text("\n".join(["device,lower,relation,higher,source", *rows]), encoding="utf-8")
+    with pytest.raises(RatingError, match=f"order.csv: own: the stated order .*{message}"):
+        read_stated_order(path, {"own": names})
 
 
 def test_device1_has_nine_up_sets() -> None:
@@ -595,7 +609,8 @@ def test_measured_ratings_which_contradict_the_stated_order_are_noted() -> None:
 
 
 @pytest.mark.parametrize(
-    ("count", "ratings", "note"), [(3, [1.0, 1.0, 1.0], "constant rating"), (2, [1.0, 2.0], "fewer than three")]
+    ("count", "ratings", "note"),
+    [(3, [1.0, 1.0, 1.0], "constant rating"), (2, [1.0, 2.0], "fewer than three"), (1, [1.0], "fewer than three")],
 )
 def test_ratings_that_allow_no_correlation_are_noted(count: int, ratings: list[float], note: str) -> None:
     row = make_table(make_scores("mine", [1.0, 2.0, 4.0][:count]), make_ratings("mine", ratings)).iloc[0]

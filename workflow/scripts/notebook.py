@@ -34,7 +34,10 @@ def main(notebook: Path, scenes: Path, page: Path) -> None:
     document = nbformat.read(notebook, as_version=4)
     folder = {"metadata": {"path": str(Path.cwd())}}
     # a page has no kernel, so widgets on it could not move: their state is left out, and what would be loaded for it
-    NotebookClient(document, record_timing=False, store_widget_state=False, resources=folder).execute()
+    client = NotebookClient(document, record_timing=False, store_widget_state=False, resources=folder)
+    # or the kernel warns, in the middle of a run, that others on this machine could listen
+    client.create_kernel_manager().transport_encryption = "auto"
+    client.execute()
     exporter = HTMLExporter(raw_template=TEMPLATE, exclude_input_prompt=True, exclude_output_prompt=True)
     document.metadata["title"] = document.cells[0].source.splitlines()[0].removeprefix("# ")
     text, _ = exporter.from_notebook_node(document)

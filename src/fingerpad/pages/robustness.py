@@ -81,8 +81,8 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
 
 
 def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
-    """Signed R² of each device and read-out with shear: published, as configured in each half-cycle, and the range over
-    all members of both.
+    """Signed R² of each device and read-out with shear: published, as configured in each half-cycle, and in how many
+    members of both the slope rises, whether or not errors of scores leave its sign open.
     """
     shear = correlations[(correlations["interface"] == Interface.SHEAR) & correlations["r2"].notna()]
     rows = []

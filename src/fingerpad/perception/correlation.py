@@ -21,7 +21,8 @@ from ..readouts.comparison import classes
 from ..readouts.roughness import KEY, NO_PREDICTION
 from ..scene.readout import is_constant
 from .extremes import RatingRange, rating_range, unit
-from .ratings import NO_RATINGS, RatingKind, order_matrix
+from .order import order_matrix
+from .ratings import NO_RATINGS, RatingKind
 
 COLUMNS = [
     *KEY,
@@ -189,11 +190,13 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     y = rating.loc[score.index].to_numpy()
     found["n"] = x.size
     which = classes(x)
-    for is_one, note in ((not which.any(), CONSTANT_SCORE), (is_constant(y), "constant rating")):
-        if is_one:
+    for is_so, note in (
+        (x.size < 3, "fewer than three conditions"),
+        (not which.any(), CONSTANT_SCORE),
+        (is_constant(y), "constant rating"),
+    ):
+        if is_so:
             return {**found, "note": note}
-    if x.size < 3:
-        return {**found, "note": "fewer than three conditions"}
     distinct = np.bincount(which, x) / np.bincount(which)
     notes = [] if distinct.size == x.size else [f"{distinct.size} of {x.size} conditions are distinct"]
     error = scores["score_error"].to_numpy(float)

@@ -5,16 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from ..arrays import FloatArray
 from ..errors import RatingError
 from ..scene.readout import CONSTANT, is_constant
+from .order import BoolArray, up_sets
 
-BoolArray = NDArray[np.bool_]
-
-MAX_UP_SETS = 2**16  # up-sets of a stated order that are enumerated; 16 conditions without any order have as many
 ASTRAY = 1e-9  # of a unit score [1], by which its projection may miss the conditions for one; source: rounding
 DECIMALS = 12  # of r and R²; source: there floating point ends
 
@@ -33,29 +30,6 @@ class RatingRange:
     generators: FloatArray
 
 
-def up_sets(at_most: BoolArray) -> BoolArray:
-    """Sets of conditions which hold, with any condition, all that are rated at least as high.
-
-    at_most: (n, n) from `order_matrix`. Returns (k, n) indicators without the empty set and the whole.
-    Raises RatingError if there are more than MAX_UP_SETS.
-
-    >>> up_sets(np.array([[True, True], [False, True]])).tolist()
-    [[False, True]]
-    """
-    sets = np.zeros((1, 0), dtype=bool)
-    for i in range(len(at_most)):
-        below, above = at_most[:i, i], at_most[i, :i]
-        may_be_out = ~(sets & below).any(axis=1)
-        may_be_in = (sets | ~above).all(axis=1)
-        sets = np.vstack([np.insert(sets[may_be_out], i, False, axis=1), np.insert(sets[may_be_in], i, True, axis=1)])
-        if len(sets) > MAX_UP_SETS + 2:
-            raise RatingError(
-                f"the stated order leaves more than {MAX_UP_SETS} up-sets among {len(at_most)} conditions,"
-                " too many for the range of R²; state more of the order, or nothing for this device"
-            )
-    return sets[sets.any(axis=1) & ~sets.all(axis=1)]
-
-
 def rating_range(score: FloatArray, at_most: BoolArray) -> RatingRange:
     """The range of Pearson's r of a score with all ratings that agree with a stated order.
 
@@ -72,7 +46,7 @@ def rating_range(score: FloatArray, at_most: BoolArray) -> RatingRange:
     most two-fold`) restricts nothing, as r does not change when a constant is added to all ratings, and a large
     constant meets any such bound.
 
-    Raises RatingError if the score is constant, or the order makes all ratings equal or has too many up-sets.
+    Raises RatingError if the score is constant, and as `up_sets`.
     Source: Robertson, Wright and Dykstra 1988, Order Restricted Statistical Inference.
 
     >>> rating_range(np.array([0.0, 2.0, 1.0]), np.triu(np.ones((3, 3), dtype=bool))).r2
@@ -81,8 +55,6 @@ def rating_range(score: FloatArray, at_most: BoolArray) -> RatingRange:
     if is_constant(score):
         raise RatingError("the score is constant, so nothing can correlate with it")
     x, generators = unit(score), up_sets(at_most).astype(float)
-    if not len(generators):
-        raise RatingError("the stated order makes all ratings equal, so nothing can correlate with them")
     highest, falling = (_closest(sign * x, generators, at_most) for sign in (1.0, -1.0))
     ratings = np.array([each - each.min() for each in (falling, highest)])
     r = unit(ratings) @ x

@@ -8,14 +8,13 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from ..csvrows import checked_rows, listed, number, told
 from ..errors import RatingError
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
+from .order import StatedRelation, order_matrix, up_sets
 
 RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
 ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
@@ -37,17 +36,10 @@ class RatingKind(StrEnum):
         return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
 
 
-class StatedRelation(StrEnum):
-    """How the ratings of two conditions are stated to compare."""
-
-    LESS = "<"
-    EQUAL = "="
-
-
 def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) -> pd.DataFrame:
     """Ratings of perceived roughness, checked against the devices they rate.
 
-    path: CSV with the columns device, condition, rating (a number >= 0, any unit: R² does not see it), kind
+    path: CSV with the columns device, condition, rating (a number, any unit: R² does not see it), kind
     (surrogate, digitised or measured; one kind a device) and source. conditions_by_device: the condition names of
     every known device; one without any has been left out, and so are its rows. A device may be without ratings, but not
     with some only.
@@ -71,8 +63,8 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
         _check_condition(path, line, "condition", condition, device, conditions_by_device)
         _check_name(path, line, "kind", kind, [*RatingKind])
         rating = number(row["rating"])
-        if not (math.isfinite(rating) and rating >= 0.0):
-            raise _error(path, line, "rating", row["rating"], "a finite number, 0 or more")
+        if not math.isfinite(rating):
+            raise _error(path, line, "rating", row["rating"], "a finite number")
         if (device, condition) in lines:
             first = lines[device, condition]
             raise _error(path, line, "condition", condition, f"one row per condition; {device} has it on line {first}")
@@ -96,7 +88,7 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
 
     path: CSV with the columns device, lower, relation (`<` or `=`), higher and source, a row for each pair of
     conditions. Rows of devices without conditions are left out. Returns those columns. Raises RatingError as
-    `read_ratings` does, and if the rows contradict each other.
+    `read_ratings` does, and as `order_matrix` and `up_sets`.
     """
     rows: list[dict[str, Any]] = []
     for line, row in _read_rows(path, ORDER_COLUMNS):
@@ -110,7 +102,7 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
     table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
     for device, part in table.groupby("device", sort=False):
         try:
-            order_matrix(conditions_by_device[device], part)
+            up_sets(order_matrix(conditions_by_device[device], part))
         except RatingError as error:
             raise RatingError(f"{path}: {device}: {error}") from error
     return table
@@ -139,34 +131,6 @@ def read_published(path: Path) -> pd.DataFrame:
         lines[case] = line
         rows.append({**row, "r2": r2, "slope": SLOPES[row["slope"]]})
     return pd.DataFrame(rows, columns=list(PUBLISHED_COLUMNS))
-
-
-def order_matrix(conditions: Sequence[str], order: pd.DataFrame) -> NDArray[np.bool_]:
-    """What a stated order implies for every pair of conditions (its reflexive and transitive closure).
-
-    order: the rows of one device with columns lower, relation, higher. Returns an (n, n) matrix; [i, j] says
-    whether rating i <= rating j. Raises RatingError for an unknown condition, and for a contradiction.
-
-    >>> order_matrix(["a", "b"], pd.DataFrame([["a", "<", "b"]], columns=["lower", "relation", "higher"])).tolist()
-    [[True, True], [False, True]]
-    """
-    index = {name: i for i, name in enumerate(conditions)}
-    if unknown := [name for name in (*order["lower"], *order["higher"]) if name not in index]:
-        raise RatingError(f"stated order: found {listed(unknown[:1])}; allowed: {listed(conditions)}")
-    stated = [(index[a], r, index[b]) for a, r, b in order[["lower", "relation", "higher"]].itertuples(index=False)]
-    at_most = np.eye(len(conditions), dtype=bool)
-    for low, relation, high in stated:
-        at_most[low, high] = True
-        at_most[high, low] |= relation == StatedRelation.EQUAL
-    for via in range(len(conditions)):
-        at_most |= at_most[:, [via]] & at_most[[via], :]
-    for low, relation, high in stated:
-        if relation == StatedRelation.LESS and at_most[high, low]:
-            raise RatingError(
-                f"stated order contradicts itself: '{conditions[low]}' < '{conditions[high]}', and other rows"
-                f" say that '{conditions[high]}' is not above '{conditions[low]}'"
-            )
-    return at_most
 
 
 def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, str]]]:

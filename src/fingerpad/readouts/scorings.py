@@ -1,4 +1,4 @@
-"""Other scorings: another filter, sign or area, the pre-indented state alone, and the drive alone, without a finger."""
+"""Other scorings: another filter, sign or area, the pre-indented state alone, and the drive alone, without a model."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ def _correlation_words(row: Row) -> str:
     """One row of the table of correlations as a phrase: R² with its p, range and slope, tau and n."""
     if not row["r2"]:
         return f"{row['note']}, n = {row['n']}" if row["n"] != "0" else row["note"]
-    p = f", p {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
+    p = f", p over distinct conditions {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
     tau = tau_text(row)
     return f"R² = {float(row['r2']):.3f}{p}{_spread(row)}, {slope_name(row)}, τ = {tau}, n = {row['n']}"
 
