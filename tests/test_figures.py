@@ -225,9 +225,10 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     assert "(open)" not in text
     open_ = words(correlation_figure(SCORES, RATINGS, correlations.assign(slope_open=1), TITLES, Kinematics.SMALL))
     assert open_.replace("\n", " ").count("ing (open)") == open_.count("R² = ") > 0
-    other = words(correlation_figure(SCORES, RATINGS, correlations.assign(range_open=1), TITLES, Kinematics.SMALL))
-    assert "behind a range: with some of its ratings" in other.replace("\n", " ")
-    assert other.replace("\n", " ").count(", open") == other.count("range ") - 1 > 0  # but for one in the caption
+    other = correlation_figure(SCORES, RATINGS, correlations.assign(range_open=1), TITLES, Kinematics.SMALL)
+    said = words(other).replace("\n", " ")
+    assert "behind a range: with some of its ratings" in said
+    assert said.count(", open") == said.count("range ") - 1 > 0  # but for one in the caption
 
 
 def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) -> None:

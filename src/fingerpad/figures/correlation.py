@@ -57,7 +57,7 @@ CAPTION = (
     " spread: range of scores over their mean. Bars: estimated discretisation error of a score; where none is seen it"
     " is smaller than the mark."
 )
-RATED = " Line: least squares, where the slope is not open.{p}{ratings} τ: Kendall's{between}."
+RATED = " Line: least squares, where the slope is not open.{p}{ratings} τ: Kendall's with these ratings{between}."
 BETWEEN = " (from where to where errors of scores leave it)"
 RANGE = " range: of R², over all ratings with the stated order; errors of scores are not in it."
 P = " p: two-sided, over distinct conditions alone, while R² is over all."
