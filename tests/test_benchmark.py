@@ -313,7 +313,7 @@ def test_page_on_run_time_compares_solvers_where_they_are_right() -> None:
 
 
 def test_the_frequency_page_says_where_scores_do_not_rise() -> None:
-    case = {"device": "d", "interface": "shear", "readout": "change_of_strain", "inertia": 0.0}
+    case = {"device": "device1", "interface": "shear", "readout": "change_of_strain", "inertia": 0.0}
     rows = [
         case | {"condition": f"{spread}_{phase}", "dispersion": spread, "phase_deg": phase, "frequency_hz": hertz}
         for hertz in (0.0, 20.0, 80.0)
@@ -332,15 +332,24 @@ def test_the_frequency_page_says_where_scores_do_not_rise() -> None:
     )
     variants.loc[1, "score"] = np.nan  # inertia forbids it
     quasistatic = pd.DataFrame([row | {"kinematics": "small", "score": 2.0, "score_error": 0.03} for row in first])
-    tables = {"frequencies": frequencies, "variants": variants, "scores": quasistatic}
+    other = frequencies.assign(device="braille", score=10.0 - frequencies["score"])  # falls, and stands before it
+    tables = {
+        "frequencies": pd.concat([other, frequencies]),
+        "variants": variants,
+        "scores": pd.concat([quasistatic.assign(device="braille"), quasistatic]),
+    }
     page = " ".join(filled((PAGES / "frequency.md").read_text(), frequency_values(tables)).split())
     assert "does not always rise: at 180° `high` lies below `low` at 80 Hz." in page
     assert "differ by 0 to 32 % over its frequencies, by 0 to 58 % with slow cycles" in page
     assert "80 Hz, the highest in its device file, rises with phase at 2 of 2 dispersions" in page
     assert "stated as 1.5 to 1.5 %" in page
     assert "| another | +0 to +0 % | 1.00 |" in page
-    loose = tables | {"scores": quasistatic.assign(score_error=0.06)}  # 3 % each: as much as they differ by at 80 Hz
-    assert "rises at every phase and frequency" in str(frequency_values(loose)["falls"])
+    loose = tables | {
+        "scores": tables["scores"].assign(score_error=0.06)
+    }  # 3 % each: as much as they differ by at 80 Hz
+    assert "rises at every phase and frequency" in str(frequency_values(loose)["device1"])
+    alone = tables | {"frequencies": other}
+    assert "Device 1" not in filled((PAGES / "frequency.md").read_text(), frequency_values(alone))
 
 
 def test_the_frequency_page_says_how_scores_inertia_and_assumptions_compare() -> None:

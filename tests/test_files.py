@@ -24,6 +24,19 @@ def test_a_failed_write_leaves_what_was_there(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_two_who_write_one_file_leave_that_of_the_last(tmp_path: Path) -> None:
+    """Whole, whoever begins first, and nothing else."""
+    path = tmp_path / "table.csv"
+    with replacing(path) as first, first.open("w") as slow:
+        slow.write("one, ")
+        with replacing(path) as second:
+            second.write_text("another")
+        assert path.read_text() == "another"
+        slow.write("slowly")
+    assert path.read_text() == "one, slowly"
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_a_row_that_does_not_fit_leaves_no_table(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="b"):
         write_rows(tmp_path / "table.csv", [{"a": 1}, {"b": 2}])

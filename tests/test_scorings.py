@@ -288,6 +288,8 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
     values = scorings_values(tables | {"response": response, "frictions": frictions})
     assert str(values["frictions"]).splitlines()[0] == "| device | condition | 0 | 0.01 |"
     assert str(values["frictions"]).splitlines()[-1] == "| device2 | alternate_000 | 4.20 | 0.60 |"
+    alone = scorings_values(tables | {"response": response, "frictions": pd.DataFrame()})
+    assert alone["frictions"] == "(No device is predicted without friction.)"
     assert "| small | device1 | low | 2.000 | 1.500 at 90° | yes | 20.0 to 29.0 | yes |" in str(values["phases"])
     assert "| small | device1 | high | 1.000 | 1.000 at 0° | no | 20.0 | no |" in str(values["phases"])
     assert "| unknown | 2.000 | 1.500 at 90° | within errors |" in str(values["phases"])

@@ -13,7 +13,7 @@ from fingerpad.contact.certificate import certify
 from fingerpad.contact.formulation import OPEN
 from fingerpad.contact.linear_solution import Indented, indent_device
 from fingerpad.contact.path import follow
-from fingerpad.errors import CondensationError, CycleError, DepthError, ReachError, SceneError
+from fingerpad.errors import CondensationError, CycleError, DepthError, InertiaError, ReachError, SceneError
 from fingerpad.prediction.edges import mesh_device
 from fingerpad.prediction.scoring import condense_mesh
 from fingerpad.readouts.roughness import scene_span
@@ -29,7 +29,13 @@ from fingerpad.tissue.elasticity import mass
 from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import IN_BAND, Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import Vibration, displacement, vibrate
-from fingerpad.vibration.frequency import certified_vibration, cyclic_readouts, frequency_rows, without_caveats
+from fingerpad.vibration.frequency import (
+    _require_no_inertia,
+    certified_vibration,
+    cyclic_readouts,
+    frequency_rows,
+    without_caveats,
+)
 from fingerpad.vibration.frequency_variants import _relaxation_variants, relaxation_rows
 from fingerpad.vibration.inertia import condense_vibrating, inertia_effect, slipping, stuck
 from fingerpad.vibration.viscoelasticity import retardation_times, stiffening
@@ -393,6 +399,25 @@ def test_sideways_drives_feel_inertia_by_their_edges_where_nothing_sticks() -> N
     assert effects[1] > 3.0 * effects[0]  # four times, less by stiffening
 
 
+def test_skin_that_opens_and_closes_bears_the_forces_that_it_does_in_the_cycle() -> None:
+    """Their first harmonics, which strain the receptors besides."""
+    vibrating = vibration(Interface.FRICTIONLESS, normal(0.1), 40.0)
+    found = slipping(vibrating)
+    opens = np.array([state.status == OPEN for state in vibrating.states])
+    between = opens.any(axis=0) & ~opens.all(axis=0)
+    assert between.any()
+    pressing = np.array([state.force[:, 1] for state in vibrating.states])
+    phases = 2.0 * np.pi * np.arange(1, len(pressing) + 1) / len(pressing)
+    harmonic = 2.0 * np.mean(pressing * np.exp(-1j * phases)[:, None], axis=0)
+    assert np.abs(harmonic[between]).min() > 0.0
+    assert np.allclose(found.force[1::2][between], harmonic[between], rtol=1e-12, atol=0.0)
+    at = condense_vibrating(mesh(("device2", False)), coarse(), 40.0)
+    whole, part = (
+        inertia_effect(coarse(), each, at.still, at.moving) for each in (found, replace(found, force=0.0 * found.force))
+    )
+    assert abs(part - whole) > 1e-3 * whole
+
+
 @pytest.mark.parametrize("amplitude", [0.0, 1e-13])
 def test_next_to_no_vibration_comes_to_repeat_itself(amplitude: float) -> None:
     """What is left is rounding, which never repeats itself."""
@@ -427,6 +452,20 @@ def test_table_says_where_inertia_forbids_a_prediction() -> None:
         assert predicted or all("inertia" in row["note"] and "try about" in row["note"] for row in rows[2:])
         effect = inertia_effect(given, stuck(pressed(Interface.SHEAR), device.cycles[0]), at.still, at.moving)
         assert all(row["inertia"] == pytest.approx(effect, rel=1e-12) for row in rows[2:])
+
+
+def test_advised_frequencies_are_written_out() -> None:
+    with pytest.raises(InertiaError, match="at 150 Hz; try about 100 Hz, or less"):
+        _require_no_inertia(coarse(), 150.0, 0.177)
+
+
+def test_lateral_conditions_have_scores_of_their_own() -> None:
+    """Stimuli are equal if both of their components are: Device 2 moves along the skin alone."""
+    given = coarse()
+    condensed = condense_mesh(given, mesh(("device2", False)))
+    rows = frequency_rows(given, condensed, creeping(), [None], Interface.SHEAR)
+    change = [row["score"] for row in rows if row["readout"] == Readout.CHANGE_OF_STRAIN]
+    assert change[0] < 0.8 * change[1] < 0.8 * change[2]  # 0°, 90°, 180°: far more than a coarse mesh's errors
 
 
 def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> None:

@@ -59,7 +59,8 @@ def gradient(nodal: FloatArray, x: float, y: float) -> FloatArray:
 def meshes() -> list[meshio.Mesh]:
     """Pre-indented and actuated state of one condition."""
     solution = solved(DEVICE, CONDITION, Interface.SHEAR)
-    return field_meshes(section(DEVICE), scene(DEVICE), linear_states(scene(DEVICE), section(DEVICE), solution))
+    states = linear_states(scene(DEVICE), section(DEVICE), solution)
+    return list(field_meshes(section(DEVICE), scene(DEVICE), states))
 
 
 @pytest.fixture(scope="module")
@@ -278,7 +279,7 @@ def test_a_shorter_path_leaves_no_state_of_a_longer_one(tmp_path: Path) -> None:
     state = meshio.Mesh(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), [("triangle", [[0, 1, 2]])])
     pvd, folder, last = tmp_path / "path.pvd", tmp_path / "path", tmp_path / "path.vtu"
     write_path(pvd, folder, last, np.arange(4.0), [state] * 4)
-    own = folder / "0002 of mine.vtu"
+    own = folder / "2024.vtu"
     own.write_text("mine", encoding="utf-8")
     write_path(pvd, folder, last, np.arange(2.0), [state] * 2)
     assert sorted(path.name for path in folder.iterdir()) == ["0000.vtu", own.name]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import errno
 import os
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 PART = ".part"  # ends the name of a file that is being written
+MARK = 8  # random bytes in that name [1], so that two who write one file do not write into one another's
 
 
 @contextmanager
@@ -18,7 +20,7 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     require_folder(path)
     path = path.resolve()
-    part = path.with_name(path.name + PART)
+    part = path.with_name(f"{path.name}.{secrets.token_hex(MARK)}{PART}")
     try:
         yield part
         part.replace(path)

@@ -30,6 +30,8 @@ rule field_output:
         "results/benchmarks/{kinematics}/{device}/{condition}/{interface}/field_output.tsv"
     conda:
         ENVIRONMENT
+    resources:
+        mem_mb=2000,
     params:
         code=code("field_output.py"),
         scene=lambda w: support.fingerprint(

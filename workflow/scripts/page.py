@@ -27,8 +27,9 @@ VALUES = {
 
 
 def main(name: str, template: Path, tables: dict[str, Path], page: Path) -> None:
-    """Read template and tables, write the page."""
-    values = VALUES[name]({table: pd.read_csv(path) for table, path in tables.items()})
+    """Read template and tables, some of which may be empty, write the page."""
+    read = {table: pd.read_csv(path) if path.stat().st_size else pd.DataFrame() for table, path in tables.items()}
+    values = VALUES[name](read)
     write_text(page, filled(template.read_text(encoding="utf-8"), values))
 
 

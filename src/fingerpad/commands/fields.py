@@ -15,7 +15,7 @@ from ..files import require_folder
 from ..prediction.edges import mesh_device
 from .options import add_case_options, add_scene_options, checked_case, writable
 
-STEPS = 4  # of the progress: mesh, solution, fields, files
+STEPS = 3  # of the progress: mesh, solution, fields
 ENDINGS = (".vtu", ".pvd")
 DESCRIPTION = """\
 Write the fields of one condition of a device for ParaView: displacement, strain, stress, layer and contact tractions,
@@ -54,11 +54,9 @@ def run(options: argparse.Namespace) -> None:
         bar.update()
         states = solved_states(scene, section, condition, interface)
         bar.update()
-        meshes = field_meshes(section, scene, states)
-        bar.update()
         if output.suffix == ".pvd":
-            write_path(output, folder, last, condition.times, meshes)
+            write_path(output, folder, last, condition.times, field_meshes(section, scene, states))
         else:
-            write_vtu(output, meshes[-1])
+            write_vtu(output, *field_meshes(section, scene, states.last))
         bar.update()
     print(f"written: {output}")

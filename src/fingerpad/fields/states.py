@@ -47,6 +47,11 @@ class States:
     displacement: FloatArray
     contact: FloatArray
 
+    @property
+    def last(self) -> States:
+        """The last state alone."""
+        return States(self.displacement[-1:], self.contact[-1:])
+
 
 def solved_states(scene: Scene, section: SectionMesh, condition: Condition, interface: Interface) -> States:
     """Solve a condition, and what it does to the whole section. Raises MeshError, CondensationError, ContactError."""

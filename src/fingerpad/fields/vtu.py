@@ -6,7 +6,8 @@ unit in their name, if they have one. Tensors have the components xx, yy, zz, xy
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -27,8 +28,8 @@ STRESS = {Kinematics.SMALL: "stress_MPa", Kinematics.FINITE: "cauchy_stress_MPa"
 SYMMETRIC = 6  # components of a symmetric tensor [1]
 
 
-def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[meshio.Mesh]:
-    """The undeformed section with the fields of each state.
+def field_meshes(section: SectionMesh, scene: Scene, states: States) -> Iterator[meshio.Mesh]:
+    """The undeformed section with the fields of each state, one after the other: a mesh has some 10 MB.
 
     At points: displacement_mm, strain (tensor, exy = gxy / 2), maximum_principal_strain, stress_MPa (of the element's
     own layer), contact_pressure_MPa and contact_shear_MPa of the actuators on the skin (over undeformed length), zero
@@ -42,7 +43,6 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
     point = (NODES.shape[1] * np.arange(len(order))[:, None] + order).ravel()
     cells = [("triangle6", np.arange(own.size).reshape(order.shape))]
     tractions = skin_tractions(section, scene, states.contact)
-    found = []
     for moved, traction in zip(states.displacement, tractions, strict=True):
         components = strain_at(scene, mesh, moved, NODES)[point]
         stresses = stress_at(scene, section, moved, NODES)[point]
@@ -56,8 +56,7 @@ def field_meshes(section: SectionMesh, scene: Scene, states: States) -> list[mes
             "contact_pressure_MPa": traction[1, own],
             "contact_shear_MPa": traction[0, own],
         }
-        found.append(meshio.Mesh(_in_space(mesh.doflocs[:, own]), cells, point_data, {"layer": [section.layer]}))
-    return found
+        yield meshio.Mesh(_in_space(mesh.doflocs[:, own]), cells, point_data, {"layer": [section.layer]})
 
 
 def skin_tractions(section: SectionMesh, scene: Scene, forces: FloatArray) -> FloatArray:
@@ -80,17 +79,27 @@ def write_vtu(path: Path, mesh: meshio.Mesh) -> None:
         meshio.write(part, mesh, file_format="vtu")
 
 
-def write_path(pvd: Path, folder: Path, last: Path, times: FloatArray, meshes: Sequence[meshio.Mesh]) -> None:
+def write_path(pvd: Path, folder: Path, last: Path, times: FloatArray, meshes: Iterable[meshio.Mesh]) -> None:
     """Write a path: the last state as a file of its own, those before in a folder, and the PVD file of all, whose times
-    (n_states,) [s] begin with that of pre-indentation. What the folder holds of a longer path goes away.
+    (n_states,) [s] begin with that of pre-indentation. States in the folder that the PVD file named before, of a longer
+    path, go away.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    files = [*(folder / f"{number:04d}.vtu" for number in range(len(meshes) - 1)), last]
+    files = [*(folder / f"{number:04d}.vtu" for number in range(times.size - 1)), last]
+    before = [file for file in _collected(pvd) if file.parent == folder]
     for file, mesh in zip(files, meshes, strict=True):
         write_vtu(file, mesh)
     write_collection(pvd, times, files)
-    for stale in sorted(set(folder.glob("[0-9][0-9][0-9][0-9].vtu")) - set(files)):  # of a longer path before
-        stale.unlink()
+    for stale in set(before) - set(files):
+        stale.unlink(missing_ok=True)
+
+
+def _collected(path: Path) -> list[Path]:
+    """The files that a PVD file names; none if there is no such file."""
+    with suppress(FileNotFoundError, ElementTree.ParseError):
+        sets = ElementTree.parse(path).getroot().findall("Collection/DataSet")
+        return [path.parent / each.get("file", "") for each in sets]
+    return []
 
 
 def write_collection(path: Path, times: FloatArray, files: Sequence[Path]) -> None:

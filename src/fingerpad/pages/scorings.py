@@ -42,7 +42,9 @@ def scorings_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         "indented": _indented(tables["scores"], tables["others"]),
         "response": table(_response(tables["response"])),
         "phases": table(_phases(tables["phases"])),
-        "frictions": table(_frictions(tables["frictions"])),
+        "frictions": "(No device is predicted without friction.)"
+        if (frictions := tables["frictions"]).empty
+        else table(_frictions(frictions)),
     }
 
 

@@ -181,9 +181,10 @@ def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:
 def _require_no_inertia(scene: Scene, frequency: float, effect: float) -> None:
     limit = scene.model.vibration.inertia_limit
     if not effect <= limit:
+        advised = float(f"{highest_frequency(frequency, effect, limit):.2g}")
         raise InertiaError(
             f"inertia changes receptor strain by {PERCENT * effect:.3g} > {PERCENT * limit:g} % at {frequency:g} Hz;"
-            f" try about {highest_frequency(frequency, effect, limit):.2g} Hz, or less"
+            f" try about {advised:g} Hz, or less"
         )
 
 
