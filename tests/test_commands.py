@@ -209,7 +209,8 @@ def test_new_device_goes_to_a_folder_of_scenes_with_the_model(
 ) -> None:
     """The model is copied once, and not over one that is there."""
     assert main(["new", "mine", "--from", "device2", "--scenes", "own"]) == 0
-    assert "  snakemake all --config scenes=own\n" in capsys.readouterr().out
+    told = f"  snakemake all --config scenes={(checkout / 'own').resolve()} --directory own_results\n"
+    assert told in capsys.readouterr().out
     assert not (checkout / "config/devices/mine.yaml").exists()
     model = checkout / "own/config.yaml"
     assert model.read_bytes() == (checkout / "config/config.yaml").read_bytes()
@@ -233,7 +234,8 @@ def test_what_new_says_next_can_be_pasted(checkout: Path, capsys: pytest.Capture
     check, predict, everything = map(shlex.split, capsys.readouterr().out.splitlines()[1:])
     assert main(check[1:]) == 0
     assert (check[0], predict) == ("fingerpad", ["fingerpad", "predict", "own folder/devices/mine.yaml"])
-    assert everything == ["snakemake", "all", "--config", "scenes=own folder"]
+    scenes = (checkout / "own folder").resolve()
+    assert everything == ["snakemake", "all", "--config", f"scenes={scenes}", "--directory", "own folder_results"]
 
 
 def test_new_never_overwrites(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -1045,7 +1047,8 @@ def test_orders_count_scores_that_differ_by_more_than_their_errors() -> None:
         "shear, strain, in 1 of 3 (3): b < a, c < a, c < b",
     ]
     assert list(orders({"1": unknown, "2": near[:2]})) == [
-        "shear, strain: no two scores differ by more than their errors"
+        "shear, strain: no two scores with known errors differ by more than their errors",
+        "shear, strain, not ordered, as errors are unknown (1): a",
     ]
     lost = table((None, None), (None, None), (None, None))
     assert list(orders({"1": far, "2": lost, "3": near})) == [
@@ -1354,6 +1357,47 @@ def test_robustness_varies_distinct_stimuli_with_the_kinematics_asked_for(
     assert len(varied) > 1
     assert all(each == configured for each in varied)
     assert last == (Kinematics.SMALL, configured[1])
+
+
+def test_a_lift_is_no_stroke_into_the_skin() -> None:
+    """However far it goes."""
+    given = scene("device2")
+    pad = given.model.finger.pad_thickness
+    for height, doubted in ((-2.0 * pad, False), (2.0 * pad, True)):
+        conditions = tuple(replace(each, normal=np.full_like(each.normal, height)) for each in given.device.conditions)
+        lifted = replace(given, device=replace(given.device, conditions=conditions))
+        assert (TOO_FAR in told_of(lifted)) is doubted
+
+
+def test_edges_that_finite_strain_cannot_tell_from_sharp_ones_are_a_caveat() -> None:
+    """With friction alone, and not with small strain."""
+    given = scene("device2")
+
+    def sharpness(radius: float, kinematics: Kinematics, friction: float) -> list[str]:
+        row = replace(given.device.actuators, edge_radius=radius)
+        model = replace(given.model, contact=replace(given.model.contact, friction=friction))
+        own = Scene(model, replace(given.device, actuators=row)).with_kinematics(kinematics)
+        return [caveat for caveat in scene_caveats(own) if "edges are sharper" in caveat]
+
+    size = given.model.numerics.finite_edge_size
+    assert sharpness(0.0, Kinematics.FINITE, 0.6) == sharpness(0.2 * size, Kinematics.FINITE, 0.6)
+    assert f"--vary actuators.edge_radius={size:g}" in sharpness(0.0, Kinematics.FINITE, 0.6)[0]
+    for other in ((0.3 * size, Kinematics.FINITE, 0.6), (0.0, Kinematics.SMALL, 0.6), (0.0, Kinematics.FINITE, 0.0)):
+        assert sharpness(*other) == []
+
+
+def test_a_closed_output_is_no_error(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As `>&-` leaves it."""
+    monkeypatch.setattr("sys.stdout", None)
+    assert main(["check", "config/devices/device2.yaml"]) == 0
+
+
+def test_orders_of_scores_with_unknown_errors_are_told_to_be_open() -> None:
+    unknown = [ROW | {"condition": name, "score": score, "score_error": None, "caveats": []}
+               for name, score in (("a", 1.0), ("b", 9.0))]  # fmt: skip
+    told = list(varying._told(scene("device2"), unknown, {}, {}, []))
+    assert "no two scores with known errors differ by more than their errors" in told
+    assert "\nshear, strain, not ordered, as errors are unknown: a, b" in told
 
 
 def test_check_knows_depths_and_criteria() -> None:

@@ -88,7 +88,10 @@ def test_errors_that_cannot_be_known_are_said_to_be_unknown() -> None:
     """Where the coarser mesh cannot be followed, a score has no error, and the reason stands beside it. Here all pins
     slide, and nothing but tissue holds the skin sideways: on the coarser mesh that is not enough."""
     found = answer(press_row(pad(), 1.8, 1.0, 0.8), 0.05, 180.0, True)
-    assert "the states of contact have no unique solution there; try less friction, less movement" in found.unknown
+    assert (
+        "the states of contact have no unique solution there; try less friction, rounder edges, less movement"
+        in found.unknown
+    )
     assert all(row["score"] > 0.0 and row["score_error"] is None for row in found.rows)
     picture = DesignPicture(4)
     picture.show(found, found)

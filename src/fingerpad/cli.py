@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
-from io import TextIOWrapper
+from io import StringIO, TextIOWrapper
 
 from .errors import FingerpadError, UnsolvedError
 
@@ -36,6 +36,8 @@ solved to a certified solution; 130 interrupted.
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; its exit code. A FingerpadError is printed without a traceback."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    if sys.stdout is None:  # closed, as `>&-` does: nobody reads what is printed
+        sys.stdout = StringIO()
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")  # titles have any letters, terminals not; as stderr has it
     try:

@@ -12,7 +12,7 @@ def main(tables: dict[Path, list[Path]]) -> None:
     for table, parts in tables.items():
         rows = [row for path in parts for row in read_rows(path)]
         if not rows:
-            raise SceneError("no device names a stimulus.frequency_hz; give one in a file in config/devices")
+            raise SceneError("no device names a stimulus.frequency_hz; give one in a device file")
         write_rows(table, rows)
 
 

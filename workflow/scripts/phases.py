@@ -12,7 +12,7 @@ from fingerpad.store import write_rows
 def main(devices: Sequence[Path], schemas: Path, config: Path, table: Path) -> None:
     """Read the scenes, solve them at all phases, write a row per score. Raises SceneError if no device has phases."""
     if not devices:
-        raise SceneError("no device names stimulus.phases; give some in a file in config/devices")
+        raise SceneError("no device names stimulus.phases; give some in a device file")
     write_rows(table, [row for path in devices for row in phase_rows(path, schemas, config)])
 
 

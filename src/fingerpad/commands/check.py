@@ -83,7 +83,7 @@ def described(scene: Scene) -> str:
     device, row = scene.device, scene.device.actuators
     actuators = several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
-    normal, lateral = device.strokes
+    _, lateral = device.strokes
     drives = {
         "normal": [each.normal for each in device.conditions],
         "lateral": [each.tangential for each in device.conditions],
@@ -106,7 +106,7 @@ def described(scene: Scene) -> str:
         TOO_WIDE: wide,
         TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
         TOO_SHALLOW.format(clear=clear): law.criterion is Criterion.DEPTH and bool(clear),
-        TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
+        TOO_FAR: indentations.get(law.criterion, 0.0) + ranges["normal"][1] > pad,
         BESIDE: farthest > scene.model.finger.width / 2.0,
     }
     pressed = DOMED if scene.lacks_faces else PRESSED[law.criterion].format(depth=law.depth, force=law.force)

@@ -69,6 +69,12 @@ def run(options: argparse.Namespace) -> None:
         shutil.copyfile(path, copy)
     target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
-    shown, how = os.path.relpath(target), ["--config", f"scenes={options.scenes}"] if options.scenes else []
+    shown, how = os.path.relpath(target), _elsewhere(scenes) if options.scenes else []
     following = ["fingerpad", "check", shown], ["fingerpad", "predict", shown], ["snakemake", "all", *how]
     print("\n  ".join([f"{shown}: written. Edit it, then:", *map(shlex.join, following)]))
+
+
+def _elsewhere(scenes: Path) -> list[str]:
+    """Options with which the workflow reads a folder of scenes and keeps what it makes apart from the project's."""
+    whole = scenes.resolve()
+    return ["--config", f"scenes={whole}", "--directory", f"{whole.name}_results"]

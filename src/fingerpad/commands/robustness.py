@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
+from itertools import groupby, product
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,9 @@ from ..ensemble.alternatives import AS_CONFIGURED, Alternative, read_ensemble
 from ..ensemble.robustness import Order, changed, kept_keys, orders_held, reasons, varied_values
 from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
+from ..prediction.orders import nothing_resolved, unordered
+from ..scene.contact_law import Interface
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.variation import Document
@@ -131,10 +134,13 @@ def _told(
         certain = sum(each.is_certain for each in found)
         yield f"orders that hold wherever there is a prediction: {certain} of {len(found)}"
     else:
-        yield "no two scores differ by more than their errors"
+        yield nothing_resolved(bool(unordered(configured)))
     for (interface, readout), orders in groupby(found, key=lambda each: (each.interface, each.readout)):
         yield f"\n{interface}, {readout}"
         yield from map(_as_line, orders)
+    for case in product(Interface, Readout):
+        if unknown := unordered([row for row in configured if (row["interface"], row["readout"]) == case]):
+            yield f"\n{', '.join(case)}, not ordered, as errors are unknown: {', '.join(unknown)}"
     yield ""
     yield from caveat_lines(scene, [row for row in in_order(configured) if row["score"] is not None])
     yield f"varied: {'; '.join(_by_key(members)) or 'nothing that has an effect'}"

@@ -153,7 +153,10 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     if failure.inverted:
         return InvertedError, f"{failure.inverted}; try less indentation, less movement"
     if failure.turned:
-        return UniquenessError, "the states of contact have no unique solution there; try less friction, less movement"
+        return (
+            UniquenessError,
+            "the states of contact have no unique solution there; try less friction, rounder edges, less movement",
+        )
     return (
         ConvergenceError,
         "try larger numerics.indentation_increments and numerics.stimulus_increments, or vibration.steps",

@@ -16,7 +16,7 @@ from ..scene.tissue_law import Kinematics
 from ..words import INTERFACE_NAME, KINEMATICS_NAME
 from .bars import LOOKS, draw_pairs
 from .correlation import ratings_caption
-from .style import WIDE, as_title, legend_below, letter, new_figure, styled
+from .style import WIDE, as_title, legend_below, letter, new_figure, styled, unknown_errors
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
 ERRORS = " Lines on bars: estimated discretisation errors."
@@ -51,9 +51,9 @@ def ablation_figure(
         letter(axes, text, (-30.0, 26.0))
     handles = [Patch(label=INTERFACE_NAME[each], **look) for each, look in zip(Interface, LOOKS, strict=True)]
     shown = correlations[correlations["device"].isin(titles)]
-    turned = TURNING if turning else ""
+    turned, unknown = TURNING if turning else "", unknown_errors(scores[scores["device"].isin(titles)])
     legend_below(
-        figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}{ERRORS}{turned}"
+        figure, handles, f"{KINEMATICS_NAME[kinematics].capitalize()}.{ratings_caption(shown)}{ERRORS}{unknown}{turned}"
     )
     return figure
 

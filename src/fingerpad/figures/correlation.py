@@ -45,6 +45,7 @@ from .style import (
     new_figure,
     note_in,
     styled,
+    unknown_errors,
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
@@ -88,7 +89,8 @@ def correlation_figure(
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
     shown = correlations[correlations["interface"] == Interface.SHEAR]
-    said = caption(shown, f"With shear, {KINEMATICS_NAME[kinematics]}. ")
+    unknown = unknown_errors(scores[scores["interface"] == Interface.SHEAR])
+    said = caption(shown, f"With shear, {KINEMATICS_NAME[kinematics]}. ") + unknown
     legend_below(figure, as_points(styles.legend), said, as_points(styles.spreads))
     return figure
 

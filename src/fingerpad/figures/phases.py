@@ -34,6 +34,7 @@ from .style import (
     rows_with,
     styled,
     subtitle,
+    unknown_errors,
 )
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 26.0  # mm
@@ -43,6 +44,7 @@ CAPTION = (
     " lines: phases in the device's file. The mesh is made for all phases together, so that scores at these differ from"
     " scores.csv within their errors. A score orders the conditions of one device."
 )
+MISSING = " Where a point is missing there is no prediction."
 
 
 @styled
@@ -72,7 +74,8 @@ def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
         axes.set_xlabel("Phase difference (°)")
     for axes, text in zip(grid.flat, "ABCDEFGH", strict=False):
         letter(axes, text)
-    legend_below(figure, styles.spreads, CAPTION)
+    missing = MISSING if change["score"].isna().any() else ""
+    legend_below(figure, styles.spreads, CAPTION + unknown_errors(change) + missing)
     return figure
 
 

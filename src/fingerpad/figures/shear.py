@@ -11,7 +11,17 @@ from ..scene.tissue_law import Kinematics
 from ..words import INTERFACE_NAME, KINEMATICS_NAME
 from .ablation import TURNING
 from .correlation import caption, correlation_panel, shown_in
-from .style import WIDE, as_points, as_title, condition_styles, legend_below, letter, new_figure, styled
+from .style import (
+    WIDE,
+    as_points,
+    as_title,
+    condition_styles,
+    legend_below,
+    letter,
+    new_figure,
+    styled,
+    unknown_errors,
+)
 
 HEIGHT = 108.0  # mm
 COLUMNS = (Interface.FRICTIONLESS, Interface.SHEAR)
@@ -42,6 +52,7 @@ def shear_figure(
     for axes, interface, text in zip(grid[0], COLUMNS, "AB", strict=True):
         axes.set_title(as_title(figure, f"{title}, {INTERFACE_NAME[interface]}", len(COLUMNS)), loc="left")
         letter(axes, text)
-    said = caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ") + (TURNING if turning else "")
+    said = caption(correlations, f"{KINEMATICS_NAME[kinematics].capitalize()}. ") + unknown_errors(scores)
+    said += TURNING if turning else ""
     legend_below(figure, as_points(styles.legend), said, as_points(styles.spreads))
     return figure

@@ -43,6 +43,7 @@ POINTS = 72.0  # in an inch
 CHARACTER, HANDLE = 0.56, 4.6
 BOLD = 1.2  # width of bold letters, of plain ones [1]; source: the same
 LONGEST_KEY = 40  # characters of a name in a legend
+UNKNOWN = " Where an error is not known there is no bar either; notes in scores.csv say why."
 RESOLUTION = 300  # of PNG files [dots per inch]
 PNG_LEVEL = 3  # of 9; source: half the seconds of the default, files up to a sixth larger (measured)
 WRITTEN: dict[str, dict[str, Any]] = {
@@ -245,6 +246,11 @@ def draw_curve(axes: Axes, x: np.ndarray, y: np.ndarray, series: Series) -> None
         x, y, linestyle=series.line, marker=series.marker, color=series.colour, fillstyle=series.fill,
         markerfacecoloralt="white", clip_on=False, zorder=3,
     )  # fmt: skip
+
+
+def unknown_errors(scores: pd.DataFrame) -> str:
+    """What a caption says of scores without a bar because their error is not known, if there are any."""
+    return UNKNOWN if (scores["score"].notna() & scores["score_error"].isna()).any() else ""
 
 
 def draw_errors(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, along: str, colour: str = GREY) -> None:

@@ -32,6 +32,9 @@ STRAINED = 0.22
 BARELY = 1e-3  # indentation [mm]; source: `touch` goes 2e-4 mm past first touch (contact.criterion.NEARLY)
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
+# Radius of edges over the size of elements there [1]; source: with finite strain and friction, scores of a row of sharp
+# pins with radii of 0 and 0.07 elements were 1.7 times those with 0.3 to 1.3, and with 0.17 there was none
+SHARP = 0.25
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 PRESS_AS_ASKED = "--vary contact.criterion=depth or force, or either in the device file, presses them as asked"
 AWAY = 0.05  # of the stroke [1] at time 0; source: assumption: more than a sensor's noise
@@ -59,7 +62,9 @@ def stimulus_caveats(condition: Condition) -> list[str]:
 
 
 def scene_caveats(scene: Scene) -> list[str]:
-    """No friction, actuators without a face to cover or too narrow for the mesh, and a filter too fine for it."""
+    """No friction, actuators without a face to cover or too narrow for the mesh, edges too sharp for finite strain, and
+    a filter too fine for the mesh.
+    """
     found = []
     if scene.model.contact.friction == 0.0:
         found.append("contact.friction is 0: the interface called shear has no friction here either")
@@ -72,6 +77,12 @@ def scene_caveats(scene: Scene) -> list[str]:
     elements = scene.device.actuators.width / numerics.edges(scene.kinematics)[0]
     if elements < FEW:
         found.append(f"actuators are {elements:.1f} elements wide: try a smaller {numerics.edge_key(scene.kinematics)}")
+    is_sharp = scene.device.actuators.edge_radius < SHARP * numerics.edges(scene.kinematics)[0]
+    if scene.kinematics is Kinematics.FINITE and scene.model.contact.friction > 0.0 and is_sharp:
+        found.append(
+            "edges are sharper than the mesh there can tell, and with friction scores may be far off: compare --vary"
+            f" actuators.edge_radius={numerics.edges(scene.kinematics)[0]:g}"
+        )
     waves = min(scene.model.gabor.wavelength(each) for each in Readout) / numerics.receptor_size
     if waves < COARSE:
         found.append(f"the filter's wavelength is {waves:.1f} receptor elements: try a smaller numerics.receptor_size")

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from itertools import permutations
 from typing import Any
 
+from ..readouts.accuracy import has_error
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from .ranking import is_resolved
@@ -29,6 +30,18 @@ def resolved_pairs(rows: Sequence[Row]) -> list[Pair]:
     ]
 
 
+def unordered(rows: Sequence[Row]) -> list[str]:
+    """Conditions with a score whose error is not known, of rows of one device, interface and read-out: whether it is
+    larger than another is open.
+    """
+    return [str(row["condition"]) for row in rows if row["score"] is not None and not has_error(row)]
+
+
+def nothing_resolved(some_unknown: bool) -> str:
+    """What is said where no two scores differ by more than their errors, of which some may not be known."""
+    return f"no two scores{' with known errors' if some_unknown else ''} differ by more than their errors"
+
+
 def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
     """In which variants which scores are larger, a line for each interface, read-out and set of variants.
 
@@ -47,24 +60,37 @@ def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
                 name: [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)]
                 for name, rows in tables.items()
             }
-            scored = [name for name, rows in own.items() if any(row["score"] is not None for row in rows)]
-            if not scored:
-                continue
-            holding: dict[Pair, list[str]] = {}
-            for name, rows in own.items():
-                for pair in resolved_pairs(rows):
-                    holding.setdefault(pair, []).append(name)
-            if not holding:
-                yield f"{interface}, {readout}: no two scores differ by more than their errors"
-            sets = sorted(dict.fromkeys(map(tuple, holding.values())), key=len, reverse=True)
-            for names in sets:
-                pairs = [pair for pair, held in holding.items() if tuple(held) == names]
-                pairs = without_implied({pair: {*names} for pair in pairs}) if len(names) == len(scored) else pairs
-                where = "" if len(names) == len(scored) else f" ({'; '.join(names)})"
-                said = ", ".join(f"{low} < {high}" for low, high in pairs)
-                yield f"{interface}, {readout}, in {len(names)} of {len(scored)}{where}: {said}"
-            if lost := [name for name in tables if name not in scored]:
-                yield f"{interface}, {readout}, no prediction ({'; '.join(lost)})"
+            if any(row["score"] is not None for rows in own.values() for row in rows):
+                yield from _orders_of(f"{interface}, {readout}", own)
+
+
+def _orders_of(case: str, tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+    """`orders` of one interface and read-out, `case` in words, with a score in some variant."""
+    scored = [name for name, rows in tables.items() if any(row["score"] is not None for row in rows)]
+    holding: dict[Pair, list[str]] = {}
+    unknown: dict[str, list[str]] = {}
+    for name, rows in tables.items():
+        for pair in resolved_pairs(rows):
+            holding.setdefault(pair, []).append(name)
+        for condition in unordered(rows):
+            unknown.setdefault(condition, []).append(name)
+    if not holding:
+        yield f"{case}: {nothing_resolved(bool(unknown))}"
+    for names in sorted(dict.fromkeys(map(tuple, holding.values())), key=len, reverse=True):
+        pairs = [pair for pair, held in holding.items() if tuple(held) == names]
+        pairs = without_implied({pair: {*names} for pair in pairs}) if len(names) == len(scored) else pairs
+        said = ", ".join(f"{low} < {high}" for low, high in pairs)
+        yield f"{case}, in {len(names)} of {len(scored)}{_in_some(names, scored)}: {said}"
+    for names in dict.fromkeys(map(tuple, unknown.values())):
+        said = ", ".join(condition for condition, own in unknown.items() if tuple(own) == names)
+        yield f"{case}, not ordered, as errors are unknown{_in_some(names, scored)}: {said}"
+    if lost := [name for name in tables if name not in scored]:
+        yield f"{case}, no prediction ({'; '.join(lost)})"
+
+
+def _in_some(names: Sequence[str], scored: Sequence[str]) -> str:
+    """Names of variants in brackets, if they are not all that have scores."""
+    return "" if len(names) == len(scored) else f" ({'; '.join(names)})"
 
 
 def without_implied(certain: Mapping[Pair, Set[str]]) -> list[Pair]:
