@@ -231,6 +231,16 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     assert said.count(", open") == said.count("range ") - 1 > 0  # but for one in the caption
 
 
+def test_captions_tell_unknown_errors_from_small_ones(correlations: pd.DataFrame) -> None:
+    """Neither has a bar that is seen."""
+    said = "Where an error is not known there is no bar either"
+    lost = SCORES.assign(score_error=SCORES["score_error"].where(SCORES.index != SCORES.index[0]))
+    for scores, is_said in ((SCORES, False), (lost, True)):
+        figure = correlation_figure(scores, RATINGS, correlations, TITLES, Kinematics.SMALL)
+        require_legible(figure)
+        assert (said in words(figure).replace("\n", " ")) is is_said
+
+
 def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) -> None:
     measured = correlation_table(SCORES, RATINGS.assign(kind="measured"), ORDER, PUBLISHED)
     text = words(correlation_figure(SCORES, RATINGS, measured, TITLES, Kinematics.SMALL))

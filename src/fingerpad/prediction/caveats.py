@@ -74,14 +74,15 @@ def scene_caveats(scene: Scene) -> list[str]:
             f" {PRESS_AS_ASKED}"
         )
     numerics = scene.model.numerics
-    elements = scene.device.actuators.width / numerics.edges(scene.kinematics)[0]
+    row, size = scene.device.actuators, numerics.edges(scene.kinematics)[0]
+    elements = row.width / size
     if elements < FEW:
         found.append(f"actuators are {elements:.1f} elements wide: try a smaller {numerics.edge_key(scene.kinematics)}")
-    is_sharp = scene.device.actuators.edge_radius < SHARP * numerics.edges(scene.kinematics)[0]
-    if scene.kinematics is Kinematics.FINITE and scene.model.contact.friction > 0.0 and is_sharp:
+    is_sharp = scene.kinematics is Kinematics.FINITE and row.edge_radius < SHARP * size
+    if is_sharp and scene.model.contact.friction > 0.0:
         found.append(
             "edges are sharper than the mesh there can tell, and with friction scores may be far off: compare --vary"
-            f" actuators.edge_radius={numerics.edges(scene.kinematics)[0]:g}"
+            f" actuators.edge_radius={size:g}"
         )
     waves = min(scene.model.gabor.wavelength(each) for each in Readout) / numerics.receptor_size
     if waves < COARSE:
