@@ -110,7 +110,7 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
 
 
 CORRELATION_COLUMNS = (
-    "Interface", "Read-out", "n", "R²", "p over distinct conditions", "Range of R²", "Slope", "Kendall's τ", "Ratings",
+    "Interface", "Read-out", "n", "R²", "p of R²", "Range of R²", "Slope", "Kendall's τ", "Ratings",
     "Published", "Note",
 )  # fmt: skip
 
