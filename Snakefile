@@ -1,4 +1,4 @@
-# fingerpad: predicts how rough a distributed haptic device feels. Start with `snakemake all` (see README.md).
+# fingerpad: predicts which stimuli of a distributed haptic device feel rougher. Start with `snakemake all` (see README.md).
 import os
 import sys
 from pathlib import Path
