@@ -16,6 +16,7 @@ import pytest
 from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
+from fingerpad.calculix.both_sides import BothSides
 from fingerpad.calculix.crosscheck import (
     ContactModel,
     Outcome,
@@ -28,6 +29,7 @@ from fingerpad.calculix.crosscheck import (
 )
 from fingerpad.calculix.deck import DeckSettings, input_deck, material_lines
 from fingerpad.calculix.deformed_crosscheck import deformed_outcome
+from fingerpad.calculix.order_check import order_rows
 from fingerpad.calculix.run import PROGRAM, Printed, installed, read_printed, run
 from fingerpad.errors import CalculixError, ContactError
 from fingerpad.finite.deformation import elements_of, internal_force
@@ -43,6 +45,7 @@ from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
 from fingerpad.tissue.mesh import SectionMesh, element_nodes, mesh_section, nominal_edges
 from scenes import CONFIG, scene
+from scripts import calculix_condition, calculix_orders
 from scripts.calculix import main
 
 SETTINGS = DeckSettings(
@@ -119,6 +122,35 @@ def test_without_calculix_the_table_says_so(tmp_path: Path, monkeypatch: pytest.
     with table.open(encoding="utf-8") as file:
         assert list(csv.DictReader(file)) == [{"note": "skipped: ccx not installed"}]
     assert (tmp_path / "decks").is_dir()
+
+
+def test_without_calculix_the_table_of_orders_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    device, scores, table = CONFIG / "devices" / "device2.yaml", tmp_path / "scores.csv", tmp_path / "orders.csv"
+    calculix_condition.main(CONFIG / "config.yaml", device, "alternate_180", {}, 1.0, tmp_path / "deck", scores)
+    calculix_orders.main([scores], table)
+    assert table.read_text(encoding="utf-8") == "note\nskipped: ccx not installed\n"
+    assert (tmp_path / "deck").is_dir()
+
+
+def test_orders_have_the_scores_of_both_programs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And a note in place of those that a program does not find."""
+    arc, scores = np.linspace(0.0, 1.0, 5), dict.fromkeys(Readout, 0.123456)
+    outcome = Outcome(arc, np.ones((2, 5)), np.ones((2, 3, 2)), scores)
+
+    def lost(contact: ContactModel) -> Outcome:
+        raise ContactError(f"{contact} is lost")
+
+    cost = {"unknowns": 9, "calculix_s": 1.0}
+    found = [BothSides(outcome, lambda contact: outcome, cost), BothSides(outcome, lost, cost)]
+    monkeypatch.setattr("fingerpad.calculix.order_check.both_sides", lambda *given: found.pop(0))
+    both, one = (order_rows(scene("device2"), "alternate_180", {"kinematics": "small"}, Path(), 1.0) for _ in range(2))
+    assert [(row["readout"], row["fingerpad"], row["calculix"], row["note"]) for row in both] == [
+        (readout, "0.12346", "0.12346", "") for readout in Readout
+    ]
+    assert [(row["fingerpad"], row["calculix"], row["note"]) for row in one] == 2 * [
+        ("", "0.12346", "fingerpad is lost")
+    ]
 
 
 @needs_calculix

@@ -583,7 +583,7 @@ def test_caveats_are_notes_of_scores() -> None:
 def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixture[str]) -> None:
     """As high as skin nodes of the mesh over their ends."""
     assert main(["check", str(ROOT / "config" / "devices" / "device2.yaml")]) == 0
-    (rise,) = re.findall(r"outermost faces is (\S+) mm above first contact", capsys.readouterr().out)
+    (rise,) = re.findall(r"outermost faces lies (\S+) mm above first touch", capsys.readouterr().out)
     x, y = condensed("device2")[0].position.T
     row = scene("device2").device.actuators
     ends = row.positions[2] - row.half_face, row.positions[3] + row.half_face

@@ -13,7 +13,7 @@ from fingerpad.fields.states import states_fields
 from fingerpad.readouts.strain import maximum_principal
 from fingerpad.scene.contact_law import Interface
 from fingerpad.tissue.condensation import condense, section_stiffness
-from fingerpad.tissue.elasticity import unit_loads
+from fingerpad.tissue.elasticity import mesh_dofs, unit_loads
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
 from scenes import condensed, scene, section, solved
@@ -25,7 +25,7 @@ def test_maps_equal_a_direct_solve_of_the_whole_section() -> None:
     """
     mesh, base = section("device2"), scene("device2")
     found, _ = condensed("device2")
-    matrix, dofs = section_stiffness(mesh, base)
+    matrix, dofs = section_stiffness(mesh, base), mesh_dofs(mesh.mesh)
     tractions = contact_tractions(mesh, base)
     nodes, loads = tractions.nodes, tractions.by_component()
     load = np.random.default_rng(1).standard_normal(loads.shape[1])
@@ -74,7 +74,7 @@ def test_global_equilibrium_bone_carries_what_the_pins_press() -> None:
     """The reaction at the bone, from the full field, balances the contact forces in x and y."""
     mesh, base = section("device2"), scene("device2")
     solution = solved("device2", "alternate_090", Interface.SHEAR)
-    matrix, dofs = section_stiffness(mesh, base)
+    matrix, dofs = section_stiffness(mesh, base), mesh_dofs(mesh.mesh)
     tractions = contact_tractions(mesh, base)
     free = np.setdiff1d(np.arange(matrix.shape[0]), dofs[:, mesh.fixed].ravel())
     right = np.zeros(matrix.shape[0])
@@ -96,7 +96,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
     assert np.array_equal(fields.displacement, displacement[1:, :, mesh.mesh.t.T.ravel()])  # not of pre-indentation
     found, _ = condensed("device2")
     strain = maximum_principal(found.strain @ solution.force[-1].ravel())
-    dermis = mesh.layer_names.index("dermis")
+    dermis = [layer.name for layer in base.model.finger.layers].index("dermis")
     corner_layer = np.repeat(mesh.layer, 3)
     middle = int(np.argmin(np.abs(found.arc)))
     inside = np.flatnonzero(corner_layer == dermis)
@@ -114,7 +114,7 @@ def test_full_field_agrees_with_the_strain_map() -> None:
 def test_a_singular_stiffness_is_a_named_error() -> None:
     """A body that nothing holds cannot be condensed."""
     mesh, base = section("device1"), scene("device1")
-    matrix, dofs = section_stiffness(mesh, base)
+    matrix, dofs = section_stiffness(mesh, base), mesh_dofs(mesh.mesh)
     none = csr_matrix((0, matrix.shape[0]))
     with pytest.raises(CondensationError, match="nothing holds"):
         condense(matrix, dofs, np.array([], dtype=int), unit_loads(dofs, mesh.skin[:5], matrix.shape[0]), none)

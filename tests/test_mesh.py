@@ -60,7 +60,7 @@ def test_receptor_line_lies_between_epidermis_and_dermis() -> None:
     """Every receptor facet separates the two layers, and the line is unbroken."""
     mesh = section("device2")
     adjacent = mesh.layer[mesh.mesh.f2t[:, mesh.receptor_facets]]
-    names = np.array(mesh.layer_names)[np.sort(adjacent, axis=0)]
+    names = np.array([layer.name for layer in scene("device2").model.finger.layers])[np.sort(adjacent, axis=0)]
     assert set(map(tuple, names.T)) == {("viable_epidermis", "dermis")}
     ends = mesh.mesh.facets[:, mesh.receptor_facets]
     assert np.all([np.intersect1d(ends[:, i], ends[:, i + 1]).size == 1 for i in range(ends.shape[1] - 1)])
@@ -106,7 +106,7 @@ def test_same_scene_same_mesh_and_round_trip(tmp_path) -> None:  # type: ignore[
     stored = load_section(tmp_path / "mesh.npz")
     assert np.array_equal(stored.mesh.facets, first.mesh.facets)
     assert np.array_equal(stored.receptor_facets, first.receptor_facets)
-    assert stored.layer_names == first.layer_names
+    assert np.array_equal(stored.layer, first.layer)
 
 
 def test_a_strip_of_many_nodes_is_no_warning(caplog: pytest.LogCaptureFixture) -> None:

@@ -58,11 +58,13 @@ ENSEMBLE = "config/ensemble.yaml"
 NOTHING = "Nothing to be done"
 LONG = (
     "all",
-    *("accuracy", "honesty", "calculix", "frequency", "ensemble", "scorings", "notebooks", "results/rule_graph.csv"),
+    *("accuracy", "honesty", "calculix", "calculix_orders", "frequency", "ensemble", "scorings", "notebooks"),
+    "results/rule_graph.csv",
     *("results/benchmark/timings.csv", "results/figures/benchmark.png", "results/benchmark/skipping.csv"),
 )  # targets
 LONG_RULES = {
-    *("closed_forms", "increments", "reference", "calculix", "vibrate", "frequency_variants", "ensemble_member"),
+    *("closed_forms", "increments", "reference", "calculix", "calculix_condition", "vibrate", "frequency_variants"),
+    "ensemble_member",
     *(
         "readouts",
         "phases",
@@ -363,7 +365,8 @@ INERTIAL = {"vibrate", "frequency_variants"}  # rules that refuse where inertia 
             "span_margin",
             "1.12",
             "1.0",
-            {"score", "check", "reference", "vibrate", "ensemble_member", "readouts", "calculix", "benchmark_ladder"},
+            {"score", "check", "reference", "vibrate", "ensemble_member", "readouts", "benchmark_ladder"}
+            | {"calculix", "calculix_condition"},
             {"mesh", "condense", "condense_body", "solve", "press", "stimulate", "filter", "fields", "closed_forms"},
             id="span_margin",
         ),

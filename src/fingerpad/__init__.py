@@ -1,1 +1,1 @@
-"""fingerpad: predicts how rough a distributed haptic device feels."""
+"""fingerpad: predicts which stimuli of a distributed haptic device feel rougher."""

@@ -19,14 +19,14 @@ COMMANDS: Mapping[str, str] = {  # each a module in `commands`, which is loaded 
     "new": "begin a device file of your own",
     "check": "check a device file and draw the device",
     "predict": "predict the roughness scores of devices",
-    "robustness": "tell which assumptions the orders of a device's scores depend on",
-    "forces": "tell the forces that actuators have to bear",
+    "robustness": "report which assumptions the orders of a device's scores depend on",
+    "forces": "print the forces that actuators have to bear",
     "vibrate": "score a device's conditions as vibrations",
     "fields": "write the fields of a condition for ParaView",
-    "export": "write a condition as an input deck for Abaqus or CalculiX",
+    "export": "write a condition as an input deck in Abaqus keywords (run in CalculiX, not yet in Abaqus)",
 }
 DESCRIPTION = """\
-Predicts how rough a distributed haptic device feels. `fingerpad COMMAND --help` has examples.
+Ranks the stimuli of a distributed haptic device by predicted roughness. `fingerpad COMMAND --help` has examples.
 
 exit codes: 0 done; 1 unexpected, with a traceback; 2 wrong input, or wrong use; 3 the scene is valid, but could not be
 solved to a certified solution; 130 interrupted.

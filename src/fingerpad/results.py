@@ -8,8 +8,7 @@ from pathlib import Path
 from .checkout import OWN, Checkout
 from .errors import MissingResultError
 from .scene.scene import Scene
-from .scene.scenefile import load_scene
-from .scene.validation import known_devices
+from .scene.validation import check_device, known_devices
 
 FOLDER = "results"
 
@@ -37,6 +36,8 @@ def scenes() -> dict[str, Scene]:
     """Scenes of small kinematics by device: of the folder that SCENES in the environment names, where a rule runs a
     notebook, or else of config/. Raises SceneError if one of them is not valid.
     """
-    folder = Path(os.environ.get("SCENES", Checkout(OWN).config.parent))
-    devices = folder / "devices"
-    return {name: load_scene(folder / "config.yaml", devices / f"{name}.yaml") for name in known_devices(devices)}
+    checkout = Checkout(OWN)
+    folder = Path(os.environ.get("SCENES", checkout.config.parent))
+    config, devices = folder / "config.yaml", folder / "devices"
+    files = {name: devices / f"{name}.yaml" for name in known_devices(devices)}
+    return {name: check_device(path, checkout.schemas, config) for name, path in files.items()}

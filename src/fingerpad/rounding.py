@@ -8,7 +8,8 @@ DIGITS = 4  # significant digits of a value without an error [1]
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:
-    """A value and its error: the error with its first digit, or two if that is a one, the value as far as these reach.
+    """A value and its error: the error with its first digit, or two if that is a one, and whole from 10 on; the value
+    as far as these reach.
 
     >>> rounded(0.49387, 0.01868), rounded(0.31891, 0.00057), rounded(123.4, 56.0)
     (('0.494', '0.019'), ('0.3189', '0.0006'), ('123', '56'))

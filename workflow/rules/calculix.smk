@@ -1,6 +1,9 @@
 # An independent solver on the same scene: CalculiX, and how far fingerpad is from it (docs/calculix.md).
-# Not part of `all`: ask for it with `snakemake calculix`, alone on the machine. Without ccx the table says "skipped".
-# REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/calculix.csv, results/calculix/{case}/ (decks and results)
+# And whether it orders the conditions of all devices as fingerpad does.
+# Not part of `all`: ask for them with `snakemake calculix`, alone on the machine, and `snakemake calculix_orders`. Without
+# ccx the tables say "skipped".
+# REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/{calculix,calculix_orders}.csv, results/calculix/{case}/ (decks and
+# results), results/calculix_orders/{kinematics}/{device}/{condition}.csv and a folder of its deck
 
 CALCULIX_CASE = {
     "kinematics": "small",
@@ -74,3 +77,49 @@ rule calculix:
         },
     script:
         "../scripts/calculix.py"
+
+
+rule calculix_orders:
+    input:
+        scores=[
+            f"results/calculix_orders/{each}/{name}/{condition.name}.csv"
+            for each in KINEMATICS
+            for name in DEVICES_WITH[each]
+            for condition in SCENE[name].device.distinct_conditions
+        ],
+    output:
+        table="results/accuracy/calculix_orders.csv",
+    log:
+        "results/logs/calculix_orders.log",
+    conda:
+        ENVIRONMENT
+    params:
+        code=code("calculix_orders.py"),
+    script:
+        "../scripts/calculix_orders.py"
+
+
+rule calculix_condition:
+    input:
+        config=ancient(CONFIG),
+        device=ancient(device_file),
+        recordings=ancient(recordings_of),
+    output:
+        scores="results/calculix_orders/{kinematics}/{device}/{condition}.csv",
+        deck=directory("results/calculix_orders/{kinematics}/{device}/{condition}"),
+    log:
+        "results/logs/{kinematics}/{device}/{condition}/calculix.log",
+    conda:
+        ENVIRONMENT
+    resources:
+        mem_mb=2000,
+        runtime=60,
+    params:
+        code=code("calculix_condition.py"),
+        scene=scored_of,
+        condition=lambda w: condition_of(w).name,
+        limit=3600,
+        compared=lambda w, output: with_calculix(output.scores, "calculix"),
+        case=lambda w: (CALCULIX_FINITE_CASE if w.kinematics == Kinematics.FINITE else CALCULIX_CASE) | CALCULIX_RUBBING,
+    script:
+        "../scripts/calculix_condition.py"

@@ -2,13 +2,13 @@
 # `--config scenes=FOLDER` takes config.yaml and devices/ from another folder than config/.
 
 from contextlib import suppress
-from difflib import get_close_matches
 from functools import cache
 
 from fingerpad.calculix.run import installed
 from fingerpad.scene.contact_law import Interface
 from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assumed_by_none, assuming, read_ensemble, slug
 from fingerpad.errors import FingerpadError
+from fingerpad.guess import closest, hint
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.example import COMPARED, compares_interfaces, example_condition, example_device
 from fingerpad.scene.scenefile import build_model, plain_values, read_yaml, recordings
@@ -83,9 +83,8 @@ def scene_of(wildcards):
     interface with which it is not predicted.
     """
     if wildcards.device not in SCENE:
-        close = get_close_matches(wildcards.device, DEVICES, n=1)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
-        raise WorkflowError(f"unknown device {wildcards.device!r}: known are {', '.join(DEVICES)}{hint}")
+        meant = hint(closest(wildcards.device, DEVICES), "'")
+        raise WorkflowError(f"unknown device {wildcards.device!r}: known are {', '.join(DEVICES)}{meant}")
     scene = SCENE[wildcards.device]
     for name, predicted in (("kinematics", scene.computed), ("interface", scene.device.interfaces())):
         if (asked := wildcards.get(name, predicted[0])) not in predicted:

@@ -10,6 +10,7 @@ PAGE_TABLES = {  # by page and by what it calls them
         "increments": "results/accuracy/increments.csv",
         "closed_forms": "results/accuracy/closed_forms.csv",
         "calculix": "results/accuracy/calculix.csv",
+        "calculix_orders": "results/accuracy/calculix_orders.csv",
         "stress": "results/stress/summary.csv",
     },
     "claims": {"claims": "results/claims.csv"},

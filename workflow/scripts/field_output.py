@@ -12,7 +12,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
-from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.tissue.compliance import load_body
 from fingerpad.tissue.mesh import load_section
 
 
@@ -37,8 +37,7 @@ def main(
     scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
     moved = scene.device.condition(condition)
     if pressed:
-        actuators = load(body, CondensedBody) if body else None
-        finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface(interface))
+        finger = pressed_finger(scene, section, load_body(body), load(pressed, Pressed), Interface(interface))
         found = deformed_states(scene, finger, moved)
     else:
         found = linear_states(scene, section, load(solution, Solution))

@@ -14,7 +14,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, save
-from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.tissue.compliance import load_body
 from fingerpad.tissue.mesh import load_section
 
 
@@ -35,8 +35,7 @@ def main(
     scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
     solved = [load(path, Solution) for path in solutions]
     if pressed:
-        actuators = load(body, CondensedBody) if body else None
-        finger = pressed_finger(scene, section, actuators, load(pressed, Pressed), Interface.SHEAR)
+        finger = pressed_finger(scene, section, load_body(body), load(pressed, Pressed), Interface.SHEAR)
         states = [deformed_states(scene, finger, each).displacement for each in scene.device.distinct_conditions]
         read = (each[1 + one.reading.time] for each, one in zip(states, solved, strict=True))
         displacement = np.array([states[0][0], *read])

@@ -7,16 +7,15 @@ from fingerpad.jobs import logged
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.store import load, save
-from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.store import save
+from fingerpad.tissue.compliance import load_body
 from fingerpad.tissue.mesh import load_section
 
 
 def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: str, pressed: Path) -> None:
     """Read scene and mesh, raise the actuators, write the state that they reach."""
     scene = load_scene(config, device, Kinematics.FINITE)
-    actuators = load(body, CondensedBody) if body else None
-    save(pressed, press(scene, load_section(mesh), actuators, Interface(interface)))
+    save(pressed, press(scene, load_section(mesh), load_body(body), Interface(interface)))
 
 
 if __name__ == "__main__":

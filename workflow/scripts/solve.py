@@ -7,7 +7,7 @@ from fingerpad.jobs import logged
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, save
-from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.tissue.compliance import CondensedSection, load_body
 
 
 def main(
@@ -26,7 +26,7 @@ def main(
         solve_condition(
             scene,
             load(condensed, CondensedSection),
-            load(body, CondensedBody) if body else None,
+            load_body(body),
             scene.device.condition(condition),
             Interface(interface),
         ),

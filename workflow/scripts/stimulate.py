@@ -9,7 +9,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, save
-from fingerpad.tissue.compliance import CondensedBody
+from fingerpad.tissue.compliance import load_body
 from fingerpad.tissue.mesh import load_section
 
 
@@ -25,8 +25,7 @@ def main(
 ) -> None:
     """Read scene, mesh and pressed finger, follow the condition's stimulus, write the certified solution."""
     scene = load_scene(config, device, Kinematics.FINITE)
-    actuators = load(body, CondensedBody) if body else None
-    finger = pressed_finger(scene, load_section(mesh), actuators, load(pressed, Pressed), Interface(interface))
+    finger = pressed_finger(scene, load_section(mesh), load_body(body), load(pressed, Pressed), Interface(interface))
     save(solution, stimulate_deformed(scene, finger, scene.device.condition(condition)))
 
 

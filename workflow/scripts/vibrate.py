@@ -7,7 +7,7 @@ from fingerpad.prediction.scoring import Condensed
 from fingerpad.readouts.strain import Resampling
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, write_rows
-from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.tissue.compliance import CondensedSection, load_body
 from fingerpad.tissue.mesh import load_section
 from fingerpad.vibration.frequency import vibration_rows, without_caveats
 
@@ -17,9 +17,7 @@ def main(
 ) -> None:
     """Read mesh and compliance, vibrate, write the rows."""
     scene, section = load_scene(config, device), load_section(mesh)
-    shared = Condensed(
-        load(condensed, CondensedSection), load(body, CondensedBody) if body else None, load(resampling, Resampling)
-    )
+    shared = Condensed(load(condensed, CondensedSection), load_body(body), load(resampling, Resampling))
     write_rows(scores, without_caveats(vibration_rows(scene, section, shared)))
 
 

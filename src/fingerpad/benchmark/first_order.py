@@ -27,7 +27,7 @@ def condense_first_order(scene: Scene, mesh: SectionMesh) -> Condensed:
     """
     tractions = contact_tractions(mesh, scene)
     parts = right_half(mesh, tractions)
-    matrix, _ = section_stiffness(mesh, scene, parts.elements)
+    matrix = section_stiffness(mesh, scene, parts.elements)
     nodal = _linear(mesh.mesh, parts.dofs)
     between = parts.dofs[:, mesh.mesh.nvertices :]
     first = replace(

@@ -30,9 +30,10 @@ def growth(scene: Scene, factors: Sequence[float], counts: Sequence[int], repeat
     Raises MeshError, CondensationError, ContactError.
     """
     for factor in factors:
-        yield _measured("mesh", _with_increments(scene.coarsened(factor), scene), repeats)
+        yield _measured("mesh", _with_increments_of(scene, scene.coarsened(factor)), repeats)
     for factor in factors:
-        yield _measured("increments", _with_increments(scene, scene, factor), repeats)
+        numerics = scene.model.numerics.with_increments(1.0 / factor)
+        yield _measured("increments", scene.with_model(numerics=numerics), repeats)
     for count in counts:
         yield _measured("actuators", row_of(scene, count), repeats)
 
@@ -79,18 +80,18 @@ def row_of(scene: Scene, count: int) -> Scene:
         scene.device, name=f"row_of_{count}", actuators=row, conditions=(condition,), cycles=(), frequencies=()
     )
     fine = replace(model, numerics=scene.coarsened(FINE).model.numerics)
-    return _with_increments(Scene(fine, device), scene)
+    return _with_increments_of(scene, Scene(fine, device))
 
 
-def _with_increments(scene: Scene, other: Scene, factor: float = 1.0) -> Scene:
-    """The scene with increments `factor` times as large as another's [1]."""
-    counts = other.model.numerics
+def _with_increments_of(scene: Scene, other: Scene) -> Scene:
+    """Another scene, in as many increments as a scene."""
+    counts = scene.model.numerics
     numerics = replace(
-        scene.model.numerics,
-        indentation_increments=round(counts.indentation_increments / factor),
-        stimulus_increments=round(counts.stimulus_increments / factor),
+        other.model.numerics,
+        indentation_increments=counts.indentation_increments,
+        stimulus_increments=counts.stimulus_increments,
     )
-    return scene.with_model(numerics=numerics)
+    return other.with_model(numerics=numerics)
 
 
 def _measured(varied: str, scene: Scene, repeats: int) -> Row:

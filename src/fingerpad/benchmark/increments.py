@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from ..prediction.edges import edge_intervals
@@ -26,12 +25,7 @@ def increment_rows(
     numerics = scene.model.numerics
     first: dict[tuple[str, ...], float] = {}
     for multiple in (1, *multiples):
-        finer = replace(
-            numerics,
-            indentation_increments=multiple * numerics.indentation_increments,
-            stimulus_increments=multiple * numerics.stimulus_increments,
-        )
-        rows = predicted_rows(scene.with_model(numerics=finer), condensed)
+        rows = predicted_rows(scene.with_model(numerics=numerics.with_increments(multiple)), condensed)
         scores = {case_of(row): float(row["score"]) for row in rows}
         if not first:
             first = scores

@@ -23,7 +23,6 @@ from ..contact.path import follow
 from ..contact.problem import contact_problem
 from ..errors import CalculixError
 from ..finite.deformed_solution import receptor_logarithmic_strain
-from ..finite.pressing import indented_height
 from ..prediction.edges import mesh_device
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
@@ -35,10 +34,11 @@ from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics, Law
 from ..tissue.compliance import CondensedBody, CondensedSection
-from ..tissue.elasticity import displacement_basis, node_dofs, strain_of_gradient
+from ..tissue.elasticity import mesh_dofs, strain_of_gradient
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import arc_length, receptor_gradient
 from .deck import DeckSettings, input_deck
+from .depth import indented_height
 from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched
 from .run import Printed, read_printed, run
 
@@ -130,7 +130,7 @@ def calculix_outcome(
 def printed_outcome(scene: Scene, section: SectionMesh, printed: Printed) -> Outcome:
     """Outcome of what CalculiX printed: strain by the same map from displacement as fingerpad's."""
     points, gradient = receptor_gradient(section, scene)
-    unknowns = node_dofs(displacement_basis(section.mesh))[:, printed.node]
+    unknowns = mesh_dofs(section.mesh)[:, printed.node]
     field = np.zeros((printed.displacement.shape[0], gradient.shape[1]))
     field[:, unknowns] = printed.displacement.swapaxes(1, 2)
     if scene.kinematics is Kinematics.FINITE:

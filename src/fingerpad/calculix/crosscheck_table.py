@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ..errors import CalculixError, ContactError
-from ..prediction.edges import mesh_device
 from ..scene.scene import Scene
-from ..scene.tissue_law import Kinematics
 from ..store import alike
-from ..tissue.actuator_body import body_of
-from ..tissue.condensation import condense_section
-from .crosscheck import (
-    ContactModel,
-    Outcome,
-    calculix_outcome,
-    differences,
-    fingerpad_outcome,
-    on_deck,
-    prepared,
-)
-from .deformed_crosscheck import deformed_outcome
+from .both_sides import both_sides
+from .crosscheck import ContactModel, Outcome, differences
 
 SHARED = ("kinematics", "law", "edges", "friction")  # what two cases must share for CalculiX to be compared with itself
 
@@ -34,9 +21,8 @@ def crosscheck_rows(
     """Rows of all cases, which lie in folders of their names: CalculiX beside fingerpad's laws of contact, and beside
     itself in the first case with the same law, edges and friction.
 
-    cases: settings as in `crosscheck.prepared`, with `coarsening` of the deck's mesh and `fingerpad_coarsening` of
-    fingerpad's. limit: seconds a deck may take. A case that CalculiX cannot solve has a note in place of numbers.
-    Raises what `prepared` raises, and SceneError, MeshError or CondensationError if either side cannot be set up.
+    cases: settings of each. limit: seconds a deck may take. A case that CalculiX cannot solve has a note in place of
+    numbers. Raises what `both_sides` raises but for CalculixError.
     """
     rows: list[dict[str, Any]] = []
     outcomes: dict[str, Outcome] = {}
@@ -58,24 +44,14 @@ def _compared(
     scene: Scene, condition: str, name: str, case: Mapping[str, Any], folder: Path, limit: float
 ) -> tuple[list[dict[str, Any]], Outcome]:
     """Rows of one case beside fingerpad's laws on a mesh of its own, and CalculiX's outcome. Raises CalculixError."""
-    fine, settings = prepared(scene, case)
-    deck, own = on_deck(fine, case["coarsening"]), on_deck(fine, case["fingerpad_coarsening"])
-    deck_section, section, body = mesh_device(deck), mesh_device(own), body_of(own)
-    stimulus = scene.device.condition(condition)
-    reference, seconds = calculix_outcome(deck, deck_section, stimulus, settings, folder, limit)
-    solve: Callable[[ContactModel], Outcome]
-    if own.kinematics is Kinematics.FINITE:
-        solve = partial(deformed_outcome, own, section, body, stimulus, settings)
-    else:
-        solve = partial(fingerpad_outcome, own, condense_section(section, own), body, stimulus, settings)
-    cost = {"unknowns": deck_section.unknowns, "calculix_s": round(seconds, 1)}
+    sides = both_sides(scene, condition, case, folder, limit)
     rows = []
     for model in ContactModel:
         try:
-            rows.append(_row(name, case, model, differences(solve(model), reference)) | cost)
+            rows.append(_row(name, case, model, differences(sides.fingerpad(model), sides.calculix)) | sides.cost)
         except ContactError as error:
-            rows.append(_row(name, case, model, {}) | cost | {"note": str(error)})
-    return rows, reference
+            rows.append(_row(name, case, model, {}) | sides.cost | {"note": str(error)})
+    return rows, sides.calculix
 
 
 def _row(name: str, case: Mapping[str, Any], against: str, apart: Mapping[str, float]) -> dict[str, Any]:

@@ -25,7 +25,7 @@ from ..scene.finger import Layer, Material
 from ..scene.numerics import Numerics
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics, Law, TissueLaw
-from ..tissue.elasticity import displacement_basis, lame, node_dofs
+from ..tissue.elasticity import lame, mesh_dofs
 from ..tissue.mesh import SectionMesh, element_nodes, mesh_strip
 from ..tissue.reach import contact_tractions
 from ..tissue.receptors import receptor_strain
@@ -129,7 +129,7 @@ def actuator_name(number: int) -> str:
 def read_nodes(scene: Scene, section: SectionMesh) -> np.ndarray:
     """Nodes (k,) whose displacement decides the strain at the receptors, on the side that the scene reads."""
     _, strain = receptor_strain(section, scene)
-    return np.flatnonzero(np.isin(node_dofs(displacement_basis(section.mesh)), strain.indices).any(axis=0))
+    return np.flatnonzero(np.isin(mesh_dofs(section.mesh), strain.indices).any(axis=0))
 
 
 def _part(scene: Scene, number: int) -> _Part:
@@ -188,7 +188,7 @@ def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, mater
     mesh = mesh_strip(row, finer)
     x, y = mesh.doflocs
     thickness = -float(y.min())
-    # ASSUME: under its rounded edges the body is as much thinner as its face is lower
+    # ASSUME: actuators.edge_radius: under its rounded edges the body is as much thinner as its face is lower
     lowered = y - profile(row, x)[0] * (y + thickness) / thickness
     node = np.stack([x + centre, lowered], axis=1)
     outer = (y == y.max()) | (np.abs(x) == x.max())

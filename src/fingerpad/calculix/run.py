@@ -76,7 +76,10 @@ def read_printed(path: Path, actuators: int, moves: int, settings: DeckSettings)
 
     Raises CalculixError if something is missing, or no number.
     """
-    text = path.read_text(encoding="utf-8")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise CalculixError(f"{path}: {error.strerror}") from error
     titles = list(TITLE.finditer(text))
     stops = [title.start() for title in titles[1:]] + [len(text)]
     tables: dict[str, list[FloatArray]] = {}
@@ -92,6 +95,9 @@ def read_printed(path: Path, actuators: int, moves: int, settings: DeckSettings)
     for name in wanted:
         if len(tables.get(name, [])) != steps:
             raise CalculixError(f"{path}: {len(tables.get(name, []))} tables of {name}, expected {steps}")
+        first, *others = (table.shape for table in tables[name])
+        if 0 in first or others.count(first) < len(others):
+            raise CalculixError(f"{path}: tables of {name} are empty or differ in length")
     read = np.array(tables[READ_NODES])
     force = np.array([tables[name] for name in wanted[1:]])[:, :, 0, :2]
     ends = slice(settings.steps_a_move - 1, None, settings.steps_a_move)

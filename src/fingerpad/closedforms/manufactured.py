@@ -16,7 +16,7 @@ from skfem.helpers import ddot, eye, sym_grad, trace
 from ..arrays import FloatArray
 from ..scene.scene import Scene
 from ..tissue.condensation import section_stiffness
-from ..tissue.elasticity import displacement_basis, lame
+from ..tissue.elasticity import displacement_basis, lame, mesh_dofs
 from ..tissue.mesh import mesh_section, nominal_edges
 from .comparison import Comparison, compare, on_spacings
 from .equilibrium import linear_equilibrium
@@ -50,7 +50,7 @@ def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     """Errors in L2 and in energy on elements of at most that size [mm]."""
     same = uniform(scene, spacing)
     section = mesh_section(same, nominal_edges(same.device.actuators))
-    matrix, dofs = section_stiffness(section, scene)
+    matrix, dofs = section_stiffness(section, scene), mesh_dofs(section.mesh)
     basis = displacement_basis(section.mesh, order=EXACT_ORDER)
     finger = scene.model.finger
     layers = np.array([lame(layer.material) for layer in finger.layers])

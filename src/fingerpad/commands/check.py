@@ -118,7 +118,7 @@ def described(scene: Scene) -> str:
         f"{several(len(device.conditions), 'condition')}: {conditions}{alike}\n"
         f"{f'actuators move {moves} (positive: into the skin, to the right)' if moves else 'actuators rest'}\n"
         f"friction {law.friction:g}; pressed {pressed}, and held\n"
-        f"skin over the outermost faces is {rise:.2g} mm above first contact; pad thickness {pad:g} mm"
+        f"undeformed skin over the outermost faces lies {rise:.2g} mm above first touch; pad thickness {pad:g} mm"
         + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
     )
 

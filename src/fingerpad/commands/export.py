@@ -10,8 +10,8 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from ..calculix.deck import DeckSettings, input_deck, kinematics_told
+from ..calculix.depth import indented_height
 from ..files import write_text
-from ..finite.pressing import indented_height
 from ..prediction.edges import mesh_device
 from ..scene.contact_law import Interface
 from .options import add_case_options, add_scene_options, checked_case, writable

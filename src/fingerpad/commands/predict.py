@@ -40,8 +40,9 @@ from .score_table import as_csv, as_table, named
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated
 discretisation errors, from a second solution on a coarser mesh. Rank 1 is the largest score of a device, interface and
-read-out; a range such as 1-3 means that errors leave it open, a question mark that no error was computed. Below the
-table stands what else to know before believing it.
+read-out: predicted roughest. A range such as 1-3 means that errors leave the rank open, a question mark that the error
+is not known. Caveats follow below the table. Ranks compare stimuli of one device; whether scores of two devices compare
+has not been tested.
 
 examples:
   fingerpad predict config/devices/device2.yaml
@@ -52,6 +53,8 @@ examples:
   fingerpad predict --vary contact.friction=0.3,0.6,1.0 config/devices/device2.yaml
   fingerpad predict --vary actuators.pitch=1.5,2,2.5,3 -o pitch.png config/devices/device2.yaml
 """
+
+ONE_TABLE = "ranks compare the stimuli of one table; whether scores of several devices compare has not been tested"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -106,6 +109,8 @@ def run(options: argparse.Namespace) -> None:
                     title = f"{own[0].device.name}, {kinematics} strain: {len(varied)} variants"
                     said = orders(tables) if error else ["orders need errors: leave out --no-error"]
                     bar.write("\n".join(["", title, *said]))
+            if is_text and len(predictions) > 1:
+                bar.write(f"\n{ONE_TABLE}")
     finally:
         if options.json:
             print(json.dumps(rows, indent=2))

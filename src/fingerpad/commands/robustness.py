@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby, product
 from pathlib import Path
 from typing import Any
@@ -11,11 +11,12 @@ from typing import Any
 from tqdm import tqdm
 
 from ..checkout import find_checkout, model_for
-from ..ensemble.alternatives import AS_CONFIGURED, Alternative, read_ensemble
+from ..ensemble.alternatives import AS_CONFIGURED, Alternative, by_key, read_ensemble
 from ..ensemble.robustness import Order, changed, kept_keys, orders_held, reasons, varied_values
 from ..errors import SceneError, UsageError
 from ..prediction.forecast import forecast, steps
 from ..prediction.orders import nothing_resolved, unordered
+from ..readouts.roughness import rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -139,11 +140,11 @@ def _told(
         yield f"\n{interface}, {readout}"
         yield from map(_as_line, orders)
     for case in product(Interface, Readout):
-        if unknown := unordered([row for row in configured if (row["interface"], row["readout"]) == case]):
+        if unknown := unordered(rows_of(configured, *case)):
             yield f"\n{', '.join(case)}, not ordered, as errors are unknown: {', '.join(unknown)}"
     yield ""
     yield from caveat_lines(scene, [row for row in in_order(configured) if row["score"] is not None])
-    yield f"varied: {'; '.join(_by_key(members)) or 'nothing that has an effect'}"
+    yield f"varied: {by_key(members) or 'nothing that has an effect'}"
     if idle:
         yield f"without effect: {', '.join(idle)}"
     if kept:
@@ -151,16 +152,6 @@ def _told(
     for name, rows in members.items():
         yield from (f"{name}: {note}" for note in reasons(configured, rows))
     yield from (f"left out: {name}: {why}" for name, why in refused.items())
-
-
-def _by_key(names: Iterable[str]) -> Iterator[str]:
-    """Names of what is varied, those of a key as one.
-
-    >>> list(_by_key(["finger.height times 0.9", "finger.height times 1.1", "readout.side epidermis"]))
-    ['finger.height times 0.9, times 1.1', 'readout.side epidermis']
-    """
-    for key, own in groupby((name.split(" ", 1) for name in names), key=lambda parts: parts[0]):
-        yield f"{key} {', '.join(rest for _, rest in own)}"
 
 
 def _as_line(order: Order) -> str:

@@ -34,10 +34,19 @@ def displacement(problem: ContactProblem, force: FloatArray, there: FloatArray |
     return moved if there is None else moved + face_displacement(problem, force, there)
 
 
-def face_displacement(problem: ContactProblem, force: FloatArray, there: FloatArray | None) -> FloatArray:
+def nodal_compliance(problem: ContactProblem, nodes: np.ndarray, there: FloatArray | None) -> FloatArray:
+    """Compliance (2b, 2b) [mm per N/mm] of some nodes (b,), ascending, ordered x0, x1, ..., y0, y1, ..., all others
+    unloaded: of the skin, and of deformable faces where it touches them.
+    """
+    unknowns = np.concatenate([2 * nodes, 2 * nodes + 1])
+    compliance: FloatArray = problem.compliance.take(unknowns, 0).take(unknowns, 1)
+    return compliance if there is None else compliance + face_compliance(problem, there, nodes)
+
+
+def face_displacement(problem: ContactProblem, force: FloatArray, there: FloatArray) -> FloatArray:
     """By how much (n, 2) [mm] deformable faces give way under forces (n, 2) [N/mm] on skin that touches `there`."""
     given = np.zeros_like(force)
-    if problem.body is not None and there is not None:
+    if problem.body is not None:
         for own in problem.spans:
             shape = there[own]
             given[own] = shape @ (problem.body.compliance @ (shape.T @ force[own]).ravel()).reshape(-1, 2)

@@ -180,9 +180,9 @@ def _amiss(problem: ContactProblem, found: _Everywhere, there: FloatArray | None
     """Largest displacement, gap or overlap [mm] by which contact is amiss as deformable faces give way where the skin
     touches them now, not `there`.
     """
-    if there is None:
-        return 0.0
     now = touch(problem, found.place)
+    if there is None or now is None:
+        return 0.0
     astray = face_displacement(problem, found.force, now) - face_displacement(problem, found.force, there)
     place = found.place + astray[:, 0]
     height = found.gap - profile(problem.row, found.place)[0] + astray[:, 1]

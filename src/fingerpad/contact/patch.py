@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from .faces import face_compliance
+from .faces import nodal_compliance
 from .formulation import ContactProblem
 
 LOST = 1e-4  # of unit displacements [1] that a stiffness may miss; source: what two refinements take to rounding
@@ -31,10 +31,7 @@ class Patch:
 
 def patch_of(problem: ContactProblem, nodes: np.ndarray, there: FloatArray | None) -> Patch:
     """Stiffness of some nodes, all other nodes unloaded. Raises LinAlgError if their compliance is singular."""
-    unknowns = np.concatenate([2 * nodes, 2 * nodes + 1])
-    compliance = problem.compliance.take(unknowns, 0).take(unknowns, 1)
-    if there is not None:
-        compliance += face_compliance(problem, there, nodes)
+    compliance = nodal_compliance(problem, nodes, there)
     held = np.flatnonzero(np.diag(compliance) == 0.0)
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     response = _inverse(compliance)

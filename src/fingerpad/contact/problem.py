@@ -15,7 +15,7 @@ from ..scene.tissue_law import Kinematics
 from ..tissue.compliance import CondensedBody, CondensedSection
 from .formulation import ContactProblem
 
-FRICTIONLESS_SHARE = 2  # of the increments, one is enough without friction [1]; source: fewest seconds (measured)
+FRICTIONLESS_SHARE = 2  # without friction one increment in so many [1] is enough; source: fewest seconds (measured)
 
 WHERE = "(in the device file, or in config/config.yaml for every device)"
 NARROWER = f"; contact.criterion: depth or force {WHERE} may need less indentation, as a narrower row does"

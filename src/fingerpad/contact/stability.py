@@ -15,7 +15,7 @@ import numpy as np
 from scipy.sparse.linalg import SuperLU
 
 from ..arrays import FloatArray
-from .faces import face_compliance, touch
+from .faces import nodal_compliance, touch
 from .formulation import ContactProblem, Status
 
 
@@ -28,11 +28,7 @@ def unstable_directions(problem: ContactProblem, status: np.ndarray, place: Floa
     active = np.flatnonzero(status != Status.OPEN)
     if negative == 0 or active.size == 0:
         return negative
-    unknowns = np.concatenate([2 * active, 2 * active + 1])
-    compliance = problem.compliance[np.ix_(unknowns, unknowns)]
-    there = touch(problem, place)
-    if there is not None:
-        compliance = compliance + face_compliance(problem, there, active)
+    compliance = nodal_compliance(problem, active, touch(problem, place))
     held = np.flatnonzero(
         np.concatenate([status[active] == Status.STICK, np.ones(active.size, dtype=bool)])
         & (np.diag(compliance) != 0.0)  # what a mid-line holds, contact need not hold

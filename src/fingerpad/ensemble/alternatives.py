@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -66,6 +66,19 @@ class Scenes:
 
     config: Document
     devices: Mapping[str, Document]
+
+
+def by_key(names: Iterable[str]) -> str:
+    """Names of members, "key value" each, with the values of one key together.
+
+    >>> by_key(["contact.friction 0.2", "finger.width 20.0", "contact.friction 0.38"])
+    'contact.friction 0.2, 0.38; finger.width 20.0'
+    """
+    values: dict[str, list[str]] = {}
+    for name in names:
+        key, _, value = name.partition(" ")
+        values.setdefault(key, []).append(value)
+    return "; ".join(f"{key} {', '.join(each)}" for key, each in values.items())
 
 
 def slug(name: str) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 from ..prediction.orders import Pair, Row, resolved_pairs, without_implied
 from ..readouts.accuracy import error_in_proportion, has_error
 from ..readouts.comparison import SAME
+from ..readouts.roughness import rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.variation import Document, by_number, quantities_of
@@ -100,8 +101,8 @@ def orders_held(configured: Sequence[Row], varied: Mapping[str, Sequence[Row]]) 
     found: list[Order] = []
     for interface in Interface:
         for readout in Readout:
-            own = _rows_of(configured, interface, readout)
-            members = {name: _with_errors(_rows_of(rows, interface, readout), own) for name, rows in varied.items()}
+            own = rows_of(configured, interface, readout)
+            members = {name: _with_errors(rows_of(rows, interface, readout), own) for name, rows in varied.items()}
             orders = [_order(interface, readout, pair, members) for pair in resolved_pairs(own)]
             told = without_implied({(each.low, each.high): {*each.holds} for each in orders if each.is_certain})
             found += [each for each in orders if not each.is_certain or (each.low, each.high) in told]
@@ -127,10 +128,6 @@ def _case(row: Row) -> tuple[str, str, str]:
 def _scores(rows: Sequence[Row]) -> dict[tuple[str, str, str], float]:
     """The scores that there are, by condition, interface and read-out."""
     return {_case(row): row["score"] for row in rows if row["score"] is not None}
-
-
-def _rows_of(rows: Sequence[Row], interface: Interface, readout: Readout) -> list[Row]:
-    return [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)]
 
 
 def _with_errors(rows: Sequence[Row], configured: Sequence[Row]) -> list[Row]:

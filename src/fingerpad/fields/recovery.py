@@ -9,7 +9,7 @@ from skfem import MeshTri2
 from ..arrays import FloatArray
 from ..scene.scene import Scene
 from ..tissue.condensation import section_stiffness
-from ..tissue.elasticity import displacement_basis, node_dofs
+from ..tissue.elasticity import displacement_basis, mesh_dofs, node_dofs
 from ..tissue.factors import factorise, fill_reducing_order
 from ..tissue.mesh import SectionMesh
 from ..tissue.reach import contact_tractions
@@ -21,7 +21,7 @@ def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray)
     K u = f, one factorisation for all loadings. Raises CondensationError if K is singular, MeshError as
     `contact_tractions`.
     """
-    matrix, dofs = section_stiffness(section, scene)
+    matrix, dofs = section_stiffness(section, scene), mesh_dofs(section.mesh)
     order = fill_reducing_order(matrix, dofs, dofs[:, section.fixed].ravel())
     tractions = contact_tractions(section, scene)
     right = np.zeros((matrix.shape[0], forces.shape[0]))

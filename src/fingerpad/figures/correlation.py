@@ -59,7 +59,7 @@ CAPTION = (
     " is smaller than the mark."
 )
 RATED = " Line: least squares, where the slope is not open.{p}{ratings} τ: Kendall's with these ratings{between}."
-BETWEEN = " (from where to where errors of scores leave it)"
+BETWEEN = " (and its range under errors of scores)"
 RANGE = " range: of R², over all ratings with the stated order; errors of scores are not in it."
 P = " p: two-sided, over distinct conditions alone, while R² is over all."
 UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from string import ascii_uppercase
 
 import numpy as np
 import pandas as pd
@@ -72,7 +73,7 @@ def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
         row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, SCORE_UNIT, in_two_lines=True))
     for axes in grid[-1]:
         axes.set_xlabel("Phase difference (°)")
-    for axes, text in zip(grid.flat, "ABCDEFGH", strict=False):
+    for axes, text in zip(grid.flat, ascii_uppercase, strict=False):
         letter(axes, text)
     missing = MISSING if change["score"].isna().any() else ""
     legend_below(figure, styles.spreads, CAPTION + unknown_errors(change) + missing)

@@ -82,7 +82,7 @@ def _draw_section(axes: Axes, section: SectionMesh) -> None:
     around = mesh.doflocs[:, element_nodes(mesh).T[[0, 3, 1, 4, 2, 5, 0]]]
     turn = [Path.MOVETO, *[Path.LINETO] * 5, Path.CLOSEPOLY]
     paths = []
-    for number in range(len(section.layer_names)):
+    for number in range(section.layer.max() + 1):
         own = around[:, :, section.layer == number].T.reshape(-1, 2)
         paths.append(Path(own, np.tile(turn, len(own) // len(turn))))
     tints = [TINTS[number % len(TINTS)] for number in range(len(paths))]
@@ -113,7 +113,7 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
         (
             la.name.replace("_", " "),
             f"{la.thickness:g} mm",
-            centre[:, section.layer == section.layer_names.index(la.name)],
+            centre[:, section.layer == finger.layers.index(la)],
         )
         for la in layers
     ]

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..readouts.roughness import SCORE_UNIT
+from ..readouts.roughness import SCORE_UNIT, rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -60,7 +60,7 @@ def variation_figure(
     places, tables = places[order], [tables[each] for each in order]
     for row, readout in zip(grid, Readout, strict=True):
         for axes, interface in zip(row, interfaces, strict=True):
-            own = [[r for r in rows if (r["interface"], r["readout"]) == (interface, readout)] for rows in tables]
+            own = [rows_of(rows, interface, readout) for rows in tables]
             _curves(axes, readout, places, own, styles.series)
         row[0].set_ylabel(score_label(readout, SCORE_UNIT))
     for axes in grid[-1]:

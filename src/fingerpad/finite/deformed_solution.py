@@ -21,7 +21,7 @@ from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedBody
-from ..tissue.elasticity import displacement_basis, node_dofs
+from ..tissue.elasticity import mesh_dofs
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import receptor_gradient
 from ..tissue.skin import Skin, require_uncrossed, skin_of
@@ -55,7 +55,7 @@ def pressed_finger(
     """What all conditions of a device and interface begin with. Raises MeshError as `contact_problem`, and what
     `deformed_tissue` raises.
     """
-    dofs = node_dofs(displacement_basis(section.mesh))
+    dofs = mesh_dofs(section.mesh)
     displacement = np.empty(dofs.size)
     displacement[dofs] = pressed.displacement
     skin = skin_of(section, dofs, halved=False)

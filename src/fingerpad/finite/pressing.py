@@ -15,19 +15,16 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray
+from ..contact.certificate import require_within_reach
 from ..contact.force_curve import curve_of
 from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
 from ..contact.indentation import raise_until
-from ..contact.linear_solution import indent_device
 from ..contact.path import SolveIncrement, advance, recording
 from ..contact.problem import contact_problem, increments, named_pressing
 from ..contact.symmetry import half_of, mirrors, unfolded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
-from ..scene.tissue_law import Kinematics
-from ..tissue.actuator_body import body_of
 from ..tissue.compliance import MIRROR, CondensedBody, CondensedSection
-from ..tissue.condensation import condense_section
 from ..tissue.elasticity import displacement_basis
 from ..tissue.factors import fill_reducing_order
 from ..tissue.halves import Parts, right_half, unfold, unfolding, whole
@@ -77,8 +74,8 @@ class _Start:
     """Where pre-indentation begins: on the right half of the section where everything mirrors, on the whole otherwise.
 
     tractions, undeformed: of all contact nodes; the section has no maps, as nobody asks for them. parts: of the section
-    that are solved. tissues: of each kind of loads. problem: of the parts' contact nodes, whatever its compliance.
-    state: at first touch. increments: of the tissue, and of contact in each.
+    that are solved. tissues: of each kind of loads. problem: of the parts' contact nodes, whatever its compliance;
+    whole: of all. state: at first touch. increments: of the tissue, and of contact in each.
     """
 
     tractions: Tractions
@@ -87,6 +84,7 @@ class _Start:
     parts: Parts
     tissues: tuple[TissuePart, ...]
     problem: ContactProblem
+    whole: ContactProblem
     state: DeformedState
     increments: tuple[int, int]
 
@@ -143,6 +141,7 @@ def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, inter
         parts=parts,
         tissues=tuple(_part(scene, section, parts, which) for which in range(len(parts.held))),
         problem=solved,
+        whole=problem,
         state=deformed_state(rest(solved, touching_height(solved)), np.zeros(parts.dofs.size)),
         increments=increments_of(increments(scene, problem)[0]),
     )
@@ -160,7 +159,24 @@ def _recorded(
         when = f"in increment {len(states)} of the tissue, with the faces at {state.actuator[0, 1]:.4g} mm"
         require_uncrossed(skin, state.displacement, when)
 
-    return recording(solver_on(start.tissues[0], start.increments[1]), note), states
+    return recording(_within_reach(start, solver_on(start.tissues[0], start.increments[1])), note), states
+
+
+def _within_reach(
+    start: _Start, solve: SolveIncrement[DeformedState, Tangent | None]
+) -> SolveIncrement[DeformedState, Tangent | None]:
+    """An increment's solver that raises ReachError where contact has left the skin that was considered: what follows
+    is no solution, and may take minutes. An increment too far, which is taken back, may leave it.
+    """
+
+    def solve_from(
+        problem: ContactProblem, state: DeformedState, actuator: FloatArray, tangent: Tangent | None
+    ) -> tuple[DeformedState, Tangent | None]:
+        contact = unfolded(contact_state(state), start.problem) if start.mirrored else contact_state(state)
+        require_within_reach(start.whole, start.undeformed, contact)
+        return solve(problem, state, actuator, tangent)
+
+    return solve_from
 
 
 def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState], reached: DeformedState) -> Pressed:
@@ -180,19 +196,6 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
     residual = max(reached.change, *(tangent.residual for tangent in tangents))
     condensed = replace(start.undeformed, compliance=compliance, residual=residual)
     return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
-
-
-def indented_height(scene: Scene, section: SectionMesh, interface: Interface) -> float:
-    """Height of the faces above the undeformed pad's lowest point [mm] at which pre-indentation ends.
-
-    Raises MeshError, CondensationError, ContactError.
-    """
-    body = body_of(scene)
-    if scene.kinematics is Kinematics.FINITE:
-        state = press(scene, section, body, interface).state
-    else:
-        state = indent_device(scene, condense_section(section, scene), body, interface).state
-    return float(state.actuator[0, 1])
 
 
 def whole_part(scene: Scene, section: SectionMesh, condensing: bool) -> TissuePart:

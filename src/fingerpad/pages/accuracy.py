@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import combinations
 
+import numpy as np
 import pandas as pd
 
 from ..calculix.crosscheck import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.accuracy import CASE
 from ..readouts.roughness import KEY
+from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import PERCENT
+from ..words import KINEMATICS_NAME, PERCENT, READOUT_NAME
 from .filling import digits, percent, table
 
 AIM = 0.005  # error [1] that every score should keep; source: the project's aim
@@ -37,6 +40,7 @@ def accuracy_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         | _of_increments(tables["increments"])
         | _of_closed_forms(tables["closed_forms"])
         | _of_calculix(tables["calculix"])
+        | of_orders(tables["calculix_orders"])
         | {"stress": table(tables["stress"].convert_dtypes().astype(object).fillna(""))}
     )
 
@@ -114,20 +118,44 @@ def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
     if not {ContactModel.OWN, ContactModel.TURNING} <= {*finest.index}:
         return {"calculix_verdict": f"CalculiX did not converge in the case `{FINEST}`.", "calculix": table(shown)}
     verdict = (
-        f"In short (`{FINEST}`): where fingerpad takes over CalculiX's penalties and turning normal, the two programs,"
-        f" which share no code, differ by {_differences(finest.loc[ContactModel.TURNING])}. With its own contact,"
-        f" fingerpad differs by {_differences(finest.loc[ContactModel.OWN])}: CalculiX's contact gives"
-        " way, and small strain here has a normal that does not turn."
+        f"Where CalculiX converges (`{FINEST}`: friction is switched on after pre-indentation), the two programs,"
+        f" which share no code, differ by {_differences(finest.loc[ContactModel.TURNING])} if fingerpad uses"
+        " CalculiX's contact law, which is soft and turns the normal with the surface. With its own, rigid and at small"
+        f" strain with a fixed normal, fingerpad differs by {_differences(finest.loc[ContactModel.OWN])}."
     )
-    return {"calculix_verdict": f"{verdict}\n\n{_of_rubbing(compared)}", "calculix": table(shown)}
+    return {"calculix_verdict": f"{_of_rubbing(compared)}\n\n{verdict}", "calculix": table(shown)}
+
+
+def of_orders(orders: pd.DataFrame) -> dict[str, object]:
+    """Whether both programs order the conditions of a device alike, and by how much their scores differ."""
+    if "fingerpad" not in orders:
+        return {"same_order": str(orders["note"].iloc[0]), "calculix_orders": ""}
+    both = orders.dropna(subset=["fingerpad", "calculix"])
+    verdicts = [
+        f"- {KINEMATICS_NAME[Kinematics(kinematics)]}, {READOUT_NAME[Readout(readout)].lower()}: {_alike(own)}"
+        for (kinematics, readout), own in both.groupby(["kinematics", "readout"], sort=False)
+    ]
+    apart = percent(both["fingerpad"] / both["calculix"] - 1.0)
+    shown = both[["kinematics", "device", "condition", "readout", "fingerpad", "calculix"]].astype(str)
+    return {"same_order": "\n".join(verdicts), "calculix_orders": table(shown.assign(difference=apart))}
+
+
+def _alike(scores: pd.DataFrame) -> str:
+    """How many pairs of conditions of one device have the same order in both programs."""
+    same = pairs = 0
+    for _, own in scores.groupby("device"):
+        for one, two in combinations(own[["fingerpad", "calculix"]].to_numpy(), 2):
+            pairs += 1
+            same += bool(np.all(one < two) or np.all(one > two))
+    return f"{same} of {pairs} pairs of conditions of a device are in the same order"
 
 
 def _of_rubbing(compared: pd.DataFrame) -> str:
     """How far the programs differ where friction acts from the first touch, and CalculiX from itself, in words."""
     found = " ".join(_of_rubbing_with(kinematics, compared) for kinematics in Kinematics)
     return (
-        "In that case friction is switched on after pre-indentation. With friction from the first touch, **as shipped"
-        f" scores have it**, CalculiX has not converged, and cannot tell which of the two is nearer. {found}"
+        "With friction from the first touch, **as shipped scores have it**, CalculiX has not converged: it moves with"
+        f" its own increments and mesh, so it cannot tell which of the two is nearer. {found}"
     )
 
 

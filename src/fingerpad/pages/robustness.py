@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import pandas as pd
 
-from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES
+from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, by_key
 from ..ensemble.effect import with_effect
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
@@ -42,19 +42,6 @@ def robustness_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
     }
 
 
-def _by_key(names: Iterable[str]) -> str:
-    """Names of members, "key value" each, with the values of one key together.
-
-    >>> _by_key(["contact.friction 0.2", "finger.width 20.0", "contact.friction 0.38"])
-    'contact.friction 0.2, 0.38; finger.width 20.0'
-    """
-    values: dict[str, list[str]] = {}
-    for name in names:
-        key, _, value = name.partition(" ")
-        values.setdefault(key, []).append(value)
-    return "; ".join(f"{key} {', '.join(each)}" for key, each in values.items())
-
-
 def _always(claims: pd.DataFrame) -> str:
     """Statements that hold in every member and half-cycle, whatever the kinematics, as a list."""
     held = claims.groupby(TOLD, sort=False)["holds"].agg(lambda column: (column == Holds.YES).all())
@@ -75,7 +62,7 @@ def _statements(claims: pd.DataFrame) -> pd.DataFrame:
             found = with_effect(own[own["half_cycle"] == half_cycle], "evidence").set_index("varied")["holds"]
             usual = found.get(AS_CONFIGURED, NOTHING)
             row[half_cycle] = f"{usual}, {(found == Holds.YES).sum()} of {found.size}"
-            row[f"changed in {half_cycle} by"] = _by_key(found[found != usual].index)
+            row[f"changed in {half_cycle} by"] = by_key(found[found != usual].index)
         rows.append(row)
     return pd.DataFrame(rows)
 

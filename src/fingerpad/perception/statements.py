@@ -259,7 +259,7 @@ def _device2_slides(tables: Tables) -> Verdict:
 
 
 def _device1_keeps(tables: Tables) -> Verdict:
-    """No step by phase or by dispersion is reversed when shear is left out."""
+    """Every step by phase or by dispersion has the same relation when shear is left out."""
     without, with_shear = _both(tables, "device1")
     off, on = ({**_along_phase(scores), **_along_dispersion(scores)} for scores in (without, with_shear))
     pairs = zip(_all_steps(off), _all_steps(on), strict=True)

@@ -57,13 +57,14 @@ def edge_intervals(scene: Scene) -> FloatArray:
     """
     nominal = nominal_edges(scene.device.actuators)
     wide = nominal + REACH * np.array([-1.0, 1.0])
-    found, failures = list[FloatArray](), list[ContactError]()
+    found = list[FloatArray]()
     for times in (COARSER, COARSER / 2.0):
-        failures.clear()
         try:
-            found = [_under_edges(*each) for each in _states(scene.coarsened(times), wide, failures)]
+            ends = list(_states(scene.coarsened(times), wide))
         except (MeshError, CondensationError):
             return wide
+        failures = [each for each in ends if isinstance(each, ContactError)]
+        found = [_under_edges(*each) for each in ends if not isinstance(each, ContactError)]
         if not all(isinstance(failure, CriterionError) for failure in failures):
             return wide
         if not failures:
@@ -74,11 +75,9 @@ def edge_intervals(scene: Scene) -> FloatArray:
     return merged(np.stack([start, stop], axis=1))
 
 
-def _states(
-    scene: Scene, edges: FloatArray, failures: list[ContactError]
-) -> Iterator[tuple[ContactProblem, ContactState]]:
-    """States of all conditions of a scene, as far as they can be followed; what cannot is added to `failures`. Raises
-    MeshError, CondensationError.
+def _states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState] | ContactError]:
+    """States of all conditions of a scene, as far as they can be followed, and why not further. Raises MeshError,
+    CondensationError.
     """
     section, body = mesh_section(scene, edges), body_of(scene)
     condensed = condense_section(section, scene) if scene.kinematics is Kinematics.SMALL else None
@@ -86,7 +85,7 @@ def _states(
         try:
             problem, before = _pressed_state(scene, section, condensed, body, interface)
         except ContactError as failure:
-            failures.append(failure)
+            yield failure
             continue
         yield problem, before
         for condition in scene.device.distinct_conditions:
@@ -94,7 +93,7 @@ def _states(
                 for state in follow_condition(scene, problem, before, condition):
                     yield problem, state
             except ContactError as failure:
-                failures.append(failure)
+                yield failure
 
 
 def _pressed_state(

@@ -7,6 +7,7 @@ from itertools import permutations
 from typing import Any
 
 from ..readouts.accuracy import has_error
+from ..readouts.roughness import rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from .ranking import is_resolved
@@ -56,10 +57,7 @@ def orders(tables: Mapping[str, Sequence[Row]]) -> Iterator[str]:
         return
     for interface in Interface:
         for readout in Readout:
-            own = {
-                name: [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)]
-                for name, rows in tables.items()
-            }
+            own = {name: rows_of(rows, interface, readout) for name, rows in tables.items()}
             if any(row["score"] is not None for rows in own.values() for row in rows):
                 yield from _orders_of(f"{interface}, {readout}", own)
 

@@ -16,7 +16,7 @@ from ..finite.pressing import press
 from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import ERROR_UNKNOWN, NO_PREDICTION, unscored_rows
+from ..readouts.roughness import NO_PREDICTION, unscored_rows
 from ..readouts.strain import FilteredReadouts, Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -32,7 +32,7 @@ from .caveats import noted_rows
 
 Result = TypeVar("Result")
 Case = tuple[str, Interface]  # condition, interface
-UNKNOWN = f"{ERROR_UNKNOWN}: on a mesh of {COARSENING:g} times the sizes, "  # and the reason
+UNKNOWN = f"error unknown: on a mesh of {COARSENING:g} times the sizes, "  # and the reason
 
 
 @dataclass(frozen=True)

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..scene.contact_law import Interface
-from ..scene.device import ActuatorRow, Condition
+from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from .strain import FilteredReadouts
 
+Row = TypeVar("Row", bound=Mapping[str, Any])  # of the score table
+
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
 KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table that tell series of scores apart
 NO_PREDICTION = "no prediction"
-ERROR_UNKNOWN = "error unknown"
-
-
-def score_span(row: ActuatorRow, margin: float) -> tuple[float, float]:
-    """Span (start, stop) [mm] of the score: x of the row's outer edges and a margin on each side, as arc lengths."""
-    # ASSUME: readout.span_margin is laid off from x of the row's ends as if that were arc length (docs/model.md, 10)
-    return row.positions[0] - row.width / 2.0 - margin, row.positions[-1] + row.width / 2.0 + margin
 
 
 def scene_span(scene: Scene) -> tuple[float, float]:
-    """The span of a scene's scores."""
-    return score_span(scene.device.actuators, scene.model.readout.span_margin)
+    """Span (start, stop) [mm] of a scene's scores: x of the row's outer edges and a margin beyond, as arc lengths."""
+    # ASSUME: readout.span_margin is laid off from x of the row's ends as if that were arc length (docs/model.md, 10)
+    row, margin = scene.device.actuators, scene.model.readout.span_margin
+    return row.positions[0] - row.width / 2.0 - margin, row.positions[-1] + row.width / 2.0 + margin
 
 
 def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, float]) -> float:
@@ -81,6 +79,11 @@ def unpredicted_rows(scene: Scene) -> list[dict[str, Any]]:
 def unscored_rows(scene: Scene, condition: Condition, interface: Interface, note: str) -> list[dict[str, Any]]:
     """Rows, with no score but a note, for one condition and interface: one a read-out."""
     return [score_row(scene, condition, interface, readout, None, note) for readout in Readout]
+
+
+def rows_of(rows: Iterable[Row], interface: Interface, readout: Readout) -> list[Row]:
+    """Those rows of the score table that are of one interface and read-out."""
+    return [row for row in rows if (row["interface"], row["readout"]) == (interface, readout)]
 
 
 def score_row(

@@ -140,8 +140,8 @@ class Condition:
     starts from rest, so a first row that is not zero is reached from zero. settling: how many of the times pass before
     receptors may be read, as friction remembers how a cycle was begun.
 
-    Raises SceneError if time is empty or does not ascend, settling leaves none of them, or displacements are not finite
-    or of another shape.
+    Raises SceneError if time is empty, not finite or does not ascend, settling leaves none of them, or displacements
+    are not finite or of another shape.
     """
 
     name: str
@@ -155,6 +155,7 @@ class Condition:
     def __post_init__(self) -> None:
         where = f"condition {self.name}"
         require(self.time.ndim == 1 and self.time.size >= 1, f"{where}: time must have one row or more")
+        require(bool(np.isfinite(self.time).all()), f"{where}: times must be finite numbers")
         for before, after in pairwise(self.time):
             require(before < after, f"{where}: times must ascend, found {before:g} s before {after:g} s")
         require(
@@ -232,8 +233,8 @@ class Device:
     """A device: its actuators, what it controls, and the conditions it is tried in.
 
     cycles: the conditions as vibrations, none if they are given in time. frequencies: at which they are asked for [Hz].
-    kinematics: with which it may be predicted; strokes that turn elements inside out leave finite ones out.
-    frictionless: whether it may be predicted without friction; rows that only friction holds leave that out.
+    kinematics: with which the workflow predicts it; strokes that turn elements inside out leave finite ones out.
+    frictionless: whether it is predicted without friction; rows that only friction holds leave that out.
 
     Raises SceneError if there is no condition, two share a name, one moves another number of actuators or neighbours
     into each other, or one that is asked for at a frequency has no actuator at its peak where it is read.

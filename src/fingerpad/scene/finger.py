@@ -55,7 +55,8 @@ class Finger:
     width, height: of the outline [mm]. bone_width: [mm]. nail_width: arc length of the dorsal outline that carries
     nail and nail bed [mm]. pad, dorsal: layers from the outside in.
 
-    Raises SceneError if the stacks leave no bone, or the bone does not fit.
+    Raises SceneError if a size is not positive, the stacks leave no bone, or bone, nail or layers do not fit the
+    outline.
     """
 
     width: float

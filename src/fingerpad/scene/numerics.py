@@ -61,8 +61,14 @@ class Numerics:
             growth=factor * self.growth,
             receptor_size=factor * self.receptor_size,
             largest_size=factor * self.largest_size,
-            indentation_increments=max(round(self.indentation_increments / factor), 1),
-            stimulus_increments=max(round(self.stimulus_increments / factor), 1),
+        ).with_increments(1.0 / factor)
+
+    def with_increments(self, times: float) -> Numerics:
+        """With so many times as many increments [1], at least one of each."""
+        return replace(
+            self,
+            indentation_increments=max(round(times * self.indentation_increments), 1),
+            stimulus_increments=max(round(times * self.stimulus_increments), 1),
         )
 
 
@@ -73,8 +79,8 @@ class Skips:
     halved_condensation: the section mirrors, so half of it is condensed. equal_stimuli: conditions with the same
     stimulus are solved once. shared_indentation: pre-indentation, the same for all conditions, is solved once where one
     process solves several. mirrored_half: pre-indentation of a row that mirrors solves one half. frictionless_path:
-    without friction the path leaves no trace, so it is followed in a few increments. inactive_nodes: an increment
-    takes only nodes in contact or about to be.
+    without friction the path leaves no trace, so it is followed in half as many increments. inactive_nodes: an
+    increment takes only nodes in contact or about to be.
     """
 
     halved_condensation: bool

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import isfinite
 
 import numpy as np
 
 from ..arrays import FloatArray
-from ..requirements import require_positive
+from ..requirements import require, require_positive
 
 CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
 
@@ -37,12 +38,19 @@ class ReadoutRule:
     """Where receptors are read (interface above which layer, which side) and over which span the score runs.
 
     layer_above: name of the layer above the receptor line. side: of the interface. span_margin: length [mm] added to
-    the actuator row's span on each side for the area under the curve.
+    the actuator row's span on each side for the area under the curve. Raises SceneError if that is negative or not
+    finite.
     """
 
     layer_above: str
     side: Side
     span_margin: float
+
+    def __post_init__(self) -> None:
+        require(
+            isfinite(self.span_margin) and self.span_margin >= 0.0,
+            f"readout: span_margin must be a number >= 0, found {self.span_margin}",
+        )
 
 
 @dataclass(frozen=True)

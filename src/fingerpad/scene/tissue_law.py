@@ -33,7 +33,7 @@ class Law(StrEnum):
 class TissueLaw:
     """How tissue deforms.
 
-    kinematics: of this scene, one of `computed`, those of the workflow. law: with finite kinematics. ogden_exponent: of
+    kinematics: of this scene. computed: those of the workflow. law: with finite kinematics. ogden_exponent: of
     Ogden's law [1]. Raises SceneError if that is 0 or not finite.
     """
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..store import load
 
 VOIGT = 3  # strain components [1]: exx, eyy, gxy = 2 exy
 MIRROR = np.array([-1.0, 1.0])  # signs [1] of the components x and y of a mirror image about x = 0
@@ -48,3 +50,8 @@ class CondensedBody:
 
     coordinate: FloatArray
     compliance: FloatArray
+
+
+def load_body(path: Path | None) -> CondensedBody | None:
+    """Read the body that `store.save` wrote, or nothing where actuators are rigid. Raises ResultError."""
+    return load(path, CondensedBody) if path else None

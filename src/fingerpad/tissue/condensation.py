@@ -18,7 +18,7 @@ from ..arrays import FloatArray
 from ..errors import CondensationError
 from ..scene.scene import Scene
 from .compliance import MIRROR, MIRROR_VOIGT, VOIGT, CondensedSection
-from .elasticity import displacement_basis, node_dofs, stiffness, unit_forces
+from .elasticity import displacement_basis, stiffness, unit_forces
 from .factors import backward_error, factorise, fill_reducing_order
 from .halves import Parts, right_half, unfold, unfolding, whole
 from .mesh import SectionMesh
@@ -31,13 +31,10 @@ TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies
 AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
 
 
-def section_stiffness(
-    section: SectionMesh, scene: Scene, elements: np.ndarray | None = None
-) -> tuple[csc_matrix, np.ndarray]:
-    """Stiffness of the section, or of some elements [N/mm per mm], and the unknowns (2, n_nodes) of its nodes."""
-    basis = displacement_basis(section.mesh, elements)
+def section_stiffness(section: SectionMesh, scene: Scene, elements: np.ndarray | None = None) -> csc_matrix:
+    """Stiffness (n_unknowns, n_unknowns) of the section, or of some elements [N/mm per mm]."""
     layer = section.layer if elements is None else section.layer[elements]
-    return stiffness(basis, scene.model.finger.materials, layer), node_dofs(basis)
+    return stiffness(displacement_basis(section.mesh, elements), scene.model.finger.materials, layer)
 
 
 def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
@@ -48,7 +45,7 @@ def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     """
     tractions = contact_tractions(section, scene)
     parts = parts_of(section, scene, tractions)
-    matrix, _ = section_stiffness(section, scene, parts.elements)
+    matrix = section_stiffness(section, scene, parts.elements)
     return condense_parts(section, scene, tractions, parts, matrix)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, identity, kron
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri2
+from skfem.assembly import Dofs
 from skfem.helpers import dot
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
@@ -43,9 +44,14 @@ def displacement_basis(
     return Basis(mesh, ElementVector(ElementTriP2()), intorder=order, quadrature=points, elements=elements)
 
 
-def node_dofs(basis: Basis) -> np.ndarray:
+def node_dofs(basis: Basis | Dofs) -> np.ndarray:
     """Unknowns (2, n_nodes) of the nodes in the order of `mesh.doflocs`: vertices, then edge midpoints."""
     return np.hstack([basis.nodal_dofs, basis.facet_dofs])
+
+
+def mesh_dofs(mesh: MeshTri2) -> np.ndarray:
+    """`node_dofs` of a displacement basis on a mesh, or on some of its elements, without evaluating it."""
+    return node_dofs(Dofs(mesh, ElementVector(ElementTriP2())))
 
 
 def stiffness(basis: Basis, materials: Sequence[Material], element_material: np.ndarray) -> csc_matrix:
@@ -79,7 +85,9 @@ def strain_of_gradient(gradient: csr_matrix) -> csr_matrix:
 
 
 def facet_strain(mesh: MeshTri2, facets: np.ndarray, element_of_facet: np.ndarray) -> tuple[FloatArray, csr_matrix]:
-    """Strain on facets, as a linear map (3 n_points, n_unknowns) to exx, eyy, gxy [1]; see `facet_gradient`."""
+    """Positions (2, n_points) [mm] on facets, and the linear map (3 n_points, n_unknowns) to exx, eyy, gxy [1] there;
+    see `facet_gradient`.
+    """
     points, gradient = facet_gradient(mesh, facets, element_of_facet)
     return points, strain_of_gradient(gradient)
 

@@ -15,7 +15,7 @@ from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray
 from .compliance import MIRROR
-from .elasticity import displacement_basis, node_dofs, unit_loads
+from .elasticity import mesh_dofs, unit_loads
 from .mesh import SectionMesh
 from .traction import Tractions
 
@@ -38,7 +38,7 @@ class Parts:
 def whole(section: SectionMesh, tractions: Tractions) -> Parts:
     """The whole section."""
     # ASSUME: finger: the bone alone holds the finger; skin beside the actuators and the nail bear nothing
-    dofs = node_dofs(displacement_basis(section.mesh))
+    dofs = mesh_dofs(section.mesh)
     loads = csc_matrix(unit_loads(dofs, tractions.nodes, dofs.size) @ tractions.by_component())
     return Parts(np.arange(section.mesh.t.shape[1]), dofs, [dofs[:, section.fixed].ravel()], [loads])
 
@@ -47,7 +47,7 @@ def right_half(section: SectionMesh, tractions: Tractions) -> Parts:
     """The right half of a section; of contact nodes in the middle the right half takes the one on the mid-line."""
     x = section.mesh.doflocs[0]
     elements = np.flatnonzero(x[section.mesh.t].mean(axis=0) > 0.0)
-    dofs = node_dofs(displacement_basis(section.mesh, elements))
+    dofs = mesh_dofs(section.mesh)
     still, axis = np.union1d(dofs[:, section.fixed], dofs[:, x < 0.0]), dofs[:, x == 0.0]
     held = [np.union1d(still, axis[sideways]) for sideways in (0, 1)]
     first = 2 * (tractions.position.shape[0] // 2)

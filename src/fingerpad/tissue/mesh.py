@@ -47,13 +47,12 @@ class SectionMesh:
     """Mesh of a section.
 
     mesh: second-order triangles; node i is column i of `mesh.doflocs` (vertices first, then edge midpoints).
-    layer: (n_elements,) index into `layer_names`. skin: nodes on the pad's outer face, by ascending arc length.
+    layer: (n_elements,) index into the finger's `layers`. skin: nodes on the pad's outer face, by ascending arc length.
     receptor_facets: facets on the receptor line, by ascending arc length. fixed: nodes on the bone.
     """
 
     mesh: MeshTri2
     layer: np.ndarray
-    layer_names: tuple[str, ...]
     skin: np.ndarray
     receptor_facets: np.ndarray
     fixed: np.ndarray
@@ -206,12 +205,8 @@ def save_section(path: Path, section: SectionMesh) -> None:
 def load_section(path: Path) -> SectionMesh:
     """Read a section's mesh. Raises ResultError."""
     plain = "layer", "skin", "receptor_facets", "fixed"
-    found = load_arrays(path, "nodes", "triangles", "layer_names", *plain)
-    return SectionMesh(
-        mesh=MeshTri2(found["nodes"], found["triangles"]),
-        layer_names=tuple(found["layer_names"].tolist()),
-        **{name: found[name] for name in plain},
-    )
+    found = load_arrays(path, "nodes", "triangles", *plain)
+    return SectionMesh(mesh=MeshTri2(found["nodes"], found["triangles"]), **{name: found[name] for name in plain})
 
 
 def counterclockwise(mesh: MeshTri2) -> np.ndarray:
@@ -364,7 +359,7 @@ def _joined(scene: Scene, outline: _Outline, right: MeshTri, left: MeshTri) -> S
     zeta = np.concatenate([logical[1], middle[1]])
     nail = (np.pi - outline.angle_of_arc(finger.nail_width / 2.0)) * outline.semi_axes[0]
 
-    layer, names = _layers(finger, along[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
+    layer = _layers(finger, along[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
     depth = round(scene.model.receptor_depth, ROUNDED)
     on_pad = along <= nail + LINE_SLACK
     facet_nodes = points.shape[1] + np.arange(ends.shape[1])
@@ -374,7 +369,6 @@ def _joined(scene: Scene, outline: _Outline, right: MeshTri, left: MeshTri) -> S
     section = SectionMesh(
         mesh=mesh,
         layer=layer,
-        layer_names=names,
         skin=skin[np.argsort(s[skin])],
         receptor_facets=receptor_facets[np.argsort(s[facet_nodes[receptor_facets]])],
         fixed=np.flatnonzero(zeta == zeta.max()),
@@ -383,8 +377,8 @@ def _joined(scene: Scene, outline: _Outline, right: MeshTri, left: MeshTri) -> S
     return section
 
 
-def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Layer index of elements by logical centre, and the layers' names (pad first)."""
+def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> np.ndarray:
+    """Index (n_elements,) into the finger's layers of elements by their logical centres."""
     # ASSUME: finger: off the mid-line, too, layers lie in their order, and the last of each stack fills up to the bone
     # ASSUME: finger.pad: interfaces between layers are smooth, without dermal papillae and intermediate ridges
     index = np.empty(s.shape, dtype=np.int64)
@@ -393,7 +387,7 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> tup
         interfaces = np.cumsum([layer.thickness for layer in stack[:-1]])
         index[inside] = first + np.searchsorted(interfaces, zeta[inside])
         first += len(stack)
-    return index, tuple(layer.name for layer in finger.layers)
+    return index
 
 
 def _require_valid(mesh: MeshTri2, name: str) -> None:

@@ -46,7 +46,7 @@ def condense_vibrating(section: SectionMesh, scene: Scene, frequency: float) -> 
     stiff = stiffened(scene, 1j * speed)
     tractions = contact_tractions(section, stiff)
     parts = parts_of(section, stiff, tractions)
-    matrix, _ = section_stiffness(section, stiff, parts.elements)
+    matrix = section_stiffness(section, stiff, parts.elements)
     inertia = speed**2 * mass(section.mesh, parts.elements, scene.model.vibration.density)
     both = (csc_matrix(each) for each in (matrix, matrix - inertia))
     return Vibrating(frequency, *(condense_parts(section, stiff, tractions, parts, each) for each in both))

@@ -38,7 +38,8 @@ def retardation_times(relaxation: Relaxation) -> FloatArray:
     [2.0]
     """
     times = np.asarray(relaxation.times)
-    # the terms follow tau_i v_i' = e - v_i; without stress (1 + sum r) e = r.v, so that v' = -((I + 1 r^T) tau)^-1 v
+    # the terms follow tau_i v_i' = e - v_i; without stress (1 + sum r) e = r.v, so that v' = -((I + 1 r^T) tau)^-1 v,
+    # with the eigenvalues of tau (I + 1 r^T)
     system = np.diag(times) @ (np.eye(times.size) + np.outer(np.ones(times.size), _ratios(relaxation)))
     return np.sort(np.linalg.eigvals(system).real)
 

@@ -1,0 +1,48 @@
+"""Both sides of a case: a condition that CalculiX has solved, and what solves it by fingerpad's laws of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from ..prediction.edges import mesh_device
+from ..scene.scene import Scene
+from ..scene.tissue_law import Kinematics
+from ..tissue.actuator_body import body_of
+from ..tissue.condensation import condense_section
+from .crosscheck import ContactModel, Outcome, calculix_outcome, fingerpad_outcome, on_deck, prepared
+from .deformed_crosscheck import deformed_outcome
+
+
+@dataclass(frozen=True)
+class BothSides:
+    """calculix: its outcome. fingerpad: what solves the same by a law of contact, or raises ContactError. cost:
+    unknowns of the deck [1] and seconds that CalculiX took.
+    """
+
+    calculix: Outcome
+    fingerpad: Callable[[ContactModel], Outcome]
+    cost: dict[str, Any]
+
+
+def both_sides(scene: Scene, condition: str, case: Mapping[str, Any], folder: Path, limit: float) -> BothSides:
+    """Solve a condition with CalculiX in a folder, each side on a mesh of its own.
+
+    case: settings as in `crosscheck.prepared`, with `coarsening` of the deck's mesh and `fingerpad_coarsening` of
+    fingerpad's. limit: seconds the deck may take. Raises what `prepared` raises, CalculixError if CalculiX does not
+    solve it, and SceneError, MeshError or CondensationError if either side cannot be set up.
+    """
+    fine, settings = prepared(scene, case)
+    deck, own = on_deck(fine, case["coarsening"]), on_deck(fine, case["fingerpad_coarsening"])
+    deck_section, section, body = mesh_device(deck), mesh_device(own), body_of(own)
+    stimulus = scene.device.condition(condition)
+    found, seconds = calculix_outcome(deck, deck_section, stimulus, settings, folder, limit)
+    solve: Callable[[ContactModel], Outcome]
+    if own.kinematics is Kinematics.FINITE:
+        solve = partial(deformed_outcome, own, section, body, stimulus, settings)
+    else:
+        solve = partial(fingerpad_outcome, own, condense_section(section, own), body, stimulus, settings)
+    return BothSides(found, solve, {"unknowns": deck_section.unknowns, "calculix_s": round(seconds, 1)})

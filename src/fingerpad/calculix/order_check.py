@@ -1,0 +1,46 @@
+"""Scores of a device's conditions by CalculiX beside fingerpad's own, to see whether both order them alike."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..errors import CalculixError, ContactError
+from ..readouts.roughness import SCORE_UNIT
+from ..scene.readout import Readout
+from ..scene.scene import Scene
+from .both_sides import both_sides
+from .crosscheck import ContactModel
+
+DIGITS = 5  # significant digits of a score [1]
+
+
+def order_rows(
+    scene: Scene, condition: str, case: Mapping[str, Any], folder: Path, limit: float
+) -> list[dict[str, Any]]:
+    """Rows of one condition, a row a read-out: its scores [mm2] by both programs, on the same path with friction.
+
+    case, folder, limit: as `both_sides` takes them. Where one of the programs finds no solution there is a note in
+    place of its score. Raises what `both_sides` raises but for CalculixError.
+    """
+    own, calculix = dict[Readout, float](), dict[Readout, float]()
+    cost: dict[str, Any] = {"unknowns": "", "calculix_s": ""}
+    note = ""
+    try:
+        sides = both_sides(scene, condition, case, folder, limit)
+        calculix, cost = sides.calculix.score, sides.cost
+        own = sides.fingerpad(ContactModel.OWN).score
+    except (CalculixError, ContactError) as error:
+        note = str(error)
+    where = {"kinematics": case["kinematics"], "device": scene.device.name, "condition": condition}
+    return [
+        where
+        | {"readout": str(each), "fingerpad": _shown(own.get(each)), "calculix": _shown(calculix.get(each))}
+        | {"unit": SCORE_UNIT, **cost, "note": note}
+        for each in Readout
+    ]
+
+
+def _shown(score: float | None) -> str:
+    return "" if score is None else f"{score:.{DIGITS}g}"
