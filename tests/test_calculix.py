@@ -30,7 +30,8 @@ from fingerpad.calculix.crosscheck import (
 from fingerpad.calculix.deck import DeckSettings, input_deck, material_lines
 from fingerpad.calculix.deformed_crosscheck import deformed_outcome
 from fingerpad.calculix.order_check import order_rows
-from fingerpad.calculix.run import PROGRAM, Printed, installed, read_printed, run
+from fingerpad.calculix.program import PROGRAM, installed
+from fingerpad.calculix.run import Printed, read_printed, run
 from fingerpad.errors import CalculixError, ContactError
 from fingerpad.finite.deformation import elements_of, internal_force
 from fingerpad.finite.hyperelasticity import tissue_of

@@ -30,7 +30,6 @@ from fingerpad.api import predict
 from fingerpad.arrays import FloatArray
 from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
-from fingerpad.commands.check import TOO_FAR
 from fingerpad.commands.check import described as told_of
 from fingerpad.commands.options import variations
 from fingerpad.commands.score_table import _contact, as_table, named
@@ -44,6 +43,7 @@ from fingerpad.prediction import scoring
 from fingerpad.prediction.caveats import (
     MANY_CUTS,
     MANY_SEARCHES,
+    TOO_FAR,
     noted_rows,
     scene_caveats,
     solution_caveats,

@@ -10,8 +10,8 @@ import pytest
 import fingerpad.finite.deformed_solution
 import fingerpad.finite.pressing
 from fingerpad.arrays import FloatArray
+from fingerpad.contact.advice import left_out
 from fingerpad.contact.path import advance
-from fingerpad.contact.problem import left_out
 from fingerpad.errors import ContactError, CrossingError, DepthError, SnapError
 from fingerpad.finite.deformed import deformed_state, solver_on
 from fingerpad.finite.deformed_path import DeformedTissue, move

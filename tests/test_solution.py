@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import fingerpad.contact.linear_solution
+from fingerpad.contact.advice import named_stimulus
 from fingerpad.contact.certificate import (
     CONE_LIMIT,
     DISSIPATION_LIMIT,
@@ -36,7 +37,7 @@ from fingerpad.contact.linear_solution import (
 )
 from fingerpad.contact.ownership import handed_over
 from fingerpad.contact.path import follow, recording
-from fingerpad.contact.problem import contact_problem, named_stimulus
+from fingerpad.contact.problem import contact_problem
 from fingerpad.contact.profile import profile
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError

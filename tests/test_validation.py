@@ -19,17 +19,11 @@ from jsonschema import Draft202012Validator
 
 from fingerpad.errors import SceneError
 from fingerpad.scene.contact_law import Criterion, Interface
+from fingerpad.scene.device_names import LONGEST_NAME, known_devices, require_device, require_new_name
+from fingerpad.scene.meant import _meant_unit
+from fingerpad.scene.problems import MOST_REPORTED
 from fingerpad.scene.scenefile import load_scene, read_values
-from fingerpad.scene.validation import (
-    LONGEST_NAME,
-    MOST_REPORTED,
-    _meant_unit,
-    check_config,
-    check_device,
-    known_devices,
-    require_device,
-    require_new_name,
-)
+from fingerpad.scene.validation import check_config, check_device
 from scenes import scene
 
 ROOT = Path(__file__).parents[1]

@@ -10,7 +10,7 @@ import json
 import re
 import shutil
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +41,7 @@ def reached_modules(script: Path, source: Path) -> list[str]:
 def _imported(program: str, package: tuple[str, ...], source: Path) -> list[Path]:
     """Files that the text of a program, part of a package, imports from the package."""
     found: list[Path] = []
-    for node in ast.walk(ast.parse(program)):
+    for node in _statements(ast.parse(program)):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -55,10 +55,26 @@ def _imported(program: str, package: tuple[str, ...], source: Path) -> list[Path
             if parts[0] != PACKAGE:
                 continue
             # importing a.b.c runs a/__init__, a/b/__init__ and a/b/c, or a/b/c/__init__
-            packages = [source.joinpath(*parts[:depth], "__init__.py") for depth in range(1, len(parts) + 1)]
-            module = source.joinpath(*parts).with_suffix(".py")
-            found.extend(file for file in (*packages, module) if file.is_file())
+            packages = ["/".join((*parts[:depth], "__init__.py")) for depth in range(1, len(parts) + 1)]
+            known = _modules(source)
+            found.extend(known[name] for name in (*packages, f"{'/'.join(parts)}.py") if name in known)
     return found
+
+
+@functools.cache
+def _modules(source: Path) -> dict[str, Path]:
+    """All modules of the package, by their paths in the folder that it lies in."""
+    return {path.relative_to(source).as_posix(): path for path in (source / PACKAGE).rglob("*.py")}
+
+
+def _statements(tree: ast.Module) -> Iterator[ast.AST]:
+    """All statements, within others too; expressions, which are most of a tree, hold none."""
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        within = (ast.stmt, ast.excepthandler, ast.match_case)
+        waiting.extend(child for child in ast.iter_child_nodes(node) if isinstance(child, within))
 
 
 def _program(path: Path) -> str:

@@ -25,15 +25,17 @@ def predict(
     config: str | PathLike[str] | None = None,
     schemas: str | PathLike[str] | None = None,
     vary: Mapping[str, Sequence[Any]] = NO_VALUES,
+    conditions: Sequence[str] = (),
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank`, `first_rank`, `last_rank`,
     `indentation_mm`, `force_N_per_mm`, `sliding_share`, `time_s` and `caveats` (see `forecast`).
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
-    "finite". config: the config.yaml beside the device file's folder if not given, or else that of the checkout around
-    the working folder, as are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no
-    such kinematics, or if what is varied has no effect (`require_effect`).
+    "finite". conditions: names of those that are predicted alone, on a mesh made for them (default: all). config: the
+    config.yaml beside the device file's folder if not given, or else that of the checkout around the working folder, as
+    are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no such kinematics, or if
+    what is varied has no effect (`require_effect`).
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
@@ -47,6 +49,6 @@ def predict(
     rows = [
         values | row
         for values, scene in cases
-        for row in forecast(scene.with_kinematics(Kinematics(kinematics)), error)
+        for row in forecast(scene.with_asked(conditions).with_kinematics(Kinematics(kinematics)), error)
     ]
     return pd.DataFrame(rows)

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from .checkout import OWN, Checkout
 from .errors import MissingResultError
+from .scene.device_names import known_devices
 from .scene.scene import Scene
-from .scene.validation import check_device, known_devices
+from .scene.validation import check_device
 
 FOLDER = "results"
 

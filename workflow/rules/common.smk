@@ -4,7 +4,7 @@
 from contextlib import suppress
 from functools import cache
 
-from fingerpad.calculix.run import installed
+from fingerpad.calculix.program import installed
 from fingerpad.scene.contact_law import Interface
 from fingerpad.ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, assumed_by_none, assuming, read_ensemble, slug
 from fingerpad.errors import FingerpadError
@@ -13,7 +13,8 @@ from fingerpad.perception.ratings import read_published, read_ratings, read_stat
 from fingerpad.scene.example import COMPARED, compares_interfaces, example_condition, example_device
 from fingerpad.scene.scenefile import build_model, plain_values, read_yaml, recordings
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.scene.validation import check_config, check_device, known_devices
+from fingerpad.scene.device_names import known_devices
+from fingerpad.scene.validation import check_config, check_device
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 

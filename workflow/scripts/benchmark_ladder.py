@@ -7,7 +7,7 @@ from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
-from fingerpad.calculix.run import installed
+from fingerpad.calculix.program import installed
 from fingerpad.errors import CalculixError
 from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene

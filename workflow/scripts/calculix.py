@@ -6,7 +6,7 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
-from fingerpad.calculix.run import installed
+from fingerpad.calculix.program import installed
 from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows

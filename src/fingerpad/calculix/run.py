@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import time
 from dataclasses import dataclass
@@ -15,8 +14,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..errors import CalculixError
 from .deck import READ_NODES, DeckSettings, actuator_name
+from .program import PROGRAM, installed
 
-PROGRAM = "ccx"
 JOB = "scene"  # name of the deck, and so of all files that CalculiX writes
 TITLE = re.compile(r"^ (\w[\w ]*) \(.*\) for set (\w+) and time", re.MULTILINE)
 READ_TABLES = ("displacements", "total force")
@@ -33,11 +32,6 @@ class Printed:
     node: np.ndarray
     displacement: FloatArray
     force: FloatArray
-
-
-def installed() -> bool:
-    """Whether CalculiX can be run."""
-    return shutil.which(PROGRAM) is not None
 
 
 def run(deck: str, folder: Path, limit: float) -> tuple[Path, float]:

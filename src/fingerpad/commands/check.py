@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
 
 import numpy as np
 from tqdm import tqdm
 
-from ..arrays import FloatArray
-from ..prediction.caveats import DEEP, numbers_of, stimulus_caveats
+from ..checkout import model_for
+from ..prediction.caveats import device_caveats, skin_rises, stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
@@ -23,22 +24,6 @@ examples:
   fingerpad check config/devices/device2.yaml
   fingerpad check config/devices/device2.yaml -o device2.png
 """
-TOO_WIDE = (
-    "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
-    " minutes to solve and may have no solution. A narrower row needs less,"
-    " and so may contact.criterion: touch, depth or force."
-)
-# Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
-# of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
-# friction
-WIDE = 0.3
-TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
-TOO_SHALLOW = (
-    "contact.depth is less than the height of the skin over some actuators, which may bear nothing;"
-    " counted from the left: {clear}"
-)
-TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
-BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 PRESSED = {
     Criterion.FULL: "until skin covers all faces",
     Criterion.TOUCH: "until all actuators carry some skin",
@@ -62,7 +47,8 @@ def run(options: argparse.Namespace) -> None:
     """
     picture = picture_of(options)
     scene = checked_scene(options.device, options)
-    print(f"{options.device}: valid\n{described(scene)}")
+    model = os.path.relpath(model_for(options.device, options.config))
+    print(f"{options.device}: valid with {model}\n{described(scene)}")
     if picture is not None:
         # what draws takes as long to load as all else
         from ..figures.section import section_figure  # noqa: PLC0415
@@ -83,7 +69,6 @@ def described(scene: Scene) -> str:
     device, row = scene.device, scene.device.actuators
     actuators = several(len(row.positions), f"{'deformable' if row.body else 'rigid'} actuator")
     conditions = ", ".join(condition.name for condition in device.conditions)
-    _, lateral = device.strokes
     drives = {
         "normal": [each.normal for each in device.conditions],
         "lateral": [each.tangential for each in device.conditions],
@@ -95,22 +80,10 @@ def described(scene: Scene) -> str:
     distinct = ", ".join(condition.name for condition in device.distinct_conditions)
     alike = f"; distinct stimuli: {distinct}" if len(device.distinct_conditions) < len(device.conditions) else ""
     places = ", ".join(f"{x:g}" for x in row.positions)
-    rises, pad = _rises(scene), scene.model.finger.pad_thickness
-    rise = float(rises.max())
-    law = scene.model.contact
-    wide = law.criterion is Criterion.FULL and rise > WIDE * pad
-    indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
-    farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
-    clear = numbers_of(rises > law.depth)
-    warned = {
-        TOO_WIDE: wide,
-        TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
-        TOO_SHALLOW.format(clear=clear): law.criterion is Criterion.DEPTH and bool(clear),
-        TOO_FAR: indentations.get(law.criterion, 0.0) + ranges["normal"][1] > pad,
-        BESIDE: farthest > scene.model.finger.width / 2.0,
-    }
+    law, rise, pad = scene.model.contact, float(skin_rises(scene).max()), scene.model.finger.pad_thickness
     pressed = DOMED if scene.lacks_faces else PRESSED[law.criterion].format(depth=law.depth, force=law.force)
     doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]
+    doubts = device_caveats(scene) + doubts
     return (
         f"{device.title} ({device.name})\n"
         f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"
@@ -119,13 +92,5 @@ def described(scene: Scene) -> str:
         f"{f'actuators move {moves} (positive: into the skin, to the right)' if moves else 'actuators rest'}\n"
         f"friction {law.friction:g}; pressed {pressed}, and held\n"
         f"undeformed skin over the outermost faces lies {rise:.2g} mm above first touch; pad thickness {pad:g} mm"
-        + "".join(f"\n{warning}" for warning in [*(each for each, holds in warned.items() if holds), *doubts])
+        + "".join(f"\n{doubt}" for doubt in doubts)
     )
-
-
-def _rises(scene: Scene) -> FloatArray:
-    """How far (n_actuators,) [mm] undeformed skin over the outer end of each face lies above the lowest over any."""
-    finger, row = scene.model.finger, scene.device.actuators
-    centre = np.abs(row.positions)
-    nearest = np.array([max(centre.min() - row.half_face, 0.0)])
-    return finger.skin_height(centre + row.half_face) - finger.skin_height(nearest)

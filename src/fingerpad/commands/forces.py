@@ -23,7 +23,6 @@ from .options import (
     add_no_error,
     add_scene_options,
     asked_scene,
-    with_asked_conditions,
 )
 from .printing import aligned, noted, print_rows, read_times, titled
 
@@ -54,7 +53,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve the device and print all forces once they are there. Raises ContactError if there is none."""
-    scene = with_asked_conditions(asked_scene(options), options)
+    scene = asked_scene(options).with_asked(options.conditions)
     error = not options.no_error
     with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
         rows = force_rows(scene, error, bar.update)

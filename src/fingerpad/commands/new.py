@@ -11,9 +11,10 @@ from pathlib import Path
 from ..checkout import find_checkout, model_for
 from ..errors import UsageError
 from ..files import write_text
+from ..scene.device_names import require_device, require_new_name
 from ..scene.scenefile import recordings
 from ..scene.template import device_text
-from ..scene.validation import check_device, checked_document, require_device, require_new_name
+from ..scene.validation import check_device, checked_document
 from .options import existing_file
 
 DESCRIPTION = """\

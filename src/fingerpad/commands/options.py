@@ -71,14 +71,6 @@ def add_conditions(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def with_asked_conditions(scene: Scene, options: argparse.Namespace) -> Scene:
-    """The scene with the conditions that the options ask for, in the file's order. Raises SceneError if it has one of
-    them not.
-    """
-    asked = {scene.device.condition(name).name for name in options.conditions}
-    return scene.with_conditions(each for each in scene.device.conditions if each.name in asked) if asked else scene
-
-
 def add_kinematics(parser: argparse.ArgumentParser, what: str) -> None:
     """The kinematics of the tissue; `what` says what there is to choose between."""
     parser.add_argument(

@@ -32,7 +32,6 @@ from .options import (
     checked_scene,
     picture_of,
     variations,
-    with_asked_conditions,
 )
 from .printing import require_scores
 from .score_table import as_csv, as_table, named
@@ -81,7 +80,7 @@ def run(options: argparse.Namespace) -> None:
     is_text = not (options.json or options.csv)
     devices = [
         [
-            with_asked_conditions(checked_scene(device, options, values), options).with_kinematics(kinematics)
+            checked_scene(device, options, values).with_asked(options.conditions).with_kinematics(kinematics)
             for values in varied
         ]
         for device in options.devices

@@ -8,8 +8,8 @@ from typing import Any
 
 from ..rounding import rounded
 from ..scene.contact_law import Interface
+from ..scene.problems import written
 from ..scene.scene import Scene
-from ..scene.validation import written
 from ..scene.variation import NO_VALUES
 from ..store import csv_text
 from .printing import aligned, caveats_told, in_order, read_times, titled

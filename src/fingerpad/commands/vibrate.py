@@ -16,7 +16,7 @@ from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows, without_caveats
-from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene, with_asked_conditions
+from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene
 from .printing import aligned, caveats_told, in_order, print_rows, require_scores, titled
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
@@ -63,7 +63,7 @@ def hertz(text: str) -> float:
 
 def run(options: argparse.Namespace) -> None:
     """Vibrate the device, and print all scores once they are there. Raises ContactError if there is none."""
-    scene = asked(with_asked_conditions(checked_scene(options.device, options), options), options.frequency)
+    scene = asked(checked_scene(options.device, options).with_asked(options.conditions), options.frequency)
     total = STEPS + steps(scene)
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
         section = mesh_device(scene)

@@ -12,6 +12,7 @@ from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedBody, CondensedSection
+from .advice import named_pressing, named_stimulus
 from .certificate import Certificate, certify, require_within_reach, worst
 from .depth import require_tissue
 from .formulation import ContactProblem, ContactState
@@ -19,7 +20,7 @@ from .increment import solve_increment
 from .indentation import indent
 from .patch import Patch
 from .path import SolveIncrement, advance
-from .problem import contact_problem, increments, named_pressing, named_stimulus
+from .problem import contact_problem, increments
 from .solution import Solution, solution
 from .symmetry import part_of, unfolded
 

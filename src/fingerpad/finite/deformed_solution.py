@@ -12,10 +12,11 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from ..arrays import FloatArray
+from ..contact.advice import named_pressing, named_stimulus
 from ..contact.certificate import Certificate, certify, worst
 from ..contact.depth import require_tissue
 from ..contact.formulation import ContactProblem
-from ..contact.problem import contact_problem, increments, named_pressing, named_stimulus
+from ..contact.problem import contact_problem, increments
 from ..contact.solution import Solution, solution
 from ..scene.contact_law import Interface
 from ..scene.device import Condition

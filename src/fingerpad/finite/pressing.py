@@ -15,12 +15,13 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray
+from ..contact.advice import named_pressing
 from ..contact.certificate import require_within_reach
 from ..contact.force_curve import curve_of
 from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
 from ..contact.indentation import raise_until
 from ..contact.path import SolveIncrement, advance, recording
-from ..contact.problem import contact_problem, increments, named_pressing
+from ..contact.problem import contact_problem, increments
 from ..contact.symmetry import half_of, mirrors, unfolded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene

@@ -37,6 +37,22 @@ FEW = 5.0
 SHARP = 0.25
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 PRESS_AS_ASKED = "--vary contact.criterion=depth or force, or either in the device file, presses them as asked"
+TOO_WIDE = (
+    "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
+    " minutes to solve and may have no solution. A narrower row needs less,"
+    " and so may contact.criterion: touch, depth or force."
+)
+# Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
+# of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
+# friction
+WIDE = 0.3
+TOO_DEEP = "Pre-indentation to contact.depth goes deeper than half of the pad: small strain is invalid there."
+TOO_SHALLOW = (
+    "contact.depth is less than the height of the skin over some actuators, which may bear nothing;"
+    " counted from the left: {clear}"
+)
+TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
+BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 AWAY = 0.05  # of the stroke [1] at time 0; source: assumption: more than a sensor's noise
 SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 
@@ -59,6 +75,35 @@ def stimulus_caveats(condition: Condition) -> list[str]:
     if phase != round(phase) and abs(phase) < 2.0 * math.pi:
         found.append(f"has a phase of {phase:g} degrees: are phases in degrees?")
     return found
+
+
+def device_caveats(scene: Scene) -> list[str]:
+    """What can be told before anything is solved: rows too wide, preloads too deep or too shallow, and strokes that
+    leave the finger.
+    """
+    law, row, pad = scene.model.contact, scene.device.actuators, scene.model.finger.pad_thickness
+    normal, lateral = max(float(each.normal.max()) for each in scene.device.conditions), scene.device.strokes[1]
+    rises = skin_rises(scene)
+    rise = float(rises.max())
+    indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
+    farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
+    clear = numbers_of(rises > law.depth)
+    found = {
+        TOO_WIDE: law.criterion is Criterion.FULL and rise > WIDE * pad,
+        TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
+        TOO_SHALLOW.format(clear=clear): law.criterion is Criterion.DEPTH and bool(clear),
+        TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
+        BESIDE: farthest > scene.model.finger.width / 2.0,
+    }
+    return [caveat for caveat, holds in found.items() if holds]
+
+
+def skin_rises(scene: Scene) -> FloatArray:
+    """How far (n_actuators,) [mm] undeformed skin over the outer end of each face lies above the lowest over any."""
+    finger, row = scene.model.finger, scene.device.actuators
+    centre = np.abs(row.positions)
+    nearest = np.array([max(centre.min() - row.half_face, 0.0)])
+    return finger.skin_height(centre + row.half_face) - finger.skin_height(nearest)
 
 
 def scene_caveats(scene: Scene) -> list[str]:

@@ -7,7 +7,7 @@ is +y, into the skin; positive tangential displacement is +x.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -115,6 +115,13 @@ class Scene:
         kept = tuple(conditions)
         cycles = tuple(cycle for cycle in self.device.cycles if any(cycle.name == each.name for each in kept))
         return replace(self, device=replace(self.device, conditions=kept, cycles=cycles))
+
+    def with_asked(self, names: Collection[str]) -> Scene:
+        """The scene with the conditions of these names alone, in their order here, or with all if none is named. Raises
+        SceneError if there is no condition of a name.
+        """
+        asked = {self.device.condition(name).name for name in names}
+        return self.with_conditions(each for each in self.device.conditions if each.name in asked) if asked else self
 
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""

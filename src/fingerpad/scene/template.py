@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from .validation import Schema, allowed_values
+from .schema import Schema, allowed_values
 
 LINE = 110  # characters of a comment's line [1]
 STEP = "  "  # of indentation

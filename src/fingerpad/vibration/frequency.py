@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
+from ..contact.advice import named
 from ..contact.certificate import certify
 from ..contact.depth import depth, require_tissue
 from ..contact.formulation import actuator_forces
 from ..contact.linear_solution import Indented, indent_device
-from ..contact.problem import named
 from ..errors import ContactError, InertiaError, UnsolvedError
 from ..prediction.caveats import pressing_caveats, scene_caveats, state_caveats
 from ..prediction.scoring import Condensed, attempt

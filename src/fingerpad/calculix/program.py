@@ -1,0 +1,12 @@
+"""The program CalculiX, whose rules ask whether it is there."""
+
+from __future__ import annotations
+
+import shutil
+
+PROGRAM = "ccx"
+
+
+def installed() -> bool:
+    """Whether CalculiX can be run."""
+    return shutil.which(PROGRAM) is not None
