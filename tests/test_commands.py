@@ -14,6 +14,7 @@ import subprocess
 import sys
 from argparse import Namespace
 from dataclasses import replace
+from multiprocessing import active_children
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,6 @@ import pytest
 import yaml
 from matplotlib.figure import Figure
 
-import fingerpad.commands.predict as predicting
 import fingerpad.commands.robustness as varying
 from conftest import Project, coarsened
 from fingerpad.api import predict
@@ -32,14 +32,15 @@ from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
 from fingerpad.commands.check import described as told_of
 from fingerpad.commands.options import variations
+from fingerpad.commands.predict import ONE_TABLE
 from fingerpad.commands.score_table import _contact, as_table, named
 from fingerpad.commands.vibrate import add as add_vibrate
 from fingerpad.commands.vibrate import as_table as vibrations
 from fingerpad.commands.vibrate import asked as vibrated_at
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
-from fingerpad.errors import ContactError, MeshError, SceneError, UsageError
-from fingerpad.prediction import scoring
+from fingerpad.errors import ContactError, MeshError, ProcessError, SceneError, UsageError
+from fingerpad.prediction import scoring, side_by_side
 from fingerpad.prediction.caveats import (
     MANY_CUTS,
     MANY_SEARCHES,
@@ -89,6 +90,7 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for part in ("config", "workflow/schemas"):
         shutil.copytree(ROOT / part, tmp_path / part)
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(os, "cpu_count", lambda: 1)  # what a test puts in place of a function holds in this process
     return tmp_path
 
 
@@ -740,7 +742,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
         ROW | {"condition": "bb", "score": None, "score_error": None, "note": "no prediction", "caveats": []},
     ]
     rows = [row | rank for row, rank in zip(rows, ranks(rows), strict=True)]
-    monkeypatch.setattr(predicting, "forecast", lambda *given: rows)
+    monkeypatch.setattr(side_by_side, "forecast", lambda *given: rows)
     return rows
 
 
@@ -857,7 +859,7 @@ def test_interrupted_predictions_keep_what_is_there(
             raise KeyboardInterrupt
         return quick
 
-    monkeypatch.setattr(predicting, "forecast", forecast_one)
+    monkeypatch.setattr(side_by_side, "forecast", forecast_one)
     assert main(["predict", form, "config/devices/device2.yaml", "config/devices/device3.yaml"]) == INTERRUPTED
     said = capsys.readouterr().out
     rows = json.loads(said) if form == "--json" else list(csv.DictReader(io.StringIO(said)))
@@ -869,7 +871,7 @@ def test_predict_computes_the_conditions_asked_for(
 ) -> None:
     """In the file's order, each once, as vibrations, too; one that a device has not is refused before any is solved."""
     taken: list[Scene] = []
-    monkeypatch.setattr(predicting, "forecast", lambda scene, *given: taken.append(scene) or quick)
+    monkeypatch.setattr(side_by_side, "forecast", lambda scene, *given: taken.append(scene) or quick)
     wanted = ["--condition", "alternate_180", "--condition", "alternate_000", "--condition", "alternate_180"]
     assert main(["predict", *wanted, "config/devices/device2.yaml"]) == 0
     assert main(["predict", "config/devices/device2.yaml"]) == 0
@@ -888,7 +890,7 @@ def test_predict_takes_values_in_turn(
     checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     taken: list[Scene] = []
-    monkeypatch.setattr(predicting, "forecast", lambda scene, *given: taken.append(scene) or quick)
+    monkeypatch.setattr(side_by_side, "forecast", lambda scene, *given: taken.append(scene) or quick)
     vary = ["--vary", "contact.friction=0.3, 0.9", "--vary", "stimulus.dispersions.alternate=[0, 1, 1, 0]"]
     assert main(["predict", "--csv", *vary, "config/devices/device2.yaml"]) == 0
     assert [scene.model.contact.friction for scene in taken] == [0.3, 0.9]
@@ -902,7 +904,7 @@ def test_predict_takes_values_in_turn(
     assert "(device2), small strain, contact.friction 0.9\n" in said
     assert said.endswith(
         "\n\ndevice2, small strain: 2 variants\nthese values change no score\n"
-        "shear, strain: no two scores differ by more than their errors\n"
+        f"shear, strain: no two scores differ by more than their errors\n\n{ONE_TABLE}\n"
     )
 
 
@@ -948,7 +950,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
                        "note": "deep; odd" if first else "no prediction: too far", "caveats": ["deep", "odd"]}
                 for condition, score in zip(scene.device.conditions, scores, strict=True)]  # fmt: skip
 
-    monkeypatch.setattr(varying, "forecast", forecast_one)
+    monkeypatch.setattr(side_by_side, "forecast", forecast_one)
     assumptions = checkout / "assumptions.yaml"
     assumptions.write_text(
         "model:\n- {key: contact.friction, values: [0.3, 0.9], source: 'assumption: dry and moist'}\n"
@@ -987,7 +989,7 @@ def test_robustness_leaves_out_what_has_no_condition_in_common(
         return [ROW | {"condition": condition.name, "score": float(place), "score_error": 0.1, "caveats": []}
                 for place, condition in enumerate(scene.device.conditions)]  # fmt: skip
 
-    monkeypatch.setattr(varying, "forecast", forecast_one)
+    monkeypatch.setattr(side_by_side, "forecast", forecast_one)
     assumptions = checkout / "assumptions.yaml"
     assumptions.write_text(
         "devices:\n- {key: stimulus.phases, values: [[30, 60]], source: 'assumption: others'}\n"
@@ -1018,7 +1020,7 @@ def test_robustness_of_a_device_that_cannot_be_solved_is_an_error(
     checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     unsolved = [ROW | {"score": None, "score_error": None, "note": "no prediction: too far"}]
-    monkeypatch.setattr(varying, "forecast", lambda *given: unsolved)
+    monkeypatch.setattr(side_by_side, "forecast", lambda *given: unsolved)
     assert main(["robustness", "config/devices/device2.yaml"]) == UNSOLVED
     assert "nothing could be scored: no prediction: too far" in capsys.readouterr().err
 
@@ -1189,7 +1191,7 @@ def test_what_cannot_be_solved_is_3(checkout: Path, monkeypatch: pytest.MonkeyPa
     def refuse(*given: object) -> None:
         raise ContactError("no")
 
-    monkeypatch.setattr(predicting, "forecast", refuse)
+    monkeypatch.setattr(side_by_side, "forecast", refuse)
     assert main(["predict", "config/devices/device2.yaml"]) == UNSOLVED == 3
 
 
@@ -1350,7 +1352,7 @@ def test_robustness_varies_distinct_stimuli_with_the_kinematics_asked_for(
         asked.append((own.kinematics, [each.name for each in own.device.conditions]))
         return [ROW | {"condition": "a", "score": 1.0, "score_error": 0.1, "caveats": []}]
 
-    monkeypatch.setattr(varying, "forecast", forecast_none)
+    monkeypatch.setattr(side_by_side, "forecast", forecast_none)
     assert main(["robustness", "--kinematics", "finite", str(path)]) == 0
     configured, *varied, last = asked
     assert configured == (Kinematics.FINITE, ["alternate_000", "alternate_090"])
@@ -1414,7 +1416,7 @@ def test_check_measures_a_middle_pin_from_the_mid_line() -> None:
     condition = Condition("a", "a", 0.0, np.array([1.0]), still, still)
     pin = Device("pin", "Pin", Control.DISPLACEMENT, ActuatorRow((0.0,), 4.0, 0.0), (condition,))
     low, high = given.model.finger.skin_height(np.array([0.0, 2.0]))
-    assert f"outermost faces is {high - low:.2g} mm above" in told_of(Scene(given.model, pin))
+    assert f"outermost faces lies {high - low:.2g} mm above" in told_of(Scene(given.model, pin))
 
 
 def test_frequencies_that_are_asked_for_take_the_place_of_the_files() -> None:
@@ -1517,3 +1519,49 @@ def test_a_key_without_its_section_is_told_with_it() -> None:
     documents = {Path("a.yaml"): {"pitch_": {"value": 1.0}, "actuators": {"pitch": {"value": 2.0}}}}
     with pytest.raises(SceneError, match=r"pitch: found no such value in a\.yaml; .*; did you mean actuators\.pitch\?"):
         shared_out({"pitch": 2.5}, documents)
+
+
+def bare(name: str) -> Scene:
+    """A device's last condition on a coarse mesh."""
+    return scene(name).with_conditions(scene(name).device.conditions[-1:]).coarsened(4.0)
+
+
+def test_scenes_side_by_side_are_those_one_after_the_other() -> None:
+    """In their order, to the last bit, and with as many steps."""
+    tasks = [(bare("device1"), True), (bare("device3"), False), (bare("device2"), False)]
+    counts = list[int](), list[int]()
+    found = [
+        list(side_by_side.forecasts(tasks, cores, lambda own=own: own.append(1)))
+        for cores, own in zip((1, 2), counts, strict=True)
+    ]
+    assert found[0] == found[1]
+    assert [rows[0]["device"] for rows in found[1]] == ["device1", "device3", "device2"]
+    assert len(counts[0]) == len(counts[1]) == sum(steps(*task) for task in tasks)
+
+
+def test_what_solves_side_by_side_ends_with_what_asked_for_it() -> None:
+    solved = side_by_side.forecasts([(bare("device2"), False)] * 3, 2)
+    next(solved)
+    children = active_children()
+    assert len(children) == 2
+    solved.close()
+    for child in children:
+        child.join(60.0)
+        assert child.exitcode is not None
+
+
+def test_a_process_that_is_ended_from_outside_is_a_named_error() -> None:
+    solved = side_by_side.forecasts([(bare("device2"), False)] * 9, 2)
+    next(solved)
+    for child in active_children():
+        child.kill()
+    with pytest.raises(ProcessError, match=r"ended from outside.*--cores 1"):
+        list(solved)
+
+
+@pytest.mark.parametrize("cores", ["0", "-1", "two", "1.5"])
+def test_cores_are_a_whole_number(cores: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["predict", "--cores", cores, "config/devices/device2.yaml"])
+    assert ended.value.code == 2
+    assert f"found '{cores}'; allowed: a whole number, at least 1" in capsys.readouterr().err

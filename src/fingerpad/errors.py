@@ -89,6 +89,10 @@ class ReachError(ContactError):
     """Contact reaches beyond the skin nodes that were considered."""
 
 
+class ProcessError(FingerpadError):
+    """One of several processes that solve side by side was ended from outside."""
+
+
 class ResultError(FingerpadError):
     """A file of results holds something else than fingerpad writes there."""
 

@@ -59,6 +59,24 @@ def add_case_options(parser: argparse.ArgumentParser, kinematics: str) -> None:
     add_kinematics(parser, kinematics)
 
 
+def add_cores(parser: argparse.ArgumentParser) -> None:
+    """How many scenes are solved at once."""
+    parser.add_argument(
+        "--cores",
+        type=_positive,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="solve so many scenes at once, each on one core, with half a GB of memory (default: all cores)",
+    )
+
+
+def _positive(text: str) -> int:
+    """A whole number above zero. Raises ArgumentTypeError."""
+    if not (text.isascii() and text.isdecimal() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"found {text!r}; allowed: a whole number, at least 1")
+    return int(text)
+
+
 def add_conditions(parser: argparse.ArgumentParser) -> None:
     """The option for some of a device's conditions."""
     parser.add_argument(

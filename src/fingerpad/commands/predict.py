@@ -14,8 +14,9 @@ from tqdm import tqdm
 from ..checkout import model_for
 from ..csvrows import listed
 from ..errors import UsageError
-from ..prediction.forecast import forecast, steps
+from ..prediction.forecast import steps
 from ..prediction.orders import orders
+from ..prediction.side_by_side import forecasts
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
@@ -23,6 +24,7 @@ from ..scene.validation import require_effect
 from ..scene.variation import unit_of
 from .options import (
     add_conditions,
+    add_cores,
     add_forms,
     add_kinematics,
     add_no_error,
@@ -64,6 +66,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     add_conditions(parser)
     add_kinematics(parser, "of the tissue: small displacements and strains, or finite ones, which take longer")
     add_variation(parser)
+    add_cores(parser)
     add_picture(parser, "draw the scores against the values of the key that --vary gives several")
     add_scene_options(parser)
 
@@ -91,11 +94,12 @@ def run(options: argparse.Namespace) -> None:
     total = sum(steps(scene, error) for own in devices for scene in own)
     try:
         with tqdm(total=total, leave=False, disable=None) as bar:
+            solved = forecasts([(scene, error) for own in devices for scene in own], options.cores, bar.update)
             for own in devices:
                 tables: dict[str, list[dict[str, Any]]] = {}
                 for scene, values in zip(own, varied, strict=True):
                     bar.set_description(scene.device.name)
-                    predicted = tables[named(values)] = forecast(scene, error, bar.update)
+                    predicted = tables[named(values)] = next(solved)
                     predictions.append(predicted)
                     found = [values | row for row in predicted]
                     if options.csv:

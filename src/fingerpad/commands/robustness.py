@@ -14,15 +14,16 @@ from ..checkout import find_checkout, model_for
 from ..ensemble.alternatives import AS_CONFIGURED, Alternative, by_key, read_ensemble
 from ..ensemble.robustness import Order, changed, kept_keys, orders_held, reasons, varied_values
 from ..errors import SceneError, UsageError
-from ..prediction.forecast import forecast, steps
+from ..prediction.forecast import steps
 from ..prediction.orders import nothing_resolved, unordered
+from ..prediction.side_by_side import forecasts
 from ..readouts.roughness import rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.variation import Document
-from .options import add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
+from .options import add_cores, add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
 from .printing import in_order, require_scores, titled
 from .score_table import as_csv, caveat_lines
 
@@ -45,6 +46,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     add_device(parser)
     parser.add_argument("--csv", action="store_true", help="print all scores, with what is varied in the first column")
     add_kinematics(parser, "of the tissue, as configured; the other is one of the assumptions")
+    add_cores(parser)
     parser.add_argument(
         "--assumptions",
         type=Path,
@@ -67,15 +69,16 @@ def run(options: argparse.Namespace) -> None:
     varied, refused = _varied(scene, options, device, alternatives)
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
     with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
-        configured = forecast(scene, True, bar.update)
+        predicted = forecasts([(scene, True), *((each, False) for each in varied.values())], options.cores, bar.update)
+        configured = next(predicted)
         require_scores(configured)
         if options.csv:
             bar.write(_csv_of(AS_CONFIGURED, configured, header=True), end="")
         tables = {}
-        for name, each in varied.items():
-            tables[name] = forecast(each, False, bar.update)
+        for name, rows in zip(varied, predicted, strict=True):
+            tables[name] = rows
             if options.csv:
-                bar.write(_csv_of(name, tables[name], header=False), end="")
+                bar.write(_csv_of(name, rows, header=False), end="")
     if not options.csv:
         print("\n".join(_told(scene, configured, tables, refused, kept_keys(device, alternatives))))
 
