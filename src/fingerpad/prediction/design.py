@@ -8,7 +8,6 @@ of its own. A second condensation, whose elements are twice as large, gives ever
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,7 +21,7 @@ from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device, evenly
 from ..scene.readout import Readout
 from ..scene.scene import Model, Scene
-from ..scene.stimuli import ALTERNATE, phased
+from ..scene.stimuli import ALTERNATE, at_peak
 from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import mesh_section
 from .caveats import noted_rows
@@ -128,16 +127,9 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
 
 def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) -> Condition:
     """The state at the first pin's peak."""
-    stimulus = {
-        "dispersions": {ALTERNATE: [number % 2 for number in range(count)]},
-        "phases": [phase_deg],
-        "amplitude": amplitude,
-        "direction": "lateral" if lateral else "normal",
-        "half_cycle": "first",
-        "playback": "snapshot",
-    }
-    (condition,) = phased(stimulus, count, Path())
-    return replace(condition, name=NAME)
+    moved = at_peak(amplitude, phase_deg * np.resize([0.0, 1.0], count))[None, :]
+    normal, tangential = (np.zeros_like(moved), moved) if lateral else (moved, np.zeros_like(moved))
+    return Condition(NAME, ALTERNATE, phase_deg, np.array([1.0]), normal, tangential)
 
 
 def _moved(row: PressedRow, condition: Condition) -> Answer:

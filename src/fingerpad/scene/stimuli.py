@@ -51,8 +51,7 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
                     f"stimulus.dispersions.{dispersion}: found {list(stimulus['dispersions'][dispersion])}; allowed: at"
                     " least one group index 0, as a snapshot is the state at the peak of such actuators"
                 )
-            from_peak = np.round(np.abs(np.mod(lead + 180.0, 360.0) - 180.0), FOLDED)
-            displacement = stimulus["amplitude"] * np.round(np.cos(np.radians(from_peak)), CROSSING)[None, :]
+            displacement = at_peak(stimulus["amplitude"], lead)[None, :]
             time = np.array([1.0])
         else:
             settling = SETTLING * CYCLE_STEPS
@@ -62,6 +61,14 @@ def phased(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condit
         name = condition_name(dispersion, phase)
         conditions.append(Condition(name, dispersion, float(phase), time, *moves, settling))
     return conditions
+
+
+def at_peak(amplitude: float, lead: FloatArray) -> FloatArray:
+    """Displacements A cos(lead) (n,) [mm] of actuators that are ahead (n,) [deg] of one at its peak, as a snapshot has
+    them: to CROSSING decimals, and the same for phases that are mirror images.
+    """
+    from_peak = np.round(np.abs(np.mod(lead + 180.0, 360.0) - 180.0), FOLDED)
+    return np.asarray(amplitude * np.round(np.cos(np.radians(from_peak)), CROSSING))
 
 
 def phased_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
