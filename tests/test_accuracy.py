@@ -13,8 +13,8 @@ from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.forecast import forecast
 from fingerpad.prediction.scoring import rows_at
 from fingerpad.readouts.accuracy import LEAST, score_errors, true_errors, with_errors
+from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.roughness import roughness_scores, scene_span
-from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.readout import Readout

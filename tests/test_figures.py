@@ -52,7 +52,8 @@ from fingerpad.figures.style import (
 from fingerpad.figures.variation import variation_figure
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.perception.correlation import correlation_table
-from fingerpad.readouts.strain import FilteredReadouts, Reading
+from fingerpad.readouts.gabor import FilteredReadouts
+from fingerpad.readouts.strain import Reading
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow, Body, Condition, Control, Device
 from fingerpad.scene.finger import Material

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from fingerpad.errors import SceneError
+from fingerpad.readouts.comparison import is_constant
 from fingerpad.readouts.gabor import filtered_readouts, gabor_filtered
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.readouts.roughness import roughness_score
 from fingerpad.readouts.strain import maximum_principal, read_receptors
-from fingerpad.scene.readout import GaborFilter, Readout, is_constant
+from fingerpad.scene.readout import GaborFilter, Readout
 
 SIGMA = 1.12
 REACH = 6.0  # widths sigma [1] within which the kernel lies; source: docs/model.md

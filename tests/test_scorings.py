@@ -18,7 +18,7 @@ from fingerpad.perception.scorings import scoring_tables
 from fingerpad.prediction.frictions import FRICTIONS, friction_rows
 from fingerpad.prediction.phases import PHASES, phase_rows
 from fingerpad.readouts.accuracy import relative_errors
-from fingerpad.readouts.gabor import filtered_readouts, gabor_filtered
+from fingerpad.readouts.gabor import FilteredReadouts, filtered_readouts, gabor_filtered
 from fingerpad.readouts.roughness import roughness_score, scene_span
 from fingerpad.readouts.scorings import (
     DRIVES,
@@ -30,7 +30,7 @@ from fingerpad.readouts.scorings import (
     response_rows,
     scoring_rows,
 )
-from fingerpad.readouts.strain import FilteredReadouts, Resampling
+from fingerpad.readouts.strain import Resampling
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
 from fingerpad.scene.readout import Readout

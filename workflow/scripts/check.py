@@ -6,7 +6,7 @@ from fingerpad.contact.solution import Solution
 from fingerpad.jobs import logged
 from fingerpad.prediction.edges import load_edges
 from fingerpad.prediction.scoring import ReadSolution, error_rows
-from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics

@@ -7,7 +7,7 @@ from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
 from fingerpad.figures.style import save
 from fingerpad.jobs import logged
-from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load

@@ -9,7 +9,7 @@ from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.jobs import logged
-from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics

@@ -9,8 +9,8 @@ from fingerpad.jobs import logged
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.perception.scorings import scoring_tables
 from fingerpad.readouts.accuracy import relative_errors
+from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.scorings import response_rows, scoring_rows
-from fingerpad.readouts.strain import FilteredReadouts
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, read_rows, write_rows, write_table

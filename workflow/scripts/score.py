@@ -5,7 +5,7 @@ from pathlib import Path
 from fingerpad.contact.solution import Solution
 from fingerpad.jobs import logged
 from fingerpad.prediction.caveats import noted_rows
-from fingerpad.readouts.strain import FilteredReadouts
+from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics

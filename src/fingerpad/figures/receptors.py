@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
-from ..readouts.strain import FilteredReadouts
+from ..readouts.gabor import FilteredReadouts
 from ..scene.device import Condition, Device
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics

@@ -17,9 +17,8 @@ from scipy.stats import kendalltau, pearsonr
 from ..arrays import FloatArray
 from ..csvrows import listed
 from ..errors import RatingError
-from ..readouts.comparison import classes
+from ..readouts.comparison import classes, is_constant
 from ..readouts.roughness import KEY, NO_PREDICTION
-from ..scene.readout import is_constant
 from .extremes import RatingRange, rating_range, unit
 from .order import order_matrix
 from .ratings import NO_RATINGS, RatingKind

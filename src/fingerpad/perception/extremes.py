@@ -9,7 +9,7 @@ from scipy.optimize import nnls
 
 from ..arrays import FloatArray
 from ..errors import RatingError
-from ..scene.readout import CONSTANT, is_constant
+from ..readouts.comparison import CONSTANT, is_constant
 from .order import BoolArray, up_sets
 
 ASTRAY = 1e-9  # of a unit score [1], by which its projection may miss the conditions for one; source: rounding

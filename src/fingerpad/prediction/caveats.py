@@ -9,8 +9,8 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
+from ..readouts.gabor import FilteredReadouts
 from ..readouts.roughness import score_rows
-from ..readouts.strain import FilteredReadouts
 from ..scene.contact_law import Criterion, Interface
 from ..scene.device import Condition
 from ..scene.readout import Readout

@@ -16,7 +16,7 @@ from ..contact.linear_solution import Indented, indent_device, stimulate
 from ..contact.solution import Solution
 from ..errors import ContactError
 from ..readouts.accuracy import COARSENING, score_errors, with_error
-from ..readouts.strain import FilteredReadouts
+from ..readouts.gabor import FilteredReadouts
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device, evenly
 from ..scene.readout import Readout

@@ -14,10 +14,10 @@ from ..errors import UnsolvedError
 from ..finite.deformed_solution import pressed_finger, stimulate_deformed
 from ..finite.pressing import press
 from ..readouts.accuracy import COARSENING, score_errors
-from ..readouts.gabor import filtered_readouts
+from ..readouts.gabor import FilteredReadouts, filtered_readouts
 from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import NO_PREDICTION, unscored_rows
-from ..readouts.strain import FilteredReadouts, Resampling
+from ..readouts.strain import Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.readout import Readout

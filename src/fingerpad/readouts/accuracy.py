@@ -17,8 +17,8 @@ import numpy as np
 
 from ..scene.readout import Readout
 from ..scene.scene import Scene
+from .gabor import FilteredReadouts
 from .roughness import roughness_score, scene_span
-from .strain import FilteredReadouts
 
 COARSENING = 2.0  # [1]; source: sizes go by halves, and 1.5 understated five scores of 54 by more than 2 (decision 23)
 ORDER = 1.5  # of convergence [1]; source: 2 understates more than one in twenty scores of unlike devices (decision 32)

@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import FloatArray
 
 SAME = 1e-6  # relative difference [1] up to which scores count as one; source: those of mirrored stimuli differ by 1e-8
+CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
 
 
 class Relation(StrEnum):
@@ -56,3 +57,8 @@ def classes(scores: FloatArray) -> np.ndarray:
     places = np.zeros(scores.size, dtype=np.int64)
     places[order[1:]] = np.cumsum(steps)
     return places
+
+
+def is_constant(values: FloatArray) -> bool:
+    """Whether all values (n,) count as equal."""
+    return bool(np.ptp(values) <= CONSTANT * np.abs(values).max())

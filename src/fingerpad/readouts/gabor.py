@@ -3,14 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import FloatArray
 from ..scene.readout import GaborFilter, Readout
-from .strain import FilteredReadouts, Resampling
+from .strain import Resampling
 
 REACH = 6.0  # widths sigma [1] at which the kernel ends; source: exp(-18) = 1.5e-8 of its peak
+
+
+@dataclass(frozen=True)
+class FilteredReadouts:
+    """Read-outs of one condition on the uniform grid, before and after the filter.
+
+    arc: (k,) [mm]. strain, change_of_strain: (k,) [1]. filtered_strain, filtered_change_of_strain: (k,) [mm].
+    """
+
+    arc: FloatArray
+    strain: FloatArray
+    change_of_strain: FloatArray
+    filtered_strain: FloatArray
+    filtered_change_of_strain: FloatArray
+
+    def unfiltered(self, readout: Readout) -> FloatArray:
+        """The read-out (k,) [1] before the filter."""
+        return self.strain if readout is Readout.STRAIN else self.change_of_strain
+
+    def filtered(self, readout: Readout) -> FloatArray:
+        """The filtered read-out (k,) [mm]."""
+        return self.filtered_strain if readout is Readout.STRAIN else self.filtered_change_of_strain
 
 
 def filtered_readouts(

@@ -12,7 +12,7 @@ from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
-from .strain import FilteredReadouts
+from .gabor import FilteredReadouts
 
 Row = TypeVar("Row", bound=Mapping[str, Any])  # of the score table
 

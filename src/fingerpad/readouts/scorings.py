@@ -15,9 +15,8 @@ from ..scene.device import Condition
 from ..scene.readout import GaborFilter, Readout
 from ..scene.scene import Scene
 from .accuracy import case_of, with_error
-from .gabor import gabor_filtered
+from .gabor import FilteredReadouts, gabor_filtered
 from .roughness import SCORE_UNIT, over_span, roughness_score, scene_span, score_row
-from .strain import FilteredReadouts
 
 
 class Scoring(StrEnum):

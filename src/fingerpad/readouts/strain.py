@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..scene.readout import CONSTANT, Readout
+from ..scene.readout import Readout
 from ..tissue.compliance import VOIGT
+from .comparison import CONSTANT
 
 # Least relative difference [1] at which two changes count as different patterns; source: a pattern that is as large as
 # its peak but for what makes a rival (`caveats.RIVAL`, a fiftieth) differs from it by no more than that
@@ -103,25 +104,3 @@ class Resampling:
 
     grid: FloatArray
     weights: FloatArray
-
-
-@dataclass(frozen=True)
-class FilteredReadouts:
-    """Read-outs of one condition on the uniform grid, before and after the filter.
-
-    arc: (k,) [mm]. strain, change_of_strain: (k,) [1]. filtered_strain, filtered_change_of_strain: (k,) [mm].
-    """
-
-    arc: FloatArray
-    strain: FloatArray
-    change_of_strain: FloatArray
-    filtered_strain: FloatArray
-    filtered_change_of_strain: FloatArray
-
-    def unfiltered(self, readout: Readout) -> FloatArray:
-        """The read-out (k,) [1] before the filter."""
-        return self.strain if readout is Readout.STRAIN else self.change_of_strain
-
-    def filtered(self, readout: Readout) -> FloatArray:
-        """The filtered read-out (k,) [mm]."""
-        return self.filtered_strain if readout is Readout.STRAIN else self.filtered_change_of_strain

@@ -6,17 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 
-import numpy as np
-
-from ..arrays import FloatArray
 from ..requirements import require, require_positive
-
-CONSTANT = 1e-9  # spread relative to the largest value below which values count as equal [1]; the solver's tolerance
-
-
-def is_constant(values: FloatArray) -> bool:
-    """Whether all values (n,) count as equal."""
-    return bool(np.ptp(values) <= CONSTANT * np.abs(values).max())
 
 
 class Readout(StrEnum):
