@@ -30,10 +30,10 @@ MARKS: dict[Holds, dict[str, Any]] = {
 LOOK: dict[str, Any] = {"linestyle": "none", "markersize": SIZE, "markeredgewidth": EDGE}
 NO_STATEMENT = "no statement: these are about the paper's devices"
 CAPTION = (
-    "n = {count} members that change a statement. In each one assumption is varied, as named under its marks, or none"
-    " (lengths in mm, moduli in MPa). Left mark of a pair: first half-cycle of the stimulus, right: second. No mark:"
-    " the numbers behind the statement do not change, or a path could not be followed, or there is no prediction."
-    " (weaker): asks less than the paper says."
+    "n = {count} members: in each one assumption is varied, as named under its marks, or none (lengths in mm, moduli in"
+    " MPa). Left mark of a pair: first half-cycle of the stimulus, right: second. No mark: the numbers behind the"
+    " statement do not change, or a path could not be followed, or there is no prediction. (weaker):"
+    " asks less than the paper says."
     " Ratings: ordinal surrogates where data/ratings.csv calls them so."
 )
 
