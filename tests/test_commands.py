@@ -1559,6 +1559,18 @@ def test_a_process_that_is_ended_from_outside_is_a_named_error() -> None:
         list(solved)
 
 
+def test_what_solves_side_by_side_does_not_outlive_what_is_killed(checkout: Path) -> None:
+    """Nor does the process that keeps its books."""
+    vary = ["--vary", "contact.friction=0.2,0.3,0.4,0.5,0.6,0.7", "--cores", "2", "--csv"]
+    command = [sys.executable, "-m", "fingerpad.cli", "predict", *vary, "config/devices/device2.yaml"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+    with subprocess.Popen(command, cwd=checkout, env=environment, stdout=subprocess.PIPE) as parent:
+        assert parent.stdout is not None
+        assert parent.stdout.readline().startswith(b"contact.friction,")  # so that all have begun
+        parent.kill()
+        parent.communicate(timeout=60.0)  # the pipe ends when the last process that has inherited it does
+
+
 @pytest.mark.parametrize("cores", ["0", "-1", "two", "1.5"])
 def test_cores_are_a_whole_number(cores: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import active_children, get_context
+from multiprocessing import active_children, get_context, parent_process
+from threading import Thread
 from typing import Any
 
 from ..errors import ProcessError
@@ -27,7 +29,7 @@ def forecasts(
             yield forecast(scene, error, step)
         return
     # new processes know nothing of this one's threads, which those that are forked may wait for for ever
-    pool = ProcessPoolExecutor(min(cores, len(tasks)), get_context("spawn"), _ignore_interrupts)
+    pool = ProcessPoolExecutor(min(cores, len(tasks)), get_context("spawn"), _live_with_parent)
     try:
         for (scene, error), rows in zip(tasks, pool.map(forecast, *zip(*tasks, strict=True)), strict=True):
             for _ in range(steps(scene, error)):
@@ -43,6 +45,13 @@ def forecasts(
             child.terminate()
 
 
-def _ignore_interrupts() -> None:
-    """Leave it to the process that began this one to end it."""
+def _live_with_parent() -> None:
+    """Leave it to the process that began this one to end it, but do not outlive it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    if (parent := parent_process()) is not None:
+        parent.join()
+        os._exit(1)  # from a thread nothing else ends the process
