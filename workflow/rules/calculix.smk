@@ -110,7 +110,7 @@ rule calculix_condition:
         scores="results/calculix_orders/{kinematics}/{device}/{condition}.csv",
         deck=directory("results/calculix_orders/{kinematics}/{device}/{condition}"),
     log:
-        "results/logs/{kinematics}/{device}/{condition}/calculix.log",
+        "results/logs/{kinematics}/{device}/{condition}/calculix_condition.log",
     conda:
         ENVIRONMENT
     resources:

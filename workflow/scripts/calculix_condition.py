@@ -26,7 +26,8 @@ def main(
 
 if __name__ == "__main__":
     job = snakemake  # noqa: F821
-    with logged(job.log), threadpool_limits(1):  # as the deck: results do not depend on the number of threads
+    # results are those of one thread, as the deck's
+    with logged(job.log), threadpool_limits(1):
         main(
             Path(job.input.config),
             Path(job.input.device),
