@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +37,25 @@ def test_two_who_write_one_file_leave_that_of_the_last(tmp_path: Path) -> None:
         slow.write("slowly")
     assert path.read_text() == "one, slowly"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_what_a_killed_writer_left_goes_away(tmp_path: Path) -> None:
+    """With the next write, and nothing that another has given such a name."""
+    path, foreign = tmp_path / "table.csv", tmp_path / "table.csv.mine.part"
+    foreign.write_text("mine")
+    writing = (
+        "import time; from pathlib import Path; from fingerpad.files import replacing\n"
+        f"with replacing(Path({str(path)!r})) as part:\n"
+        "    part.write_text('half'); print('begun', flush=True); time.sleep(60)"
+    )
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[1] / "src")}
+    with subprocess.Popen([sys.executable, "-c", writing], stdout=subprocess.PIPE, env=environment) as writer:
+        assert writer.stdout is not None
+        assert writer.stdout.readline() == b"begun\n"
+        writer.kill()
+    assert len(list(tmp_path.iterdir())) == 2
+    write_text(path, "whole")
+    assert sorted(tmp_path.iterdir()) == [path, foreign]
 
 
 def test_a_row_that_does_not_fit_leaves_no_table(tmp_path: Path) -> None:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
+import re
 import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 
 PART = ".part"  # ends the name of a file that is being written
 MARK = 8  # random bytes in that name [1], so that two who write one file do not write into one another's
@@ -16,16 +19,38 @@ MARK = 8  # random bytes in that name [1], so that two who write one file do not
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """A path to write to, which becomes `path`, or what that is a link to, when the block ends without an error;
-    otherwise nothing is left of it, and what was at `path` before stays. Raises an OSError, as `require_folder`.
+    otherwise nothing is left of it, and what was at `path` before stays. What writers of `path` left that were killed
+    goes away. Raises an OSError, as `require_folder`.
     """
     require_folder(path)
     path = path.resolve()
+    _sweep(path)
     part = path.with_name(f"{path.name}.{secrets.token_hex(MARK)}{PART}")
+    with part.open("xb") as held:
+        _is_locked(held)  # until it is closed, as by the end of the process, so that others know that it is written
+        try:
+            yield part
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
+
+
+def _sweep(path: Path) -> None:
+    """Remove parts of a file that nobody writes any more."""
+    ours = re.compile(rf"{re.escape(path.name)}\.[0-9a-f]{{{2 * MARK}}}{re.escape(PART)}")
+    for part in [each for each in path.parent.iterdir() if ours.fullmatch(each.name)]:
+        with suppress(FileNotFoundError), part.open("rb") as left:
+            if _is_locked(left):
+                part.unlink()
+
+
+def _is_locked(file: BinaryIO) -> bool:
+    """Lock a file for as long as it is open; whether that could be done, as it cannot while another process does."""
     try:
-        yield part
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:  # or on a file system without locks
+        return False
+    return True
 
 
 def require_folder(path: Path) -> None:
