@@ -7,7 +7,7 @@ from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
-from fingerpad.calculix.program import installed
+from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.errors import CalculixError
 from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
@@ -45,7 +45,7 @@ def main(
         decks = folder / each
         decks.mkdir(parents=True, exist_ok=True)
         if not installed():
-            print("CalculiX skipped: ccx not installed")
+            print(f"CalculiX {SKIPPED}")
             continue
         try:
             rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], decks, limit)

@@ -6,7 +6,7 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
-from fingerpad.calculix.program import installed
+from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
@@ -24,8 +24,8 @@ def main(
     """Read the scene, run every case, write the table and keep the decks in the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     if not installed():
-        print("skipped: ccx not installed")
-        write_rows(table, [{"note": "skipped: ccx not installed"}])
+        print(SKIPPED)
+        write_rows(table, [{"note": SKIPPED}])
         return
     write_rows(table, crosscheck_rows(load_scene(config, device), condition, cases, folder, limit))
 

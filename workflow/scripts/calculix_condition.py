@@ -6,7 +6,7 @@ from typing import Any
 from threadpoolctl import threadpool_limits
 
 from fingerpad.calculix.order_check import order_rows
-from fingerpad.calculix.program import installed
+from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.jobs import logged
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
@@ -18,7 +18,7 @@ def main(
     """Read the scene, run the deck, write both scores and keep the deck in the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     if not installed():
-        print("skipped: ccx not installed")
+        print(SKIPPED)
         write_rows(table, [])
         return
     write_rows(table, order_rows(load_scene(config, device), condition, case, folder, limit))

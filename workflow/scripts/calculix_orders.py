@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from fingerpad.calculix.program import SKIPPED
 from fingerpad.jobs import logged
 from fingerpad.store import read_rows, write_rows
 
@@ -9,7 +10,7 @@ from fingerpad.store import read_rows, write_rows
 def main(scores: list[Path], table: Path) -> None:
     """Read every condition's rows, write the table."""
     rows = [row for path in scores for row in read_rows(path)]
-    write_rows(table, rows or [{"note": "skipped: ccx not installed"}])
+    write_rows(table, rows or [{"note": SKIPPED}])
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 
 PROGRAM = "ccx"
+SKIPPED = f"skipped: {PROGRAM} not installed"  # the note of a table where it is not
 
 
 def installed() -> bool:
