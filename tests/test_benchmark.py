@@ -477,12 +477,14 @@ def test_the_accuracy_page_counts_pairs_that_both_programs_order_alike() -> None
     where = {"kinematics": "small", "readout": "change_of_strain"}
     scores = {"a": (1.0, 1.2), "b": (2.0, 3.0), "c": (3.0, 2.5), "d": (4.0, None)}
     rows = [
-        where | {"device": "one", "condition": name, "fingerpad": f, "calculix": c} for name, (f, c) in scores.items()
+        where | {"device": "one", "condition": name, "fingerpad": f, "calculix": c, "note": "" if c else "lost"}
+        for name, (f, c) in scores.items()
     ]
-    rows += [where | {"device": "two", "condition": "e", "fingerpad": 9.0, "calculix": 0.1}]
+    rows += [where | {"device": "two", "condition": "e", "fingerpad": 9.0, "calculix": 0.1, "note": ""}]
     values = of_orders(pd.DataFrame(rows))
     assert values["same_order"] == (
-        "- small strain, change of strain: 2 of 3 pairs of conditions of a device are in the same order"
+        "- small strain, change of strain: 2 of 3 pairs of conditions of a device are in the same order\n"
+        "- small strain, one, d is left out: lost"
     )
     assert "| small | one | a | change_of_strain | 1.0 | 1.2 | -16.67 % |" in str(values["calculix_orders"])
     assert "| d |" not in str(values["calculix_orders"])

@@ -142,8 +142,7 @@ def test_orders_have_the_scores_of_both_programs(monkeypatch: pytest.MonkeyPatch
     def lost(contact: ContactModel) -> Outcome:
         raise ContactError(f"{contact} is lost")
 
-    cost = {"unknowns": 9, "calculix_s": 1.0}
-    found = [BothSides(outcome, lambda contact: outcome, cost), BothSides(outcome, lost, cost)]
+    found = [BothSides(outcome, lambda contact: outcome, 9, 1.0), BothSides(outcome, lost, 9, 1.0)]
     monkeypatch.setattr("fingerpad.calculix.order_check.both_sides", lambda *given: found.pop(0))
     both, one = (order_rows(scene("device2"), "alternate_180", {"kinematics": "small"}, Path(), 1.0) for _ in range(2))
     assert [(row["readout"], row["fingerpad"], row["calculix"], row["note"]) for row in both] == [

@@ -10,11 +10,13 @@ import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from argparse import Namespace
 from dataclasses import replace
-from multiprocessing import active_children
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
@@ -90,7 +92,8 @@ def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for part in ("config", "workflow/schemas"):
         shutil.copytree(ROOT / part, tmp_path / part)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(os, "cpu_count", lambda: 1)  # what a test puts in place of a function holds in this process
+    # one core alone: what a test puts in place of a function holds in this process
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0})
     return tmp_path
 
 
@@ -1540,14 +1543,34 @@ def test_scenes_side_by_side_are_those_one_after_the_other() -> None:
 
 
 def test_what_solves_side_by_side_ends_with_what_asked_for_it() -> None:
-    solved = side_by_side.forecasts([(bare("device2"), False)] * 3, 2)
-    next(solved)
-    children = active_children()
-    assert len(children) == 2
-    solved.close()
-    for child in children:
-        child.join(60.0)
-        assert child.exitcode is not None
+    """And nothing else does."""
+    with get_context("spawn").Pool(1) as another:
+        solved = side_by_side.forecasts([(bare("device2"), False)] * 3, 2)
+        before = active_children()
+        next(solved)
+        children = [child for child in active_children() if child not in before]
+        assert len(children) == 2
+        solved.close()
+        for child in children:
+            child.join(60.0)
+            assert child.exitcode is not None
+        assert another.apply(len, ("abc",)) == 3
+
+
+@pytest.mark.parametrize("later", [0.3, 1.0, 3.0])
+def test_interrupted_side_by_side_says_one_line(checkout: Path, later: float) -> None:
+    """Processes that have just begun say nothing, nor do those that load or solve."""
+    command = [sys.executable, "-m", "fingerpad.cli", "robustness", "--cores", "2", "config/devices/device2.yaml"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "src")}
+    told = subprocess.PIPE
+    with subprocess.Popen(command, cwd=checkout, env=environment, stderr=told, start_new_session=True) as run:
+        begun = Path(f"/proc/{run.pid}/task/{run.pid}/children")
+        while len(begun.read_text().split()) < 3:  # two, and the process that keeps their books
+            time.sleep(0.01)
+        time.sleep(later)
+        os.killpg(run.pid, signal.SIGINT)
+        assert run.communicate(timeout=60.0)[1] == b"fingerpad: interrupted\n"
+        assert run.returncode == INTERRUPTED
 
 
 def test_a_process_that_is_ended_from_outside_is_a_named_error() -> None:
@@ -1555,7 +1578,7 @@ def test_a_process_that_is_ended_from_outside_is_a_named_error() -> None:
     next(solved)
     for child in active_children():
         child.kill()
-    with pytest.raises(ProcessError, match=r"ended from outside.*--cores 1"):
+    with pytest.raises(ProcessError, match=r"ended early, .*--cores 1"):
         list(solved)
 
 

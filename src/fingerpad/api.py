@@ -12,6 +12,7 @@ import pandas as pd
 from .checkout import model_for, schemas_for
 from .csvrows import listed
 from .errors import UsageError
+from .guess import hint
 from .prediction.forecast import forecast
 from .scene.tissue_law import Kinematics
 from .scene.validation import check_device, require_effect
@@ -34,12 +35,14 @@ def predict(
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
     "finite". conditions: names of those that are predicted alone, on a mesh made for them (default: all). config: the
     config.yaml beside the device file's folder if not given, or else that of the checkout around the working folder, as
-    are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no such kinematics, or if
-    what is varied has no effect (`require_effect`).
+    are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no such kinematics, if what
+    is varied has no effect (`require_effect`), and if conditions are a text.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
+    if isinstance(conditions, str):
+        raise UsageError(f"conditions: found {conditions!r}; allowed: a list of names{hint(f'[{conditions!r}]')}")
     if kinematics not in list(Kinematics):
         raise UsageError(f"kinematics: found {kinematics!r}; allowed: {listed(Kinematics)}")
     model = model_for(Path(device), Path(config) if config else None)

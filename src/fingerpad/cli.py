@@ -28,8 +28,8 @@ COMMANDS: Mapping[str, str] = {  # each a module in `commands`, which is loaded 
 DESCRIPTION = """\
 Ranks the stimuli of a distributed haptic device by predicted roughness. `fingerpad COMMAND --help` has examples.
 
-exit codes: 0 done; 1 unexpected, with a traceback; 2 wrong input, or wrong use; 3 the scene is valid, but could not be
-solved to a certified solution; 130 interrupted.
+exit codes: 0 done; 1 unexpected, with a traceback; 2 what you can mend, as wrong input or a full disk; 3 the scene is
+valid, but could not be solved to a certified solution; 130 interrupted.
 """
 
 

@@ -19,15 +19,14 @@ MARK = 8  # random bytes in that name [1], so that two who write one file do not
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """A path to write to, which becomes `path`, or what that is a link to, when the block ends without an error;
-    otherwise nothing is left of it, and what was at `path` before stays. What writers of `path` left that were killed
-    goes away. Raises an OSError, as `require_folder`.
+    otherwise nothing is left of it, and what was at `path` before stays. What killed writers of `path` left goes away,
+    where files can be locked and it may be removed. Raises an OSError, as `require_folder`.
     """
     require_folder(path)
     path = path.resolve()
     _sweep(path)
-    part = path.with_name(f"{path.name}.{secrets.token_hex(MARK)}{PART}")
-    with part.open("xb") as held:
-        _is_locked(held)  # until it is closed, as by the end of the process, so that others know that it is written
+    part, held = _begin(path)
+    with held:
         try:
             yield part
             part.replace(path)
@@ -35,22 +34,28 @@ def replacing(path: Path) -> Iterator[Path]:
             part.unlink(missing_ok=True)
 
 
+def _begin(path: Path) -> tuple[Path, BinaryIO]:
+    """A new part of a file, and what holds it locked until it is closed, as by the end of the process: so others know
+    that it is written.
+    """
+    while True:
+        part = path.with_name(f"{path.name}.{secrets.token_hex(MARK)}{PART}")
+        held = part.open("xb")
+        with suppress(OSError):  # on a file system without locks
+            fcntl.flock(held, fcntl.LOCK_EX)
+        if os.fstat(held.fileno()).st_nlink:  # else another writer has swept it before it was locked
+            return part, held
+        held.close()
+
+
 def _sweep(path: Path) -> None:
     """Remove parts of a file that nobody writes any more."""
     ours = re.compile(rf"{re.escape(path.name)}\.[0-9a-f]{{{2 * MARK}}}{re.escape(PART)}")
-    for part in [each for each in path.parent.iterdir() if ours.fullmatch(each.name)]:
-        with suppress(FileNotFoundError), part.open("rb") as left:
-            if _is_locked(left):
+    with suppress(OSError):  # a folder whose files may not be listed
+        for part in [each for each in path.parent.iterdir() if ours.fullmatch(each.name)]:
+            with suppress(OSError), part.open("rb") as left:  # locked, or another user's
+                fcntl.flock(left, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 part.unlink()
-
-
-def _is_locked(file: BinaryIO) -> bool:
-    """Lock a file for as long as it is open; whether that could be done, as it cannot while another process does."""
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:  # or on a file system without locks
-        return False
-    return True
 
 
 def require_folder(path: Path) -> None:

@@ -120,7 +120,7 @@ rule calculix_condition:
         code=code("calculix_condition.py"),
         scene=scored_of,
         condition=lambda w: condition_of(w).name,
-        limit=3600,
+        limit=1800,
         compared=lambda w, output: with_calculix(output.scores, "calculix"),
         case=lambda w: (CALCULIX_FINITE_CASE if w.kinematics == Kinematics.FINITE else CALCULIX_CASE) | CALCULIX_RUBBING,
     script:

@@ -19,13 +19,14 @@ from .deformed_crosscheck import deformed_outcome
 
 @dataclass(frozen=True)
 class BothSides:
-    """calculix: its outcome. fingerpad: what solves the same by a law of contact, or raises ContactError. cost:
-    unknowns of the deck [1] and seconds that CalculiX took.
+    """calculix: its outcome. fingerpad: what solves the same by a law of contact, or raises ContactError. unknowns: of
+    the deck [1]. seconds: that CalculiX took [s].
     """
 
     calculix: Outcome
     fingerpad: Callable[[ContactModel], Outcome]
-    cost: dict[str, Any]
+    unknowns: int
+    seconds: float
 
 
 def both_sides(scene: Scene, condition: str, case: Mapping[str, Any], folder: Path, limit: float) -> BothSides:
@@ -45,4 +46,4 @@ def both_sides(scene: Scene, condition: str, case: Mapping[str, Any], folder: Pa
         solve = partial(deformed_outcome, own, section, body, stimulus, settings)
     else:
         solve = partial(fingerpad_outcome, own, condense_section(section, own), body, stimulus, settings)
-    return BothSides(found, solve, {"unknowns": deck_section.unknowns, "calculix_s": round(seconds, 1)})
+    return BothSides(found, solve, deck_section.unknowns, round(seconds, 1))

@@ -45,12 +45,13 @@ def _compared(
 ) -> tuple[list[dict[str, Any]], Outcome]:
     """Rows of one case beside fingerpad's laws on a mesh of its own, and CalculiX's outcome. Raises CalculixError."""
     sides = both_sides(scene, condition, case, folder, limit)
+    cost = {"unknowns": sides.unknowns, "calculix_s": sides.seconds}
     rows = []
     for model in ContactModel:
         try:
-            rows.append(_row(name, case, model, differences(sides.fingerpad(model), sides.calculix)) | sides.cost)
+            rows.append(_row(name, case, model, differences(sides.fingerpad(model), sides.calculix)) | cost)
         except ContactError as error:
-            rows.append(_row(name, case, model, {}) | sides.cost | {"note": str(error)})
+            rows.append(_row(name, case, model, {}) | cost | {"note": str(error)})
     return rows, sides.calculix
 
 

@@ -21,18 +21,19 @@ def order_rows(
 ) -> list[dict[str, Any]]:
     """Rows of one condition, a row a read-out: its scores [mm2] by both programs, on the same path with friction.
 
-    case, folder, limit: as `both_sides` takes them. Where one of the programs finds no solution there is a note in
-    place of its score. Raises what `both_sides` raises but for CalculixError.
+    case, folder, limit: as `both_sides` takes them. Where CalculiX finds no solution there is a note in place of both
+    scores, and where fingerpad does not in place of its own. Raises what `both_sides` raises but for CalculixError and
+    ContactError.
     """
     own, calculix = dict[Readout, float](), dict[Readout, float]()
-    cost: dict[str, Any] = {"unknowns": "", "calculix_s": ""}
-    note = ""
+    sides, note = None, ""
     try:
         sides = both_sides(scene, condition, case, folder, limit)
-        calculix, cost = sides.calculix.score, sides.cost
+        calculix = sides.calculix.score
         own = sides.fingerpad(ContactModel.OWN).score
     except (CalculixError, ContactError) as error:
         note = str(error)
+    cost = {"unknowns": sides.unknowns if sides else "", "calculix_s": sides.seconds if sides else ""}
     where = {"kinematics": case["kinematics"], "device": scene.device.name, "condition": condition}
     return [
         where

@@ -64,10 +64,16 @@ def add_cores(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--cores",
         type=_positive,
-        default=os.cpu_count() or 1,
+        default=_cores(),
         metavar="N",
-        help="solve so many scenes at once, each on one core, with half a GB of memory (default: all cores)",
+        help="solve so many scenes at once, each on one core, with half a GB of memory (default: all that there are"
+        " for this process)",
     )
+
+
+def _cores() -> int:
+    """How many cores this process may use [1]: in an allocation of a cluster fewer than the machine has."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _positive(text: str) -> int:

@@ -130,10 +130,15 @@ def of_orders(orders: pd.DataFrame) -> dict[str, object]:
     """Whether both programs order the conditions of a device alike, and by how much their scores differ."""
     if "fingerpad" not in orders:
         return {"same_order": str(orders["note"].iloc[0]), "calculix_orders": ""}
-    both = orders.dropna(subset=["fingerpad", "calculix"])
+    solved = orders[["fingerpad", "calculix"]].notna().all(axis=1)
+    both, lost = orders[solved], orders[~solved].drop_duplicates(["kinematics", "device", "condition"])
     verdicts = [
         f"- {KINEMATICS_NAME[Kinematics(kinematics)]}, {READOUT_NAME[Readout(readout)].lower()}: {_alike(own)}"
         for (kinematics, readout), own in both.groupby(["kinematics", "readout"], sort=False)
+    ]
+    verdicts += [
+        f"- {KINEMATICS_NAME[Kinematics(row.kinematics)]}, {row.device}, {row.condition} is left out: {row.note}"
+        for row in lost.itertuples()
     ]
     apart = percent(both["fingerpad"] / both["calculix"] - 1.0)
     shown = both[["kinematics", "device", "condition", "readout", "fingerpad", "calculix"]].astype(str)

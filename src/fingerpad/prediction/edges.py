@@ -60,11 +60,11 @@ def edge_intervals(scene: Scene) -> FloatArray:
     found = list[FloatArray]()
     for times in (COARSER, COARSER / 2.0):
         try:
-            ends = list(_states(scene.coarsened(times), wide))
+            ends = list(_found_edges(scene.coarsened(times), wide))
         except (MeshError, CondensationError):
             return wide
         failures = [each for each in ends if isinstance(each, ContactError)]
-        found = [_under_edges(*each) for each in ends if not isinstance(each, ContactError)]
+        found = [each for each in ends if not isinstance(each, ContactError)]
         if not all(isinstance(failure, CriterionError) for failure in failures):
             return wide
         if not failures:
@@ -75,9 +75,9 @@ def edge_intervals(scene: Scene) -> FloatArray:
     return merged(np.stack([start, stop], axis=1))
 
 
-def _states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, ContactState] | ContactError]:
-    """States of all conditions of a scene, as far as they can be followed, and why not further. Raises MeshError,
-    CondensationError.
+def _found_edges(scene: Scene, edges: FloatArray) -> Iterator[FloatArray | ContactError]:
+    """`_under_edges` of all states of a scene's conditions, as far as they can be followed, and why not further. Raises
+    MeshError, CondensationError.
     """
     section, body = mesh_section(scene, edges), body_of(scene)
     condensed = condense_section(section, scene) if scene.kinematics is Kinematics.SMALL else None
@@ -87,11 +87,11 @@ def _states(scene: Scene, edges: FloatArray) -> Iterator[tuple[ContactProblem, C
         except ContactError as failure:
             yield failure
             continue
-        yield problem, before
+        yield _under_edges(problem, before)
         for condition in scene.device.distinct_conditions:
             try:
                 for state in follow_condition(scene, problem, before, condition):
-                    yield problem, state
+                    yield _under_edges(problem, state)
             except ContactError as failure:
                 yield failure
 
