@@ -5,14 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+SIMILAR = 0.7  # likeness of words [1] above which one is taken for the other (difflib's); source: chosen
+SHORT = 3  # letters of a word [1] that says too little for another that contains it to be meant; source: chosen
 
-def closest(found: str, known: Iterable[str]) -> str:
-    """The known name that is most similar to one that was found, or nothing.
 
-    >>> closest("alternat", ["alternate", "phased"]), closest("x", ["alternate"])
-    ('alternate', '')
+def closest(found: object, known: Iterable[str]) -> str:
+    """The known name that contains what was found or else is most similar to it, or nothing.
+
+    >>> closest("alternat", ["alternate", "phased"]), closest("pitch", ["actuators.pitch"]), closest("x", ["xyz"])
+    ('alternate', 'actuators.pitch', '')
     """
-    return next(iter(get_close_matches(found, list(known), n=1)), "")
+    text, names = str(found).lower(), list(known)
+    longer = [name for name in names if len(text) > SHORT and text in name]
+    return next(iter(longer or get_close_matches(text, names, 1, SIMILAR)), "")
 
 
 def hint(meant: str, quote: str = "") -> str:

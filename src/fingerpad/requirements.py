@@ -3,8 +3,15 @@
 from __future__ import annotations
 
 import math
+import sys
+from typing import Any
 
 from .errors import SceneError
+
+
+def is_number(value: Any) -> bool:
+    """Whether it is a finite number; JSON Schema alone lets NaN and infinity through."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
 
 def require(condition: bool, message: str) -> None:

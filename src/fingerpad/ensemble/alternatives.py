@@ -17,7 +17,7 @@ import yaml
 from ..errors import SceneError
 from ..files import write_text
 from ..guess import closest, hint
-from ..scene.meant import is_number
+from ..requirements import is_number
 from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
 from ..scene.variation import Document, by_number, no_such_value, quantities_of, with_value

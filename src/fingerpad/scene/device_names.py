@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 from ..errors import SceneError
-from .meant import RESERVED, as_name, likeliest
+from ..guess import closest
+from .meant import RESERVED, as_name
 from .problems import problem, report, shown, shown_name
 
 LONGEST_NAME = 64  # characters of a device's name [1]; source: as in the schemas
@@ -34,7 +35,7 @@ def require_device(name: str, folder: Path) -> Path:
     """The file of a device. Raises SceneError that names the known devices if there is none of that name."""
     known = known_devices(folder)
     if name not in known:
-        allowed, meant = ", ".join(known) or "none, as there is no file yet", likeliest(name, known)
+        allowed, meant = ", ".join(known) or "none, as there is no file yet", closest(name, known)
         found = f"{shown(name)}, which has no file"
         report(folder, [problem(0, "device", found, allowed, meant=meant, about="a device's file name without .yaml")])
     return folder / f"{name}.yaml"

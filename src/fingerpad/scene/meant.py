@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
-import sys
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from decimal import Decimal
 from typing import Any
 
+from ..guess import closest
+from ..requirements import is_number
 from .problems import shown
-from .schema import Schema
 
 # source: tables that are read with pandas take them for missing, and columns of nothing else for numbers and truths
 RESERVED = {"false", "inf", "infinity", "nan", "null", "true"}
-SIMILAR = 0.7  # likeness of words [1] above which one is taken for the other (difflib's); source: chosen
 FACTORS: Mapping[tuple[str, str], float] = {
     **{("mm", unit): 1e-3 for unit in ("um", "\N{GREEK SMALL LETTER MU}m", "\N{MICRO SIGN}m")},
     **{("mm", "nm"): 1e-6, ("mm", "cm"): 10.0, ("mm", "m"): 1e3},
@@ -26,18 +24,13 @@ FACTORS: Mapping[tuple[str, str], float] = {
 }
 
 
-def is_number(value: Any) -> bool:
-    """Whether it is a finite number; JSON Schema alone lets NaN and infinity through."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
-
-
-def meant_by(schema: Schema, found: Any, quantity: Any) -> str:
+def meant_by(schema: Mapping[str, Any], found: Any, quantity: Any) -> str:
     """What was probably meant by a wrong value (for a unit: by that of the quantity), or nothing."""
     kind, unit = schema.get("type"), schema["properties"].get("unit", {}).get("const")
     if "const" in schema:
         return _meant_unit(schema["const"], found, quantity)
     if "enum" in schema:
-        return likeliest(found, schema["enum"])
+        return closest(found, schema["enum"])
     if unit and isinstance(found, str | int | float | list):
         value = _meant_value(schema["properties"]["value"], found, unit)
         return f"{{value: {value}, unit: {shown(unit)}, source: ...}}"
@@ -58,7 +51,7 @@ def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
     return "" if value is None else f"{{value: {shown(value)}, unit: {unit}}}"
 
 
-def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
+def _meant_number(schema: Mapping[str, Any], found: Any, unit: Any) -> str:
     """What was probably meant by a text for a number (0,6 or 16 mm), or by micrometres or metres that are called mm; or
     nothing.
     """
@@ -73,7 +66,7 @@ def _meant_number(schema: Schema, found: Any, unit: Any) -> str:
     return f"{{value: {shown(meant)}, unit: mm}}" if meant and lowest <= meant <= highest else ""
 
 
-def _meant_value(schema: Schema, found: Any, unit: str) -> str:
+def _meant_value(schema: Mapping[str, Any], found: Any, unit: str) -> str:
     """The value of a quantity for which a value alone was found: where it must be a number, it or the one in a text."""
     kind = schema.get("type")
     if kind not in ("number", "integer"):
@@ -92,7 +85,7 @@ def _meant_type(kind: str, found: Any) -> str:
     return f"[{shown(found)}]" if kind == "array" and is_number(found) else ""
 
 
-def decimal_comma(found: Mapping[Any, Any], allowed: Schema) -> str:
+def decimal_comma(found: Mapping[Any, Any], allowed: Mapping[str, Any]) -> str:
     """The number that was meant by {value: 0,6, ...}, which is a value 0 and a key 6 without a value; or nothing.
 
     YAML reads -0 as 0, so of -0,6 the sign is lost: where numbers below zero are allowed, both are named.
@@ -115,13 +108,6 @@ def _scaled(value: Any, factor: float) -> Any:
         return None
     digits = len(Decimal(str(value)).normalize().as_tuple().digits)
     return float(f"{value * factor:.{digits}g}")
-
-
-def likeliest(word: object, known: Iterable[str]) -> str:
-    """The known word that contains a word or else is most similar to it, or nothing."""
-    text, words = str(word).lower(), list(known)
-    longer = [word for word in words if len(text) > 3 and text in word]
-    return next(iter(longer or difflib.get_close_matches(text, words, 1, SIMILAR)), "")
 
 
 def as_name(text: object) -> str:

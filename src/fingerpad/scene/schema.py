@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import functools
 import operator
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ..imports import without
+from ..requirements import is_number
 from .problems import shown
 from .scenefile import read_yaml
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
-    from jsonschema import Draft202012Validator
+    from jsonschema import Draft202012Validator, ValidationError, validators
 
 Schema = dict[str, Any]
 
@@ -24,6 +25,15 @@ WORDS: Mapping[str, str] = {
     **{"minItems": "at least {} long", "maxItems": "at most {} long", "uniqueItems": "without repeats"},
     **{"minLength": "at least {} long", "maxLength": "at most {} characters", "minProperties": "at least {} long"},
 }
+
+
+def refusals(schema: Schema, document: Any) -> Iterator[ValidationError]:
+    """What a schema, its references resolved, does not allow in a document."""
+    checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: is_number(value)).redefine(
+        "integer", lambda _, value: is_number(value) and isinstance(value, int)
+    )
+    validator = validators.extend(Draft202012Validator, type_checker=checker)
+    yield from validator(schema).iter_errors(document)
 
 
 def allowed_values(schema: Schema) -> str:

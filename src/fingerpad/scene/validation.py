@@ -13,22 +13,22 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..csvrows import listed
 from ..errors import SceneError, UsageError
-from ..imports import without
+from ..guess import closest
 from .contact_law import Criterion
 from .device_names import require_name
-from .meant import decimal_comma, is_number, likeliest, meant_by
+from .meant import decimal_comma, meant_by
 from .problems import Problem, problem, report, shown, shown_name
 from .scene import Model, Scene
 from .scenefile import build_device, build_model, read_yaml, with_contact
-from .schema import Schema, allowed_values, resolved
+from .schema import Schema, allowed_values, refusals, resolved
 from .variation import NO_VALUES, shared_out, with_value
 
-with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
-    from jsonschema import Draft202012Validator, ValidationError, validators
+if TYPE_CHECKING:
+    from jsonschema import ValidationError
 
 Key = list[str | int]
 
@@ -111,10 +111,7 @@ def checked_document(
         document = with_value(document, key, value, "varied")
     files = {schema_path: read_yaml(schema_path)}
     schema = resolved(files[schema_path], document, files, schema_path)
-    checker = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, value: is_number(value)).redefine(
-        "integer", lambda _, value: is_number(value) and isinstance(value, int)
-    )
-    errors = validators.extend(Draft202012Validator, type_checker=checker)(schema).iter_errors(document)
+    errors = refusals(schema, document)
     report(_named(path, values), (problem for error in errors for problem in _explain(error, schema, document)))
     return document, schema
 
@@ -146,7 +143,7 @@ def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
     inner = [layer["name"] for layer in finger["pad"][:-1]]
     if above not in inner:
         allowed, about = f"one of {', '.join(inner)}", "the pad layer above the receptor line, so not the last one"
-        yield problem(2, "readout.layer_above.value", above, allowed, meant=likeliest(above, inner), about=about)
+        yield problem(2, "readout.layer_above.value", above, allowed, meant=closest(above, inner), about=about)
 
 
 def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -> Iterator[Problem]:
@@ -201,7 +198,7 @@ def _key_problems(schema: Schema, key: Key, found: dict[str, Any], about: str) -
     if "value" in named and (comma := decimal_comma(found, named["value"])):
         yield problem(0, _dotted([*key, "value"]), "a decimal comma", "a decimal point", meant=comma, about=about)
         return
-    unknown = {name: likeliest(name, (n for n in named if n not in found)) for name in found if name not in named}
+    unknown = {name: closest(name, (n for n in named if n not in found)) for name in found if name not in named}
     for name, meant in unknown.items():
         if meant or not open_:
             allowed, what = f"the keys {', '.join(named)}", named.get(meant, {}).get("description", about)
