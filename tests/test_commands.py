@@ -477,21 +477,26 @@ def test_strokes_as_of_metres_are_doubted_and_none_at_all_is_told() -> None:
     given = scene("device2").device.conditions[0]
     still = np.zeros_like(given.normal)
     assert stimulus_caveats(given) == []
-    assert stimulus_caveats(replace(given, normal=still, tangential=still)) == ["moves no actuator"]
+    assert stimulus_caveats(replace(given, normal=still, tangential=still)) == ["no actuator moves"]
     doubts = stimulus_caveats(replace(given, normal=still, tangential=1e-3 * given.tangential))
-    assert doubts == ["moves actuators by 2e-05 mm at most: are displacements in mm?"]
+    assert doubts == ["actuators move by 2e-05 mm at most: are displacements in mm?"]
 
 
 def test_recordings_that_begin_elsewhere_are_doubted() -> None:
-    """A sensor that reads 0.01 mm where actuators have been pressed to; a first row after time 0 is a step to it."""
+    """A sensor that reads 0.01 mm where actuators have been pressed to; a first row after time 0 is a step to it,
+    unless that is much longer than all that follow."""
     given = scene("device2").device.conditions[0]
     moves = given.tangential * np.array([[0.0], [0.5], [1.0]])
     recorded = replace(given, time=np.array([0.0, 0.1, 0.2]), normal=0.0 * moves, tangential=moves)
     assert stimulus_caveats(recorded) == []
     moved = replace(recorded, tangential=moves + 0.01)
     (doubt,) = stimulus_caveats(moved)
-    assert doubt == "begins 0.01 mm away from where actuators were pressed to: is that what sensors read there?"
+    assert doubt == "actuators begin 0.01 mm away from where they were pressed to: is that what sensors read there?"
     assert stimulus_caveats(replace(moved, time=np.array([0.1, 0.2, 0.3]))) == []
+    far = replace(moved, time=np.array([0.1, 0.2, 0.3]), tangential=moves + 0.03)
+    assert stimulus_caveats(far) == [doubt.replace("0.01", "0.03")]  # three times as far as in any later step
+    held = replace(far, tangential=0.0 * moves + 0.03)
+    assert stimulus_caveats(held) == []
 
 
 @pytest.mark.parametrize(
@@ -499,7 +504,7 @@ def test_recordings_that_begin_elsewhere_are_doubted() -> None:
 )
 def test_phases_as_of_radians_are_doubted(phase: float, doubted: bool) -> None:
     told = stimulus_caveats(replace(scene("device2").device.conditions[0], phase_deg=phase))
-    assert told == ([f"has a phase of {phase} degrees: are phases in degrees?"] if doubted else [])
+    assert told == ([f"the phase is {phase} degrees: are phases in degrees?"] if doubted else [])
 
 
 def test_actuators_that_press_nothing_are_told_by_their_number() -> None:
@@ -605,7 +610,7 @@ def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixtu
         (
             "tude: {value: 0.020",
             "tude: {value: 0.00002",
-            "alternate_000 moves actuators by 2e-05 mm at most: are displacements in mm?",
+            "all conditions: actuators move by 2e-05 mm at most: are displacements in mm?",
         ),
         (
             "\nstimulus:",

@@ -19,7 +19,8 @@ from fingerpad.prediction.frictions import FRICTIONS, friction_rows
 from fingerpad.prediction.phases import PHASES, phase_rows
 from fingerpad.readouts.accuracy import relative_errors
 from fingerpad.readouts.gabor import FilteredReadouts, filtered_readouts, gabor_filtered
-from fingerpad.readouts.roughness import roughness_score, scene_span
+from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.readouts.roughness import roughness_score, roughness_scores, scene_span
 from fingerpad.readouts.scorings import (
     DRIVES,
     Scoring,
@@ -36,7 +37,7 @@ from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
-from scenes import scene
+from scenes import condensed, scene, solve
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"
@@ -254,6 +255,22 @@ def test_friction_leads_from_the_frictionless_scores_to_those_with_shear() -> No
         assert len(both) == 6
         # the error of a score is that of a mesh of twice the sizes, or a bound on it
         assert ((both["score"] - both["score_recorded"]).abs() <= 2.0 * both["score_error"]).all()
+
+
+def test_a_larger_stroke_changes_strain_more_and_scores_less() -> None:
+    """As docs/adding-a-device.md warns: of pins that move far into the skin the pattern widens, and the filter passes
+    less of it. At a tenth of the strokes, twice as much of them scores nearly twice as high."""
+    given = scene("device2")
+    resampling = resampling_to_grid(condensed("device2")[0].arc, given.model.gabor.spacing)
+    changes, scores = list[float](), list[float]()
+    for stroke in (0.0125, 0.025, 0.125, 0.25):
+        solution = solve("device2", moved([[stroke, -stroke, stroke, -stroke]], [[0.0] * 4]), Interface.SHEAR)
+        changes.append(float(np.abs(solution.reading.change_of_strain).max()))
+        read = filtered_readouts(resampling, solution.reading.readouts, given.model.gabor)
+        scores.append(roughness_scores(given, read)[CHANGE])
+    assert np.array(changes[1::2]) / changes[::2] == pytest.approx(2.0, rel=0.1)
+    assert scores[1] / scores[0] == pytest.approx(2.0, rel=0.1)
+    assert scores[3] < 0.6 * scores[2]
 
 
 def test_page_says_where_scores_fall_before_they_rise() -> None:

@@ -256,7 +256,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "actuator beyond the finger": (
         {"actuators.pitch.value": 6.0},
         "actuators",
-        ["reaches x = 9.5 mm", "the finger's half width, 8 mm"],
+        ["reaches x = 9.5 mm", "less than half the finger's width, 8 mm"],
     ),
     "edges rounder than the actuator": (
         {"actuators.edge_radius.value": 0.6},
@@ -343,7 +343,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "too few group indices": (
         {"stimulus.dispersions.low.value": [0, 1, 0]},
         "stimulus.dispersions.low",
-        ["needs 4 group indices", "found 3"],
+        ["found 3 group indices; allowed: 4, one for each actuator"],
     ),
     "fractional group index": (
         {"stimulus.dispersions.low.value": [0, 1, 0.5, 1]},
@@ -370,12 +370,12 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "history with a short row": (
         {"stimulus": HISTORY, "stimulus.histories.tap.tangential.value": [[0, 0, 0, 0], [0, 0, 0]]},
         "stimulus.histories.tap.tangential",
-        ["found 3 numbers in row 2; allowed: 4, one for each actuator"],
+        ["found a row 2 of 3; allowed: 4 numbers, one for each actuator"],
     ),
     "history with a missing row": (
         {"stimulus": HISTORY, "stimulus.histories.tap.normal.value": [[0, 0, 0, 0]]},
         "stimulus",
-        ["condition tap", "normal must have 2 rows"],
+        ["condition tap", "normal: found the shape (1, 4); allowed: 2 rows, one for each time"],
     ),
     "history back in time": (
         {"stimulus": HISTORY, "stimulus.histories.tap.time.value": [1.0, 0.5]},

@@ -15,6 +15,7 @@ from ..scene.scene import Scene
 from ..tissue.mesh import mesh_section, nominal_edges
 from ..words import several
 from .options import add_device, add_picture, add_scene_options, checked_scene, picture_of
+from .printing import whose
 
 DESCRIPTION = """\
 Check a device file: keys, units, ranges, and whether the device fits the finger. Errors name the file, the key, the
@@ -82,8 +83,12 @@ def described(scene: Scene) -> str:
     places = ", ".join(f"{x:g}" for x in row.positions)
     law, rise, pad = scene.model.contact, float(skin_rises(scene).max()), scene.model.finger.pad_thickness
     pressed = DOMED if scene.lacks_faces else PRESSED[law.criterion].format(depth=law.depth, force=law.force)
-    doubts = [f"{condition.name} {doubt}" for condition in device.conditions for doubt in stimulus_caveats(condition)]
-    doubts = device_caveats(scene) + doubts
+    doubted: dict[str, list[str]] = {}
+    for condition in device.conditions:
+        for doubt in stimulus_caveats(condition):
+            doubted.setdefault(doubt, []).append(condition.name)
+    every = [condition.name for condition in device.conditions]
+    doubts = device_caveats(scene) + [f"{whose(names, every)}: {doubt}" for doubt, names in doubted.items()]
     return (
         f"{device.title} ({device.name})\n"
         f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"

@@ -42,6 +42,15 @@ def read_times(rows: Iterable[Mapping[str, Any]]) -> str:
     return ", ".join(dict.fromkeys(told))
 
 
+def whose(conditions: Sequence[str], every: Sequence[str]) -> str:
+    """Conditions in words, or that it is `every` one.
+
+    >>> whose(["a"], ["a", "b"]), whose(["a", "b"], ["a", "b"])
+    ('a', 'all conditions')
+    """
+    return "all conditions" if len(every) > 1 and [*conditions] == [*every] else ", ".join(conditions)
+
+
 def cases(rows: Iterable[Row], every: Sequence[str], detail: Callable[[Row], str]) -> str:
     """Which rows they are: by interface and details, each of them once, the conditions, or that it is `every` one.
 
@@ -55,10 +64,7 @@ def cases(rows: Iterable[Row], every: Sequence[str], detail: Callable[[Row], str
     conditions: dict[tuple[str, str], list[str]] = {}
     for (interface, condition), own in details.items():
         conditions.setdefault((interface, enumerated([*own])), []).append(condition)
-    return "; ".join(
-        f"{'all conditions' if len(every) > 1 and own == [*every] else ', '.join(own)} ({interface}, {told})"
-        for (interface, told), own in conditions.items()
-    )
+    return "; ".join(f"{whose(own, every)} ({interface}, {told})" for (interface, told), own in conditions.items())
 
 
 def noted(rows: Sequence[Row], every: Sequence[str], detail: Callable[[Row], str]) -> list[str]:

@@ -54,6 +54,7 @@ TOO_SHALLOW = (
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
 AWAY = 0.05  # of the stroke [1] at time 0; source: assumption: more than a sensor's noise
+JUMP = 2.0  # of the largest step between later times [1]; source: assumption: more than motion that goes on as it began
 SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 
 
@@ -64,16 +65,18 @@ def stimulus_caveats(condition: Condition) -> list[str]:
     stroke, phase = condition.stroke, condition.phase_deg
     found = []
     if stroke == 0.0:
-        found.append("moves no actuator")
+        found.append("no actuator moves")
     elif stroke < SHORTEST:
-        found.append(f"moves actuators by {stroke:.2g} mm at most: are displacements in mm?")
+        found.append(f"actuators move by {stroke:.2g} mm at most: are displacements in mm?")
     start = float(np.abs(condition.moves[0]).max())
-    if condition.time.size > 1 and condition.time[0] == 0.0 and start > AWAY * stroke:
+    step = float(np.abs(np.diff(condition.moves, axis=0)).max(initial=0.0))
+    is_jump = 0.0 < JUMP * step < start and not condition.settling  # cycles begin anywhere
+    if condition.time.size > 1 and start > AWAY * stroke and (condition.time[0] == 0.0 or is_jump):
         found.append(
-            f"begins {start:.2g} mm away from where actuators were pressed to: is that what sensors read there?"
+            f"actuators begin {start:.2g} mm away from where they were pressed to: is that what sensors read there?"
         )
     if phase != round(phase) and abs(phase) < 2.0 * math.pi:
-        found.append(f"has a phase of {phase:g} degrees: are phases in degrees?")
+        found.append(f"the phase is {phase:g} degrees: are phases in degrees?")
     return found
 
 

@@ -165,7 +165,7 @@ class Condition:
         for name, array in (("normal", self.normal), ("tangential", self.tangential)):
             require(
                 array.ndim == 2 and array.shape[0] == self.time.size,
-                f"{where}: {name} must have {self.time.size} rows (one a time), found shape {array.shape}",
+                f"{where}: {name}: found the shape {array.shape}; allowed: {self.time.size} rows, one for each time",
             )
             require(bool(np.all(np.isfinite(array))), f"{where}: {name} must be finite numbers")
         require(self.normal.shape == self.tangential.shape, f"{where}: normal and tangential differ in shape")

@@ -37,7 +37,7 @@ def meant_by(schema: Mapping[str, Any], found: Any, quantity: Any) -> str:
     if kind == "number":
         return _meant_number(schema, found, quantity.get("unit") if isinstance(quantity, dict) else None)
     if kind in ("integer", "boolean", "array"):
-        return _meant_type(kind, found)
+        return _meant_type(schema, found)
     return as_name(found) if schema.get("format") == "name" else ""
 
 
@@ -76,13 +76,16 @@ def _meant_value(schema: Mapping[str, Any], found: Any, unit: str) -> str:
     return _meant_number(schema, found, unit).removesuffix(".0" if kind == "integer" else "") or "..."
 
 
-def _meant_type(kind: str, found: Any) -> str:
-    """The value of that type which was probably meant by one of another, or nothing."""
+def _meant_type(schema: Mapping[str, Any], found: Any) -> str:
+    """The value of a schema's type which was probably meant by one of another, or nothing."""
+    kind = schema["type"]
     if kind == "integer" and isinstance(found, float) and found.is_integer():
         return shown(int(found))
     if kind == "boolean" and isinstance(found, str):
         return {"yes": "true", "on": "true", "no": "false", "off": "false"}.get(found.lower(), "")
-    return f"[{shown(found)}]" if kind == "array" and is_number(found) else ""
+    if kind == "array" and is_number(found):
+        return shown([[found]] if schema["items"].get("type") == "array" else [found])
+    return ""
 
 
 def decimal_comma(found: Mapping[Any, Any], allowed: Mapping[str, Any]) -> str:

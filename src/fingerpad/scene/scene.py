@@ -75,8 +75,8 @@ class Scene:
         reach = max(abs(x) for x in row.positions) + row.width / 2.0
         require(
             reach < self.model.finger.width / 2.0,
-            f"{self.device.name}: an actuator reaches x = {reach:g} mm; it must stay below the finger's half width,"
-            f" {self.model.finger.width / 2.0:g} mm",
+            f"{self.device.name}: found an actuator that reaches x = {reach:g} mm; allowed: less than half the finger's"
+            f" width, {self.model.finger.width / 2.0:g} mm (leave out actuators beside the finger)",
         )
 
     def solved_as(self, name: str) -> Condition:

@@ -97,7 +97,10 @@ def _leads(stimulus: Mapping[str, Any], count: int) -> Iterator[tuple[str, float
     """
     for dispersion, groups in stimulus["dispersions"].items():
         if len(groups) != count:
-            raise SceneError(f"stimulus.dispersions.{dispersion}: needs {count} group indices, found {len(groups)}")
+            raise SceneError(
+                f"stimulus.dispersions.{dispersion}: found {len(groups)} group indices; allowed: {count}, one for each"
+                " actuator"
+            )
         for phase in stimulus["phases"]:
             yield dispersion, phase, np.asarray(groups, dtype=float) * phase
 
@@ -141,8 +144,8 @@ def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condi
             for number, row in enumerate(given[key], start=1):
                 if len(row) != count:
                     raise SceneError(
-                        f"stimulus.histories.{name}.{key}: found {len(row)} numbers in row {number}; allowed: {count},"
-                        " one for each actuator"
+                        f"stimulus.histories.{name}.{key}: found a row {number} of {len(row)}; allowed: {count}"
+                        " numbers, one for each actuator"
                     )
         time, normal, tangential = (np.asarray(given[key], dtype=float) for key in ("time", "normal", "tangential"))
         conditions.append(Condition(name, given["dispersion"], float(given["phase"]), time, normal, tangential))

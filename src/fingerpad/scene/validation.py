@@ -161,9 +161,13 @@ def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -
     if rank == 0:
         yield from _key_problems(error.schema, key, found, about)
         return
+    around = functools.reduce(operator.getitem, key[:-1], document)
+    if rank == 1 and error.schema["type"] == "array" and isinstance(around, list) and not any(map(_is_list, around)):
+        yield problem(rank, _dotted(key[:-1]), shown(around), "a list of lists", meant=shown([around]), about=about)
+        return
     text = f"{len(found)} entries" if error.validator in ("minItems", "maxItems") else shown(found)
     text = f"the name {text}" if "propertyNames" in error.absolute_schema_path else text
-    meant = meant_by(error.schema, found, functools.reduce(operator.getitem, key[:-1], document))
+    meant = meant_by(error.schema, found, around)
     yield problem(rank, _dotted(key), text, allowed_values(error.schema), meant=meant, about=about)
 
 
@@ -184,6 +188,10 @@ def _nameless(key: Key, schema: Schema, document: dict[str, Any]) -> Problem | N
             return None
         found, schema = found[step], known
     return None
+
+
+def _is_list(found: Any) -> bool:
+    return isinstance(found, list)
 
 
 def _is_one(found: Any, schema: Any) -> bool:

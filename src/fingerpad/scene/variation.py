@@ -23,11 +23,13 @@ OPTION = "kinematics"  # is a column of the score table, and not read from files
 def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     """Every combination of the values of some keys, the last key's changing first; equal values count once.
 
-    Raises UsageError if what stands at a key is no list of values, and if the key is `kinematics`.
+    Raises UsageError if there are no keys, if what stands at one is no list of values, and if it is `kinematics`.
 
     >>> variants({"contact.friction": [0.3, 0.6, 0.6], "actuators.pitch": [2.0]})
     [{'contact.friction': 0.3, 'actuators.pitch': 2.0}, {'contact.friction': 0.6, 'actuators.pitch': 2.0}]
     """
+    if not isinstance(vary, Mapping):
+        raise UsageError(f"vary: found {vary!r}; allowed: keys with a list of values for each")
     chosen: list[list[Any]] = []
     for key, values in vary.items():
         plain = _plain(values)
