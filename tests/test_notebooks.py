@@ -13,6 +13,7 @@ from unittest.mock import MagicMock
 
 import nbformat
 import pytest
+from mypy import api as mypy
 from nbclient import NotebookClient
 
 from conftest import Project, Run, into
@@ -47,6 +48,15 @@ def test_every_job_has_a_folder_of_its_own_for_ipython(monkeypatch: pytest.Monke
             runpy.run_path("workflow/scripts/notebook.py", {"snakemake": MagicMock()}, "__main__")
     assert len(set(folders)) == 2
     assert not any(folder.exists() for folder in folders)
+
+
+def test_calls_in_notebooks_fit_the_library(tmp_path: Path) -> None:
+    """Also those for which there are no results when notebooks are executed."""
+    for path in NOTEBOOKS:
+        cells = (cell.source for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code")
+        (tmp_path / f"{path.stem}.py").write_text("\n".join(cells), encoding="utf-8")
+    found, _, failed = mypy.run(["--allow-untyped-calls", "--allow-untyped-defs", str(tmp_path)])
+    assert not failed, found
 
 
 def said(page: str) -> str:

@@ -5,6 +5,8 @@
 # REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/{calculix,calculix_orders}.csv, results/calculix/{case}/ (decks and
 # results), results/calculix_orders/{kinematics}/{device}/{condition}.csv and a folder of its deck
 
+# indentation [mm], penalties [MPa/mm] and numbers of increments; source: four times stiffer penalties did not converge, and
+# softer ones, finer meshes and more increments are cases of their own below (docs/calculix.md)
 CALCULIX_CASE = {
     "kinematics": "small",
     "law": "linear",

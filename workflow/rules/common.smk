@@ -135,8 +135,8 @@ def titles_of(names):
 
 
 def kinematics_of(wildcards):
-    """The wildcard kinematics, or those that a figure's ending names; without either small."""
-    return wildcards.get("kinematics", MODES[wildcards.get("mode", "")])
+    """The wildcard kinematics; without it small."""
+    return wildcards.get("kinematics", Kinematics.SMALL)
 
 
 def mode_of(wildcards):

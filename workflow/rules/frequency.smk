@@ -5,7 +5,7 @@
 # results, results/figures/frequency.{png,pdf}
 
 VIBRATING = [name for name in DEVICES if SCENE[name].device.frequencies]
-VARIED_AT = 40.0  # Hz: where other assumptions on how tissue relaxes are tried
+VARIED_AT = 40.0  # Hz: where other assumptions on how tissue relaxes are tried; source: within what all devices list
 
 
 rule frequency:

@@ -10,7 +10,7 @@ STRESS_SCENES = {
 for name, count in zip(("stress_scenes", "stress_scenes_finite"), STRESS_SCENES.values()):
     if type(count) is not int or count < 1:
         raise WorkflowError(f"--config {name}: found {count!r}; allowed: a whole number, 1 or more")
-STRESS_CHUNK = {"small": 500, "finite": 50}  # scenes a job
+STRESS_CHUNK = {"small": 500, "finite": 50}  # scenes a job; source: some minutes each (measured)
 STRESS_CHUNKS = {
     name: [f"results/stress/{name}_{chunk}.csv" for chunk in range(-(-count // STRESS_CHUNK[name]))]
     for name, count in STRESS_SCENES.items()

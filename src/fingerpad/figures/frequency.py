@@ -82,7 +82,8 @@ def _curves(
     axes.axvline(np.sqrt(slow * frequencies[0]), color=GREY, linewidth=0.5, linestyle=(0, (2.0, 2.0)))
     scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
     curves = [(styles.series[key], own) for key, own in rows.groupby(["device", "condition"], sort=False)]
-    for series, own in sorted(curves, key=lambda each: each[0].fill != "full"):  # open marks over filled ones
+    for series, unsorted in sorted(curves, key=lambda each: each[0].fill != "full"):  # open marks over filled ones
+        own = unsorted.sort_values("frequency_hz")
         places = own["frequency_hz"].replace(SLOWLY, slow).to_numpy(float)
         scores = scale * own["score"].to_numpy(float)
         for part in (slice(0, 1), slice(1, None)):

@@ -71,7 +71,8 @@ def _of_scores(scores: pd.DataFrame) -> dict[str, object]:
 def _of_increments(increments: pd.DataFrame) -> dict[str, object]:
     return {
         "moved": increments["beyond_stated_error"].sum(),
-        "increments_scores": increments["scores"].sum(),
+        "increments_scores": increments.groupby("times_the_increments")["scores"].sum().max(),
+        "increments_multiples": increments["times_the_increments"].nunique(),
         "increments_largest": f"{PERCENT * increments['largest_change'].max():.2f} %",
         "increments": table(
             increments.assign(
@@ -110,20 +111,24 @@ def _worst_form(rows: pd.DataFrame) -> str:
 def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
     if "case" not in calculix:
         return {"calculix_verdict": str(calculix["note"].iloc[0]), "calculix": ""}
-    compared = calculix.dropna(subset=CALCULIX_COLUMNS)
+    known = calculix.reindex(columns=[*dict.fromkeys([*calculix, *CALCULIX_COLUMNS, "note"])])
+    is_compared = known[CALCULIX_COLUMNS].notna().all(axis=1)
+    compared = known[is_compared]
     shown = compared[["case", "against", *CALCULIX_COLUMNS]].copy()
     for column in CALCULIX_COLUMNS:
         shown[column] = percent(shown[column].astype(float))
+    lost = dict.fromkeys(f"- `{row.case}` is left out: {row.note}" for row in known[~is_compared].itertuples())
+    told = "\n\n".join([table(shown), *(["\n".join(lost)] if lost else [])])
     finest = shown[shown["case"] == FINEST].set_index("against")
     if not {ContactModel.OWN, ContactModel.TURNING} <= {*finest.index}:
-        return {"calculix_verdict": f"CalculiX did not converge in the case `{FINEST}`.", "calculix": table(shown)}
+        return {"calculix_verdict": f"CalculiX did not converge in the case `{FINEST}`.", "calculix": told}
     verdict = (
         f"Where CalculiX converges (`{FINEST}`: friction is switched on after pre-indentation), the two programs,"
         f" which share no code, differ by {_differences(finest.loc[ContactModel.TURNING])} if fingerpad uses"
         " CalculiX's contact law, which is soft and turns the normal with the surface. With its own, rigid and at small"
         f" strain with a fixed normal, fingerpad differs by {_differences(finest.loc[ContactModel.OWN])}."
     )
-    return {"calculix_verdict": f"{_of_rubbing(compared)}\n\n{verdict}", "calculix": table(shown)}
+    return {"calculix_verdict": f"{_of_rubbing(compared)}\n\n{verdict}", "calculix": told}
 
 
 def of_orders(orders: pd.DataFrame) -> dict[str, object]:

@@ -24,7 +24,7 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
     frequencies, variants, quasistatic = (tables[name] for name in ("frequencies", "variants", "scores"))
     shear = frequencies[frequencies["interface"] == Interface.SHEAR]
     change = shear[shear["readout"] == Readout.CHANGE_OF_STRAIN]
-    scores = change.pivot_table("score", ["device", "condition"], "frequency_hz", sort=False)
+    scores = _wide(change, "frequency_hz")
     scores = scores.reindex(columns=sorted(scores.columns))
     shown = (SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0] * scores).map("{:.3f}".format).replace("nan", "")
     shown.columns = pd.Index([frequency_name(each) for each in shown.columns])
@@ -50,6 +50,13 @@ def frequency_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         ),
         "device1": _of_device1(change[change["device"] == "device1"], stated),
     }
+
+
+def _wide(change: pd.DataFrame, column: str) -> pd.DataFrame:
+    """Scores by device and condition in their order, one column for each value of a column; empty without a score."""
+    scores = change.set_index(["device", "condition", column])["score"].unstack(column)
+    cases = pd.MultiIndex.from_frame(change[["device", "condition"]].drop_duplicates())
+    return scores.reindex(index=cases, columns=change[column].drop_duplicates())
 
 
 def _spread(scores: pd.DataFrame) -> str:
@@ -124,21 +131,21 @@ def _orders(scores: pd.DataFrame) -> pd.DataFrame:
 
 
 def _tau(one: pd.Series, other: pd.Series) -> float:
-    """Kendall's tau of scores of the same conditions that both have, of which some may be one."""
-    known = (one.notna() & other.notna()).to_numpy()
-    return float(kendalltau(*(classes(each.to_numpy()[known]) for each in (one, other))).statistic)
+    """Kendall's tau of scores of the same conditions, of which some may be one."""
+    return float(kendalltau(*(classes(each.to_numpy()) for each in (one, other))).statistic)
 
 
 def _varied(variants: pd.DataFrame) -> pd.DataFrame:
     """Per device and assumption how far scores of the change of strain move, and whether their order stays."""
     change = variants[variants["readout"] == Readout.CHANGE_OF_STRAIN]
-    scores = change.pivot_table("score", ["device", "condition"], "assumption", sort=False, dropna=False)
+    scores = _wide(change, "assumption")
     shipped, *others = variants["assumption"].drop_duplicates()
     rows = []
     for device, own in scores.groupby(level="device", sort=False):
         for other in others:
-            moved = PERCENT * (own[other] / own[shipped] - 1.0)
-            tau = _tau(own[shipped], own[other])
-            told = f"{moved.min():+.0f} to {moved.max():+.0f} %"
-            rows.append({"device": device, "assumption": other, "change": told, "tau": f"{tau:.2f}"})
+            both = own[[shipped, other]].dropna()
+            moved = PERCENT * (both[other] / both[shipped] - 1.0)
+            told = f"{moved.min():+.0f} to {moved.max():+.0f} %" if len(both) else "no prediction"
+            tau = f"{_tau(both[shipped], both[other]):.2f}" if len(both) > 1 else ""
+            rows.append({"device": device, "assumption": other, "change": told, "tau": tau})
     return pd.DataFrame(rows)

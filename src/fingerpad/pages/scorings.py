@@ -82,12 +82,14 @@ def _of_drives(rows: pd.DataFrame) -> pd.DataFrame:
 def _published(correlations: pd.DataFrame) -> str:
     """What the paper says of the strain of each device, in words."""
     strain = correlations[correlations["readout"] == Readout.STRAIN].drop_duplicates("device")
-    return "; ".join(f"{row['device']} {published_text(row)}" for row in strain.to_dict("records"))
+    told = {row["device"]: published_text(row) for row in strain.to_dict("records")}
+    return "; ".join(f"{device} {text}" for device, text in told.items() if text)
 
 
 def _indented(scores: pd.DataFrame, others: pd.DataFrame) -> str:
-    """By how much stimuli move the strain score of the pre-indented state: least and most, by kinematics."""
-    alone = others[others["scoring"] == Scoring.INDENTED][[*CASE, "score"]]
+    """By how much stimuli move the strain score of the pre-indented state with shear: least and most, by kinematics."""
+    is_shown = (others["scoring"] == Scoring.INDENTED) & (others["interface"] == Interface.SHEAR)
+    alone = others[is_shown][[*CASE, "score"]]
     both = alone.merge(scores[[*CASE, "score"]], on=list(CASE), suffixes=("_alone", ""))
     moved = PERCENT * (both["score"] / both["score_alone"] - 1.0)
     ranges = moved.groupby(both["kinematics"], sort=False).agg(["min", "max"])
@@ -117,15 +119,17 @@ def _frictions(frictions: pd.DataFrame) -> pd.DataFrame:
 
 
 def _phases(phases: pd.DataFrame) -> pd.DataFrame:
-    """Per device and dispersion at which phase the change of strain is lowest, whether it is lower there than at the
-    first phase by more than both errors, what both motions of the drive do on the way, and whether the change of strain
-    rises in every step from there.
+    """Per device and dispersion with a prediction at 0°: at which phase the change of strain is lowest, whether it is
+    lower there than at 0° by more than both errors, what both motions of the drive do on the way, and whether the
+    change of strain rises in every step from there.
     """
     scale = SCORE_SCALE[Readout.CHANGE_OF_STRAIN][0]
     rows = []
-    change = phases[phases["readout"] == Readout.CHANGE_OF_STRAIN]
+    change = phases[phases["readout"] == Readout.CHANGE_OF_STRAIN].dropna(subset="score")
     for (kinematics, device, dispersion), own in change.groupby(["kinematics", "device", "dispersion"], sort=False):
         ordered = own.sort_values("phase_deg").fillna({"score_error": math.inf})
+        if ordered["phase_deg"].iloc[0] > 0.0:
+            continue
         known = [
             Score(scale * value, scale * error)
             for value, error in zip(ordered["score"], ordered["score_error"], strict=True)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..readouts.scorings import both_motions
+from ..scene.contact_law import Interface
 from ..scene.validation import check_device
 from .forecast import forecast
 
@@ -17,13 +18,13 @@ COLUMNS = ("kinematics", "device", "dispersion", "phase_deg", "readout", "score"
 
 def phase_rows(device: Path, schemas: Path, config: Path) -> Iterator[dict[str, Any]]:
     """The columns COLUMNS of the score table of a device with shear at all PHASES, with each kinematics that it is
-    predicted with, and `motion_mm`, both motions of the drive alone (`readouts.scorings`). device: a file with
-    `stimulus.phases`. Raises SceneError if it has none.
+    predicted with, and `motion_mm`, both motions of the drive alone (`readouts.scorings`). Without a prediction the
+    score is None. device: a file with `stimulus.phases`. Raises SceneError if it has none.
     """
     scene = check_device(device, schemas, config, {"stimulus.phases": PHASES})
     with_shear = replace(scene, device=replace(scene.device, frictionless=False))
     for kinematics in scene.computed:
         for row in forecast(with_shear.with_kinematics(kinematics)):
-            if row["score"] is not None:
+            if row["interface"] == Interface.SHEAR:
                 motion = both_motions(scene.device.condition(row["condition"]))
                 yield {column: row[column] for column in COLUMNS} | {"motion_mm": motion}

@@ -34,6 +34,7 @@ from .tables import Row, score_with_error
 
 SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 ERROR_BARS = "Bars: estimated discretisation error of a score."
+ERROR_LINES = "Lines on bars: estimated discretisation error of a score."
 
 
 @dataclass(frozen=True)
@@ -214,7 +215,7 @@ def _ablation(results: Results) -> Words:
         "Every score with and without shear",
         "Bars of strain scores (left) and change-of-strain scores (right) of every condition, with and without shear.",
         f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}.{_range(results, with_tau=False)}"
-        f" {ERROR_BARS}",
+        f" {ERROR_LINES}",
     )
 
 
@@ -227,7 +228,7 @@ def _kinematics(results: Results) -> Words:
     return Words(
         "Small and finite strain side by side",
         "Force against indentation (left), bars of strain scores (middle) and change-of-strain scores (right).",
-        f"Scores of the change of strain with shear. {'. '.join(parts)}. {ERROR_BARS}",
+        f"Scores of the change of strain with shear. {'. '.join(parts)}. {ERROR_LINES}",
     )
 
 
