@@ -71,7 +71,9 @@ def rendered(run: Run) -> set[str]:
 
 @pytest.mark.workflow
 def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
-    """A failing cell fails its job. Tables that nobody has made are named with their target. A page loads nothing."""
+    """A failing cell fails its job. Tables that nobody has made are named with their target. A page loads nothing. Once
+    there is another table, what shows it is rendered again; and the table itself, which takes hours, not made anew.
+    """
     run = changeable.snakemake("notebooks")
     assert run.status == 0, run.text
     assert "eavesdropping" not in run.text  # of kernels that speak in plain text
@@ -82,12 +84,6 @@ def test_every_notebook_is_executed_and_rendered(changeable: Project) -> None:
     assert "Device 2: lateral pins: alternate_180, shear" in said(pages["walkthrough"])
     assert "<title>From a finger's section to a roughness score</title>" in pages["walkthrough"]
     assert not [name for name, page in pages.items() if re.search(r"<script[^>]*\bsrc=|unpkg", page)]
-
-
-@pytest.mark.workflow
-def test_page_is_rendered_again_once_there_is_another_table(changeable: Project) -> None:
-    """And the table itself, which takes hours, is not made anew."""
-    assert changeable.snakemake("notebooks").status == 0
     table = changeable.folder / "results/benchmark/graph.csv"
     table.parent.mkdir()
     for text in ("repeat,ratio\n1,1.5371\n", "repeat,ratio\n1,1.6382\n"):

@@ -23,7 +23,7 @@ RIPPLE = 1e-3  # of the largest force [1]; source: what increments that were tak
 
 def curve_of(states: Sequence[ContactState], touch: float, end: ContactState) -> FloatArray:
     """Heights above first touch [mm] and pressing forces of all actuators [N/mm] (k, 2), by ascending height up to the
-    state at which pre-indentation ends: increments that went beyond were taken back.
+    state at which pre-indentation ends: increments that went beyond were taken back. Of these, what lies lower stays.
     """
     points = ((float(state.actuator[0, 1]), float(state.force[:, 1].sum())) for state in states)
     kept = sorted((height - touch, force) for height, force in points if height <= end.actuator[0, 1])

@@ -117,7 +117,7 @@ class ContactState:
     change of force over it [N/mm²].
     largest_force: largest component of a node's force so far [N/mm]. dissipation: frictional work so far [N mm per
     mm]. residual: of the contact equations, relative, the largest so far [1]. iterations, cuts, searches: Newton
-    iterations, halved increments and increments whose states did not settle all at once, so far.
+    iterations, halved increments and increments whose states did not settle all at once, so far, of what was kept.
     """
 
     actuator: FloatArray

@@ -34,12 +34,14 @@ def given_anew(problem: ContactProblem, state: ContactState) -> tuple[ContactPro
         return given_as(problem, state), state
     wanted = np.where(kept, own, nearest)
     least = np.maximum.accumulate(np.where(touching, own, 0))
-    most = np.minimum.accumulate(np.where(touching, own, own[-1])[::-1])[::-1]
+    most = np.minimum.accumulate(np.where(touching, own, len(problem.row.positions) - 1)[::-1])[::-1]
     return given_to(problem, state, np.maximum.accumulate(np.clip(wanted, least, most)))
 
 
 def given_to(problem: ContactProblem, state: ContactState, given: np.ndarray) -> tuple[ContactProblem, ContactState]:
-    """Problem and state with nodes given to other actuators (n,), which they do not touch yet."""
+    """Problem and state with nodes given to other actuators (n,), which they do not touch until an increment is solved:
+    forces from those that they had, and how far deformable faces of these gave way, stay until then.
+    """
     own, moved = state.given, state.given != given
     centre = centres(problem, state.actuator)
     aside, above = (centre[own] - centre[given]).T

@@ -79,7 +79,7 @@ def advance(
     if standing and not drifting:
         return state, carried
     target = start if standing else target
-    done, step = 0.0, 1.0  # in increments, so that halves are exact
+    done, step = 0.0, 1.0  # in increments
     ways = np.abs(target - start).max(axis=1)
     length, moved = float(ways.max()), int(ways.argmax())
     smallest = 2.0 ** (0 if standing else -problem.max_cuts)  # where nothing moves, half of it is as hard
@@ -97,13 +97,13 @@ def advance(
             state = replace(state, cuts=state.cuts + 1)
             if step < smallest or cuts > CRAWL * problem.max_cuts:
                 kind, advice = _named(failure)
-                halvings = round(-np.log2(goal - done))
+                halved = f" halved {round(-np.log2(goal - done))} times" if step < smallest else f", {cuts} halvings"
                 missed = failure.residual > problem.tolerance
                 residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
                 raise kind(
                     f"contact did not converge {done / increments:.1%} of the way from {_located(start[moved])} to"
-                    f" {_located(target[moved])} mm, increment {int(done) + 1}/{increments} halved"
-                    f" {halvings} times{residual}; {advice} or"
+                    f" {_located(target[moved])} mm, increment {int(done) + 1}/{increments}{halved}"
+                    f"{residual}; {advice} or"
                     f" {'stiffer bodies' if problem.body else f'a finer mesh at the edges ({SIZES})'}"
                 ) from failure
             longest = min(longest, max(step, CROSSED * problem.spacing * increments / length))

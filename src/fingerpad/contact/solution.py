@@ -36,7 +36,7 @@ class Solution:
     x and y. indented_actuator: (n,) index of the actuator that each node may touch after pre-indentation. arc: (m,)
     receptors [mm]. reading: what they say [1], and when. At that time: pressure, shear: (n,) [MPa]; actuator: (n,)
     index of the one that a skin node may touch; place: (n,) x of the skin nodes from that actuator's centre [mm];
-    status: (n,). iterations, cuts, searches: of the whole path. certificate.
+    status: (n,). iterations, cuts, searches: of the whole path, as far as it was kept. certificate.
     """
 
     height: float

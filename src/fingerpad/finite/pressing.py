@@ -211,14 +211,14 @@ def _part(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensi
     """The tissue with one choice of what is held."""
     loads = parts.loads[which]
     basis = displacement_basis(section.mesh, parts.elements)
-    joined = _joined(basis.element_dofs, parts.dofs.size)
+    joined = _coupling(basis.element_dofs, parts.dofs.size)
     order = fill_reducing_order(joined, parts.dofs, parts.held[which], loads.indices if condensing else None)
     materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
     return TissuePart(elements_of(basis, tissue, order), csc_matrix(loads[order]))
 
 
-def _joined(element_dofs: np.ndarray, size: int) -> csc_matrix:
+def _coupling(element_dofs: np.ndarray, size: int) -> csc_matrix:
     """Matrix (size, size) with entries where elements join unknowns (12, n_elements): the tangent's, in no time."""
     count, elements = element_dofs.shape
     within = csc_matrix((np.ones(element_dofs.size), element_dofs.T.ravel(), np.arange(elements + 1) * count))

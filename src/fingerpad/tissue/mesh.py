@@ -112,8 +112,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
 
     edges: (k, 2) intervals of x [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
     size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
-    0), of the scene's kinematics. On the skin under the row it is at most face_size + growth * depth, and at most
-    receptor_size + growth * distance at the receptor line.
+    0), of the scene's kinematics. It is at most face_size + growth * distance from the skin under the row, too, and
+    receptor_size + growth * distance from the receptor line.
 
     The mesh mirrors where the row does. With small kinematics it does so for every row, and is refined under the images
     of its edges, too: the section is then condensed by halves, which saves more than these elements cost (decision 40).
