@@ -363,6 +363,16 @@ def test_of_skin_that_went_sideways_that_beside_contact_stays() -> None:
     assert found.given[last - 2 : last + 1].tolist() == [0, 0, 1]
 
 
+@pytest.mark.parametrize("lost", [0, 1])
+def test_skin_comes_back_to_the_outermost_actuators(lost: int) -> None:
+    """To the last as to the first, though nothing was left to it."""
+    problem = two_pins(np.linspace(-0.5, 2.5, 13))
+    state = rest(problem, 0.0)
+    _, other = given_to(problem, state, np.full(13, 1 - lost))
+    _, found = given_anew(problem, other)
+    assert (found.given == state.given).all()
+
+
 @pytest.mark.parametrize("time", [0, 1, 2])
 def test_the_deepest_place_counts_whenever_it_is(time: int) -> None:
     places = np.zeros((3, 2, 2))
