@@ -74,18 +74,13 @@ def raise_until(
             )
         step = min(step, touch + limit - here)
         height = here + step
-        target = state.actuator.copy()
-        target[:, 1] = height
-        passed = [state]
-        try:
-            advanced, carried = advance(problem, state, target, 1, carried, recording(solve, passed.append))
-        except ContactError:
-            advanced = passed[-1]  # what is lost may lie beyond the end
-            if missing_of(problem, advanced, law, touch) > enough:
-                raise
-            height = float(advanced.actuator[0, 1])
+        passed, carried, lost = _raised(problem, state, height, carried, solve)
+        left = missing_of(problem, passed[-1], law, touch)
+        if lost is not None:
+            if left > enough:
+                raise lost
+            height = float(passed[-1].actuator[0, 1])  # what is lost lies beyond the end
             step = height - here
-        left = missing_of(problem, advanced, law, touch)
         if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
             # too far: again from the last state on the way that was not; beside a new one, what is beyond weighs whole
             state = next(each for each in reversed(passed) if missing_of(problem, each, law, touch) > enough)
@@ -93,7 +88,7 @@ def raise_until(
             beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond and state is passed[0] else 1.0)
         else:
             closed = (missing - left) / step if np.isfinite(missing) else 0.0
-            state, missing = advanced, left
+            state, missing = passed[-1], left
             least = min(least, (left, height - touch))
             longest = stride * max(1.0, (height - touch) / (FAR * stride * increments))
             step = min(longest, left / closed) if closed > 0.0 else longest
@@ -102,6 +97,25 @@ def raise_until(
             step = (beyond.height - float(state.actuator[0, 1])) * beyond.share(missing)
         step = max(step, LEAST_STEP)
     return state
+
+
+def _raised(
+    problem: ContactProblem,
+    state: State,
+    height: float,
+    carried: Carried | None,
+    solve: SolveIncrement[State, Carried | None],
+) -> tuple[list[State], Carried | None, ContactError | None]:
+    """States on the way of all actuators to a height [mm], the first of them where it begins; what the last increment
+    left; and why the way ends before, if it does.
+    """
+    target, passed = state.actuator.copy(), [state]
+    target[:, 1] = height
+    try:
+        _, carried = advance(problem, state, target, 1, carried, recording(solve, passed.append))
+    except ContactError as lost:
+        return passed, carried, lost
+    return passed, carried, None
 
 
 @dataclass(frozen=True)
