@@ -32,9 +32,9 @@ STRAINED = 0.22
 BARELY = 1e-3  # indentation [mm]; source: `touch` goes 2e-4 mm past first touch (contact.criterion.NEARLY)
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
-# Radius of edges over the size of elements there [1]; source: with finite strain and friction, scores of a row of sharp
-# pins with radii of 0 and 0.07 elements were 1.7 times those with 0.3 to 1.3, and with 0.17 there was none
-SHARP = 0.25
+# Radius of edges over the size of elements there [1]; source: with finite strain and friction, scores with a sixth are
+# 1.6 times too high, with a third to two thirds paths end, and from one on finer elements change nothing (decision 43)
+SHARP = 1.0
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 PRESS_AS_ASKED = "--vary contact.criterion=depth or force, or either in the device file, presses them as asked"
 TOO_WIDE = (
@@ -129,8 +129,8 @@ def scene_caveats(scene: Scene) -> list[str]:
     is_sharp = scene.kinematics is Kinematics.FINITE and row.edge_radius < SHARP * size
     if is_sharp and scene.model.contact.friction > 0.0:
         found.append(
-            "edges are sharper than the mesh there can tell, and with friction scores may be far off: compare --vary"
-            f" actuators.edge_radius={size:g}"
+            "edges are sharper than the mesh there can tell, so with friction scores may be far too high, or paths end:"
+            f" compare --vary actuators.edge_radius={size:g}"
         )
     waves = min(scene.model.gabor.wavelength(each) for each in Readout) / numerics.receptor_size
     if waves < COARSE:
