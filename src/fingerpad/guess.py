@@ -10,14 +10,15 @@ SHORT = 3  # letters of a word [1] that says too little for another that contain
 
 
 def closest(found: object, known: Iterable[str]) -> str:
-    """The known name that contains what was found or else is most similar to it, or nothing.
+    """The known name that contains what was found or else is most similar to it, or nothing; in small letters or not.
 
-    >>> closest("alternat", ["alternate", "phased"]), closest("pitch", ["actuators.pitch"]), closest("x", ["xyz"])
+    >>> closest("alternat", ["alternate", "phased"]), closest("PITCH", ["actuators.pitch"]), closest("x", ["xyz"])
     ('alternate', 'actuators.pitch', '')
     """
-    text, names = str(found).lower(), list(known)
+    text, names = str(found).lower(), {name.lower(): name for name in known}
     longer = [name for name in names if len(text) > SHORT and text in name]
-    return next(iter(longer or get_close_matches(text, names, 1, SIMILAR)), "")
+    meant = longer or get_close_matches(text, names, 1, SIMILAR)
+    return names[meant[0]] if meant else ""
 
 
 def hint(meant: str, quote: str = "") -> str:
