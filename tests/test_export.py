@@ -81,6 +81,18 @@ def surface(blocks: list[Block], name: str) -> FloatArray:
     return np.array(found)
 
 
+@pytest.mark.parametrize(("radius", "fits"), [(0.0, True), (0.15, True), (0.2, False)])
+def test_edges_deeper_than_a_deformable_body_is_thick_are_refused(radius: float, fits: bool) -> None:
+    """Of a circle up to 75 degrees and a wall from there on: 0.87 times the radius, here of 0.15 mm."""
+    given = scene("device3")
+    given = replace(given, device=replace(given.device, actuators=replace(given.device.actuators, edge_radius=radius)))
+    if fits:
+        assert of_kind(parsed(given, DECK), "ELEMENT")
+    else:
+        with pytest.raises(SceneError, match=r"0\.17 mm deep on a deformable body 0\.15 mm thick"):
+            parsed(given, DECK)
+
+
 @pytest.mark.parametrize("acting", [0.0, 0.3])
 def test_deck_whose_friction_falls_after_pre_indentation_is_refused(acting: float) -> None:
     with pytest.raises(SceneError, match="friction that indents must act too"):

@@ -109,6 +109,20 @@ def test_every_time_of_a_history_has_its_forces() -> None:
     assert {row[ERROR] for row in shear} == {None}
 
 
+def test_forces_have_the_caveats_of_their_solution() -> None:
+    """Those of scores, each once below the table."""
+    given = scene("device2")
+    given = given.with_conditions(given.device.conditions[:1]).coarsened(2.0)
+    doubted = given.with_model(contact=replace(given.model.contact, friction=0.0))
+    found = force_rows(doubted, error=False)
+    told = "contact.friction is 0: the interface called shear has no friction here either"
+    assert all(told in row["caveats"] for row in found)
+    assert [line for line in as_table(doubted, found).splitlines() if told in line] == [
+        f"caveat: alternate_000 (shear, forces); alternate_000 (frictionless, forces): {told}"
+    ]
+    assert not any(row["caveats"] for row in force_rows(given, error=False))
+
+
 def too_far(given: Scene) -> Scene:
     """The scene pressed deeper than the pad is thick."""
     contact = replace(given.model.contact, criterion=Criterion.DEPTH, depth=6.0)

@@ -534,7 +534,7 @@ def test_cycles_without_an_actuator_at_its_peak_are_refused() -> None:
     late = replace(normal(0.01), normal=1j * normal(0.01).normal)
     assert normal(0.01).is_at_peak
     assert normal(0.0).is_at_peak
-    with pytest.raises(SceneError, match=r"no actuator is at its peak .* group index 0"):
+    with pytest.raises(SceneError, match=r"no actuator at its peak .* group index 0"):
         replace(device, cycles=(late,))
     assert replace(device, cycles=(late,), frequencies=()).cycles == (late,)  # nothing is read
 

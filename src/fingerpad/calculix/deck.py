@@ -184,10 +184,16 @@ def _rigid(name: str, row: ActuatorRow, centre: float) -> _Part:
 
 def _strip(name: str, row: ActuatorRow, numerics: Numerics, centre: float, material: Material) -> _Part:
     """A deformable strip whose face is lowered to the profile; its base is prescribed."""
-    finer = replace(numerics, edge_size=min(numerics.edge_size, row.corner_radius / EDGE_ELEMENTS))
-    mesh = mesh_strip(row, finer)
+    edge_size = min(numerics.edge_size, row.edge_radius / EDGE_ELEMENTS) if row.edge_radius else numerics.edge_size
+    mesh = mesh_strip(row, replace(numerics, edge_size=edge_size))
     x, y = mesh.doflocs
     thickness = -float(y.min())
+    deepest = float(profile(row, np.array([row.width / 2.0]))[0][0])
+    if deepest >= thickness:
+        raise SceneError(
+            f"deck: found rounded edges {deepest:.2g} mm deep on a deformable body {thickness:g} mm thick; allowed:"
+            " less deep than it is thick (a smaller actuators.edge_radius, or a larger actuators.body.thickness)"
+        )
     # ASSUME: actuators.edge_radius: under its rounded edges the body is as much thinner as its face is lower
     lowered = y - profile(row, x)[0] * (y + thickness) / thickness
     node = np.stack([x + centre, lowered], axis=1)

@@ -71,7 +71,7 @@ def read_printed(path: Path, actuators: int, moves: int, settings: DeckSettings)
     Raises CalculixError if something is missing, or no number.
     """
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8", errors="replace")
     except OSError as error:
         raise CalculixError(f"{path}: {error.strerror}") from error
     titles = list(TITLE.finditer(text))

@@ -24,7 +24,7 @@ from .options import (
     add_scene_options,
     asked_scene,
 )
-from .printing import aligned, noted, print_rows, read_times, titled
+from .printing import aligned, caveats_told, print_rows, read_times, titled
 
 PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
 COLUMNS = ("condition", "interface", "actuator", "x", "normal", "tangential", "error")
@@ -57,25 +57,28 @@ def run(options: argparse.Namespace) -> None:
     error = not options.no_error
     with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
         rows = force_rows(scene, error, bar.update)
+    told = [row | {"caveats": "; ".join(row["caveats"])} for row in rows] if options.csv else rows
+    print_rows(options, told, lambda: as_table(scene, rows))
     if all(row[NORMAL] is None for row in rows):
         raise ContactError(f"nothing could be solved: {rows[0]['note']}")
-    print_rows(options, rows, lambda: as_table(scene, rows))
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:
-    """Forces after pre-indentation at each interface, and in every condition at the time that is read; notes below."""
+    """Forces after pre-indentation at each interface, and in every condition when it is read; caveats below."""
     lines = [list(COLUMNS)]
     for interface in Interface:
         own = [row for row in rows if row["interface"] == interface and row[NORMAL] is not None]
         lines += [_cells(row, PRESSED) for row in own[: len(scene.device.actuators.positions)]]
         lines += [_cells(row, row["condition"]) for row in own if row["is_read"]]
-    notes = noted(rows, [condition.name for condition in scene.device.conditions], lambda _: "forces")
+    every = [condition.name for condition in scene.device.conditions]
+    caveats = [f"caveat: {told}" for told in caveats_told(rows, every, lambda _: "forces")]
     right = [False, False, *(True for _ in COLUMNS[2:])]
-    head = [titled(scene), "forces on the skin [N/mm of finger], positive into it and to the right; x [mm]"]
+    unit = "forces on the skin [N/mm of finger], positive into it and to the right; x [mm]"
+    forces = [unit, *aligned(lines, right)] if len(lines) > 1 else []
     several = {condition.name for condition in scene.device.conditions if condition.time.size > 1}
     times = read_times(row for row in rows if row["condition"] in several and row["is_read"])
     read = [f"read at time: {times}"] if times else []
-    return "\n".join([*head, *aligned(lines, right), *read, *notes])
+    return "\n".join([titled(scene), *forces, *read, *caveats])
 
 
 def _cells(row: Mapping[str, Any], name: str) -> list[str]:

@@ -67,12 +67,6 @@ def cases(rows: Iterable[Row], every: Sequence[str], detail: Callable[[Row], str
     return "; ".join(f"{whose(own, every)} ({interface}, {told})" for (interface, told), own in conditions.items())
 
 
-def noted(rows: Sequence[Row], every: Sequence[str], detail: Callable[[Row], str]) -> list[str]:
-    """Each note of the rows once, after the cases that it is about."""
-    notes = dict.fromkeys(row["note"] for row in rows if row["note"])
-    return [f"{cases([row for row in rows if row['note'] == note], every, detail)}: {note}" for note in notes]
-
-
 def caveats_told(rows: Sequence[Row], every: Sequence[str], detail: Callable[[Row], str]) -> list[str]:
     """Each caveat of the rows once, after the cases that it is about; those that differ in one share alone as one."""
     return [f"{cases(own, every, detail)}: {caveat}" for caveat, own in _alike(rows)]

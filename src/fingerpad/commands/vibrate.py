@@ -76,7 +76,9 @@ def run(options: argparse.Namespace) -> None:
 
 
 def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
-    """The scene with other frequencies [Hz], if there are any. Raises UsageError if it has none, or cannot have one."""
+    """The scene with other frequencies [Hz], if there are any. Raises UsageError if it has none, or cannot have one,
+    and SceneError if a condition has no actuator at its peak where it is read.
+    """
     device = scene.device
     if not device.cycles:
         raise UsageError(

@@ -36,7 +36,7 @@ FEW = 5.0
 # 1.6 times too high, with a third to two thirds paths end, and from one on finer elements change nothing (decision 43)
 SHARP = 1.0
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
-PRESS_AS_ASKED = "--vary contact.criterion=depth or force, or either in the device file, presses them as asked"
+PRESS_AS_ASKED = "contact.criterion depth or force, in the device file or with predict --vary, presses them as asked"
 TOO_WIDE = (
     "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
     " minutes to solve and may have no solution. A narrower row needs less,"
@@ -85,18 +85,18 @@ def device_caveats(scene: Scene) -> list[str]:
     leave the finger.
     """
     law, row, pad = scene.model.contact, scene.device.actuators, scene.model.finger.pad_thickness
-    normal, lateral = max(float(each.normal.max()) for each in scene.device.conditions), scene.device.strokes[1]
+    normal = max(float(each.normal.max()) for each in scene.device.conditions)
     rises = skin_rises(scene)
     rise = float(rises.max())
     indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
-    farthest = max(abs(x) for x in row.positions) + row.width / 2.0 + lateral
+    aside = max(float(np.abs(row.positions + each.tangential).max()) for each in scene.device.conditions)
     clear = numbers_of(rises > law.depth)
     found = {
         TOO_WIDE: law.criterion is Criterion.FULL and rise > WIDE * pad,
         TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
         TOO_SHALLOW.format(clear=clear): law.criterion is Criterion.DEPTH and bool(clear),
         TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
-        BESIDE: farthest > scene.model.finger.width / 2.0,
+        BESIDE: aside + row.width / 2.0 > scene.model.finger.width / 2.0,
     }
     return [caveat for caveat, holds in found.items() if holds]
 
@@ -130,7 +130,7 @@ def scene_caveats(scene: Scene) -> list[str]:
     if is_sharp and scene.model.contact.friction > 0.0:
         found.append(
             "edges are sharper than the mesh there can tell, so with friction scores may be far too high, or paths end:"
-            f" compare --vary actuators.edge_radius={size:g}"
+            f" compare predict --vary actuators.edge_radius={size:g}"
         )
     waves = min(scene.model.gabor.wavelength(each) for each in Readout) / numerics.receptor_size
     if waves < COARSE:
@@ -146,7 +146,8 @@ def state_caveats(scene: Scene, depth: float, strain: FloatArray) -> list[str]:
         found.append(f"actuators indent {share:.0%} of the pad: small strain is invalid")
     if scene.kinematics is Kinematics.SMALL and strained > STRAINED:
         found.append(
-            f"receptors are strained by up to {strained:.0%}, too much for small strain: compare --kinematics finite"
+            f"receptors are strained by up to {strained:.0%}, too much for small strain: compare predict --kinematics"
+            " finite"
         )
     return found
 

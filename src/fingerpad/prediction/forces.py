@@ -14,6 +14,7 @@ from ..errors import UnsolvedError
 from ..readouts.accuracy import COARSENING, DIFFERENCE
 from ..readouts.roughness import NO_PREDICTION
 from ..scene.scene import Scene
+from .caveats import caveats_of
 from .edges import edge_intervals
 from .scoring import UNKNOWN, Case, Solved, attempt, prepared, solve_scene
 
@@ -24,14 +25,14 @@ def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = la
     """Forces with which every actuator acts on the skin, at every time of every condition that the device is predicted
     in: `kinematics, device, condition, interface, time_s, is_read, actuator` (from 1, at the left), `x_mm` (of the row
     before it moves); per mm of finger `normal_N_per_mm` (into the skin), `tangential_N_per_mm` (to the right) and
-    `error_N_per_mm`, the estimated discretisation error of either; `note`.
+    `error_N_per_mm`, the estimated discretisation error of either; `note`; `caveats`, a list of sentences.
 
     The first time of a condition is that of pre-indentation; `is_read` marks the one at which it is scored. What cannot
     be solved has one row, without a time, and a note that says why. error: whether to solve once more, more coarsely;
     without, or if that cannot be done, as the note then says, errors are None. step: called after each of `steps`.
 
-    The error of a force is |F_2 - F| / DIFFERENCE. As a difference may vanish by
-    chance, the largest of all actuators and both directions at a time is taken.
+    The error of a force F is |F_2 - F| / DIFFERENCE, with F_2 that of the coarser solution. As a difference may vanish
+    by chance, the largest of all actuators and both directions at a time is taken, for all of them.
     """
     with threadpool_limits(1):  # as `forecast`
         edges = edge_intervals(scene)
@@ -60,15 +61,17 @@ def _rows(scene: Scene, solved: Solved, coarser: Mapping[Case, Solved]) -> Itera
     }
     if isinstance(found, UnsolvedError):
         nothing = dict.fromkeys(("time_s", "is_read", "actuator", "x_mm", NORMAL, TANGENTIAL, ERROR))
-        yield where | nothing | {"note": f"{NO_PREDICTION}: {found}"}
+        note = f"{NO_PREDICTION}: {found}"
+        yield where | nothing | {"note": note, "caveats": [note]}
         return
     errors, note = _errors(found, coarser.get(solved.case))
+    caveats = caveats_of(scene, condition, found) + ([note] if note else [])
     for number, time in enumerate(condition.times):
         at = {"time_s": float(time), "is_read": number == 1 + found.reading.time}
         for actuator, x in enumerate(scene.device.actuators.positions):
             tangential, normal = found.actuator_force[number, actuator].tolist()
             own = {"actuator": 1 + actuator, "x_mm": x, NORMAL: normal, TANGENTIAL: tangential}
-            yield where | at | own | {ERROR: errors[number], "note": note}
+            yield where | at | own | {ERROR: errors[number], "note": note, "caveats": caveats}
 
 
 def _errors(found: Solution, coarser: Solved | None) -> tuple[list[float | None], str]:

@@ -136,9 +136,10 @@ def nearest(centres: FloatArray, x: FloatArray) -> np.ndarray:
 class Condition:
     """One stimulus of a device: displacement histories relative to the pre-indented position.
 
-    time: (n_times,) [s], ascending. normal, tangential: (n_times, n_actuators) [mm]; linear in between. The path
-    starts from rest, so a first row that is not zero is reached from zero. settling: how many of the times pass before
-    receptors may be read, as friction remembers how a cycle was begun.
+    time: (n_times,) [s], ascending; of cycles in periods [1], and 1 of a stimulus of one time. normal, tangential:
+    (n_times, n_actuators) [mm]; linear in between. The path starts from rest, so a first row that is not zero is
+    reached from zero. settling: how many of the times pass before receptors may be read, as friction remembers how a
+    cycle was begun.
 
     Raises SceneError if time is empty, not finite or does not ascend, settling leaves none of them, or displacements
     are not finite or of another shape.
@@ -268,8 +269,8 @@ class Device:
             self._require_apart(f"condition {cycle.name}, as a vibration", np.abs(np.diff(cycle.tangential)))
             require(
                 cycle.is_at_peak or not self.frequencies,
-                f"{self.name}: condition {cycle.name}, as a vibration: no actuator is at its peak where receptors are"
-                " read; allowed: an actuator of group index 0",
+                f"stimulus.dispersions.{cycle.dispersion}: found no actuator at its peak where receptors are read"
+                f" ({self.name}, {cycle.name}, as a vibration); allowed: an actuator of group index 0",
             )
 
     def _require_apart(self, what: str, approach: FloatArray) -> None:

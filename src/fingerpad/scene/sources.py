@@ -48,7 +48,7 @@ Written by `snakemake docs` from the scene files; edit those, not this page. Uni
 without a unit has the unit 1. What is assumed in code, where no value can be changed, comes last.
 """
 ASSUMED = re.compile(
-    r"^ *# ASSUME: (?P<first>.*)(?P<rest>(?:\n *# .*)*)", re.MULTILINE
+    r"^ *# ASSUME: (?P<first>.*)(?P<rest>(?:\n *# (?!ASSUME: ).*)*)", re.MULTILINE
 )  # a comment and the lines after it
 
 
@@ -65,8 +65,8 @@ def quantities(document: Mapping[str, Any]) -> list[Quantity]:
 def assumed(code: str) -> list[str]:
     """What the comments `# ASSUME:` of a module say, which begin with the key that they concern.
 
-    >>> assumed("x = 1\\n# ASSUME: finger: it is\\n# round\\ny = 2")
-    ['finger: it is round']
+    >>> assumed("x = 1\\n# ASSUME: finger: it is\\n# round\\n# ASSUME: bone: so is it\\ny = 2")
+    ['finger: it is round', 'bone: so is it']
     """
     return [" ".join(re.split(r"\n *# ", found["first"] + found["rest"])) for found in ASSUMED.finditer(code)]
 

@@ -23,7 +23,8 @@ OPTION = "kinematics"  # is a column of the score table, and not read from files
 def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     """Every combination of the values of some keys, the last key's changing first; equal values count once.
 
-    Raises UsageError if there are no keys, if what stands at one is no list of values, and if it is `kinematics`.
+    Without keys there is one combination, of nothing. Raises UsageError if that is no mapping, if what stands at a key
+    is no list of values, and if the key is `kinematics`.
 
     >>> variants({"contact.friction": [0.3, 0.6, 0.6], "actuators.pitch": [2.0]})
     [{'contact.friction': 0.3, 'actuators.pitch': 2.0}, {'contact.friction': 0.6, 'actuators.pitch': 2.0}]

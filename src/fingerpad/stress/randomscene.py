@@ -115,11 +115,12 @@ def _law(rng: np.random.Generator, friction: float, group: Scene, span: float) -
 
 
 def random_deformed_scene(number: int) -> Scene:
-    """The scene of that number with finite kinematics, a finger of its own, few actuators and a law drawn for it."""
+    """The scene of that number with finite kinematics, a finger of its own, few actuators where its group has a row of
+    few, and a law drawn for it.
+    """
     members = (random_scene(GROUP * number + member) for member in range(GROUP))
-    scene = next(
-        (each for each in members if len(each.device.actuators.positions) <= FEW), random_scene(GROUP * number)
-    )
+    few = (each for each in members if len(each.device.actuators.positions) <= FEW)
+    scene = next(few, None) or random_scene(GROUP * number)
     rng = np.random.default_rng([number, 2])
     law, exponent = Law(rng.choice(list(LAWS))), _decades(rng, OGDEN_EXPONENT)
     tissue = TissueLaw(Kinematics.FINITE, (Kinematics.FINITE,), law, exponent)
