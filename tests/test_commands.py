@@ -1473,10 +1473,10 @@ def test_caveats_of_vibrations_say_which_frequencies_they_are_about() -> None:
 
 
 def test_vibrations_without_any_score_are_told_once_and_are_an_error(
-    checkout: Path, capsys: pytest.CaptureFixture[str]
+    coarse: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """No empty table, and one line for all conditions and frequencies of an interface."""
-    Project(checkout).edit("config/devices/device2.yaml", lambda text: text + TOO_DEEP)
+    Project(coarse).edit("config/devices/device2.yaml", lambda text: text + TOO_DEEP)
     assert main(["vibrate", "config/devices/device2.yaml", "--frequency", "10", "20"]) == UNSOLVED
     captured = capsys.readouterr()
     title, empty, *told = captured.out.splitlines()
