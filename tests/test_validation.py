@@ -370,7 +370,7 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "history with a short row": (
         {"stimulus": HISTORY, "stimulus.histories.tap.tangential.value": [[0, 0, 0, 0], [0, 0, 0]]},
         "stimulus.histories.tap.tangential",
-        ["found a row 2 of 3; allowed: 4 numbers, one for each actuator"],
+        ["found 3 in row 2; allowed: 4 numbers, one for each actuator"],
     ),
     "history with a missing row": (
         {"stimulus": HISTORY, "stimulus.histories.tap.normal.value": [[0, 0, 0, 0]]},

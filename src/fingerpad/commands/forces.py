@@ -57,8 +57,7 @@ def run(options: argparse.Namespace) -> None:
     error = not options.no_error
     with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
         rows = force_rows(scene, error, bar.update)
-    told = [row | {"caveats": "; ".join(row["caveats"])} for row in rows] if options.csv else rows
-    print_rows(options, told, lambda: as_table(scene, rows))
+    print_rows(options, rows, lambda: as_table(scene, rows))
     if all(row[NORMAL] is None for row in rows):
         raise ContactError(f"nothing could be solved: {rows[0]['note']}")
 

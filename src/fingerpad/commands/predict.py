@@ -35,8 +35,8 @@ from .options import (
     picture_of,
     variations,
 )
-from .printing import require_scores
-from .score_table import as_csv, as_table, named
+from .printing import as_csv, require_scores
+from .score_table import as_table, named
 
 DESCRIPTION = """\
 Predict the roughness scores of devices, as `snakemake all` does, without running it. Scores come with their estimated

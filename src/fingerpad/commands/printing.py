@@ -31,9 +31,15 @@ def print_rows(options: argparse.Namespace, rows: Sequence[Row], text: Callable[
     if options.json:
         print(json.dumps(rows, indent=2))
     elif options.csv:
-        print(csv_text(rows), end="")
+        print(as_csv(rows), end="")
     else:
         print(text())
+
+
+def as_csv(rows: Iterable[Mapping[str, Any]], header: bool = True) -> str:
+    """Rows as CSV, with their caveats, if they have any such list, in one cell."""
+    told = ({**row, "caveats": "; ".join(row["caveats"])} if "caveats" in row else {**row} for row in rows)
+    return csv_text([*told], header=header)
 
 
 def read_times(rows: Iterable[Mapping[str, Any]]) -> str:

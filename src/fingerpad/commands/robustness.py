@@ -24,8 +24,8 @@ from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.variation import Document
 from .options import add_cores, add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
-from .printing import in_order, require_scores, titled
-from .score_table import as_csv, caveat_lines
+from .printing import as_csv, in_order, require_scores, titled
+from .score_table import caveat_lines
 
 DESCRIPTION = """\
 Tell which assumptions the orders of a device's scores depend on. What config/ensemble.yaml lists is varied, one at a

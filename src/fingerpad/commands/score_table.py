@@ -11,7 +11,6 @@ from ..scene.contact_law import Interface
 from ..scene.problems import written
 from ..scene.scene import Scene
 from ..scene.variation import NO_VALUES
-from ..store import csv_text
 from .printing import aligned, caveats_told, in_order, read_times, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
@@ -36,11 +35,6 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     if any(row["score"] is not None for row in rows):
         lines += aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])
     return "\n".join([*lines, *caveat_lines(scene, ordered)])
-
-
-def as_csv(rows: Sequence[Mapping[str, Any]], header: bool) -> str:
-    """Rows of the score table with their caveats, as CSV."""
-    return csv_text([{**row, "caveats": "; ".join(row["caveats"])} for row in rows], header=header)
 
 
 def caveat_lines(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> list[str]:

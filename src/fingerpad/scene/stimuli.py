@@ -144,8 +144,8 @@ def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condi
             for number, row in enumerate(given[key], start=1):
                 if len(row) != count:
                     raise SceneError(
-                        f"stimulus.histories.{name}.{key}: found a row {number} of {len(row)}; allowed: {count}"
-                        " numbers, one for each actuator"
+                        f"stimulus.histories.{name}.{key}: found {len(row)} in row {number}; allowed: {count} numbers,"
+                        " one for each actuator"
                     )
         time, normal, tangential = (np.asarray(given[key], dtype=float) for key in ("time", "normal", "tangential"))
         conditions.append(Condition(name, given["dispersion"], float(given["phase"]), time, normal, tangential))
