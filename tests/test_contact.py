@@ -21,7 +21,7 @@ from fingerpad.contact.patch import Patch, patch_of
 from fingerpad.contact.path import advance, follow
 from fingerpad.contact.profile import profile
 from fingerpad.errors import ContactError, ConvergenceError, DepthError
-from fingerpad.scene.contact_law import ContactLaw, Criterion, TurningNormal
+from fingerpad.scene.contact_law import ContactLaw, Criterion, FrictionFrom, TurningNormal
 from fingerpad.scene.device import ActuatorRow
 
 SPACING = 1 / 64  # mm; contact is 0.4 to 1 mm wide
@@ -223,7 +223,7 @@ def test_a_path_that_is_lost_beyond_a_force_reaches_it(lost: float, reached: boo
         borne = np.full_like(state.force, 5.0 * depth / state.given.size)
         return replace(state, actuator=actuator, force=borne), patch
 
-    law = ContactLaw(0.5, TurningNormal.NEVER, Criterion.FORCE, 1.0, force)
+    law = ContactLaw(0.5, FrictionFrom.TOUCH, TurningNormal.NEVER, Criterion.FORCE, 1.0, force)
     if reached:
         state = raise_until(problem, law, 1, 3.0, rest(problem, touch), solve)
         assert state.force[:, 1].sum() == pytest.approx(force, rel=1e-4)
@@ -246,7 +246,7 @@ def test_a_way_that_goes_too_far_is_taken_back_no_farther_than_needed() -> None:
         borne = np.full_like(state.force, 5.0 * (float(actuator[0, 1]) - touch) / state.given.size)
         return replace(state, actuator=actuator, force=borne), patch
 
-    law = ContactLaw(0.5, TurningNormal.NEVER, Criterion.FORCE, 0.3, 1.0)
+    law = ContactLaw(0.5, FrictionFrom.TOUCH, TurningNormal.NEVER, Criterion.FORCE, 0.3, 1.0)
     reached = raise_until(problem, law, 1, 0.3 / SHALLOW, rest(problem, touch), solve)
     assert reached.force[:, 1].sum() == pytest.approx(1.0, rel=1e-4)
     assert begun[:2] == pytest.approx([0.0, 0.15])
@@ -258,7 +258,7 @@ def test_a_depth_is_gone_to_its_end(depth: float) -> None:
     """Also where it is as small as what may be missing of a face or of a gap at the end."""
     problem = touched(0.1, 1.0, 0.0)
     touch = touching_height(problem)
-    law = ContactLaw(0.0, TurningNormal.NEVER, Criterion.DEPTH, depth, 1.0)
+    law = ContactLaw(0.0, FrictionFrom.TOUCH, TurningNormal.NEVER, Criterion.DEPTH, depth, 1.0)
     state = raise_until(problem, law, 40, 3.0, rest(problem, touch), solve_increment)
     assert state.actuator[0, 1] - touch == pytest.approx(depth, rel=1e-6)  # the least step is a nanometre
 

@@ -17,7 +17,7 @@ from fingerpad.cli import FAILED, main
 from fingerpad.contact.profile import profile
 from fingerpad.errors import SceneError
 from fingerpad.prediction.edges import mesh_device
-from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.contact_law import FrictionFrom, Interface
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics, Law
 from scenes import CONFIG, DECK, scene, section
@@ -328,17 +328,20 @@ def test_steps_take_the_increments_that_are_asked_for() -> None:
 def test_deck_is_indented_as_deep_as_with_the_friction_it_indents_with(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """From pre-indentation on unless asked otherwise; the increments and slopes are those of --help."""
+    """As the config says unless asked otherwise; the increments and slopes are those of --help."""
     seen: list[Any] = []
     monkeypatch.setattr("fingerpad.commands.export.mesh_device", lambda *_: None)
-    monkeypatch.setattr("fingerpad.commands.export.indented_height", lambda *given: seen.append(given[-1]) or 1.25)
+    monkeypatch.setattr(
+        "fingerpad.commands.export.indented_height",
+        lambda given, *_: seen.append(given.model.contact.friction_from) or 1.25,
+    )
     monkeypatch.setattr("fingerpad.commands.export.input_deck", lambda *given: seen.append(given[-1]) or "")
     for more in ([], ["--friction-from", "stimulus"]):
         assert main([*export(tmp_path, CONDITION), *more]) == 0
     mu = scene("device2").model.contact.friction
     assert seen == [
-        Interface.SHEAR,
+        FrictionFrom.TOUCH,
         DeckSettings(1.25, mu, mu, 500.0, 100.0, 20, 4, 3),
-        Interface.FRICTIONLESS,
+        FrictionFrom.STIMULUS,
         DeckSettings(1.25, 0.0, mu, 500.0, 100.0, 20, 4, 3),
     ]

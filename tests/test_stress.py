@@ -21,7 +21,7 @@ from fingerpad.contact.indentation import indent
 from fingerpad.contact.linear_solution import solve_condition
 from fingerpad.contact.problem import contact_problem
 from fingerpad.errors import FingerpadError, MeshError
-from fingerpad.scene.contact_law import ContactLaw, Criterion, Interface, TurningNormal
+from fingerpad.scene.contact_law import ContactLaw, Criterion, FrictionFrom, Interface, TurningNormal
 from fingerpad.scene.device import ActuatorRow, Condition
 from fingerpad.stress.outcomes import (
     SOLVED,
@@ -224,7 +224,7 @@ def test_outcomes_do_not_depend_on_threads() -> None:
 def test_a_cylinder_is_fully_in_contact_when_it_touches() -> None:
     """No flat face to cover, and no stride to take from it."""
     problem = half_plane(1 / 16, 1 / 16, 0.3, ActuatorRow((0.0,), 1.0, 0.5), 0.5).problem
-    law = ContactLaw(0.5, TurningNormal.NEVER, Criterion.FULL, depth=1.0, force=1.0)
+    law = ContactLaw(0.5, FrictionFrom.TOUCH, TurningNormal.NEVER, Criterion.FULL, depth=1.0, force=1.0)
     state = indent(problem, law, 20, 1.0)
     assert 0.0 < state.actuator[0, 1] < 1e-2
     assert state.force[:, 1].sum() > 0.0

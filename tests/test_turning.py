@@ -21,7 +21,7 @@ from fingerpad.contact.formulation import (
 )
 from fingerpad.contact.path import follow
 from fingerpad.contact.profile import bend, profile
-from fingerpad.scene.contact_law import ContactLaw, Criterion, Interface, TurningNormal
+from fingerpad.scene.contact_law import ContactLaw, Criterion, FrictionFrom, Interface, TurningNormal
 from fingerpad.scene.device import ActuatorRow
 from fingerpad.scene.finger import Material
 from fingerpad.scene.tissue_law import Kinematics
@@ -141,7 +141,8 @@ def test_the_bend_is_the_change_of_the_slope() -> None:
     ],
 )
 def test_it_turns_where_asked_and_where_friction_acts(turning: TurningNormal, kinematics: set[Kinematics]) -> None:
-    law = ContactLaw(FRICTION, turning, Criterion.FULL, depth=1.0, force=1.0)
+    law = ContactLaw(FRICTION, FrictionFrom.TOUCH, turning, Criterion.FULL, depth=1.0, force=1.0)
     assert {each for each in Kinematics if law.turns(each, Interface.SHEAR)} == kinematics
     assert not any(law.turns(each, Interface.FRICTIONLESS) for each in Kinematics)
-    assert not any(replace(law, friction=0.0).turns(each, Interface.SHEAR) for each in Kinematics)
+    pressed_without = [replace(law, friction=0.0), replace(law, friction_from=FrictionFrom.STIMULUS)]
+    assert not any(each.turns(kind, Interface.SHEAR) for each in pressed_without for kind in Kinematics)

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact.formulation import ContactState, rest, touching_height
+from ..contact.formulation import ContactState, rest, switch_friction, touching_height
 from ..contact.path import follow
-from ..contact.problem import contact_problem
+from ..contact.problem import contact_problem, pressing_problem
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import score_rows
@@ -38,7 +38,8 @@ def plain_scores(
     skips = replace(scene.model.skips, halved_condensation=False, inactive_nodes=False)
     scene = scene.with_model(skips=skips)
     condensed = condense_section(section, scene)
-    problem = contact_problem(scene, condensed, None, Interface.SHEAR)
+    acting = contact_problem(scene, condensed, None, Interface.SHEAR)
+    problem = pressing_problem(scene, acting)
     state = rest(problem, touching_height(problem))
     pressed = np.tile([0.0, indentation], (len(problem.row.positions), 1))
     targets = [pressed, *(pressed + condition.moves)]
@@ -49,6 +50,8 @@ def plain_scores(
             condensed = condense_section(section, scene)
             problem = replace(problem, compliance=condensed.compliance)
             state = follow(problem, state, start + step / count * (target - start), 1)
+        if problem.friction < acting.friction:
+            state, problem = switch_friction(state), acting
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
     readouts = read_receptors(condensed.receptor_strain(forces), condensed.arc, settling=condition.settling).readouts

@@ -28,7 +28,7 @@ from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import roughness_scores
 from ..readouts.strain import maximum_principal
-from ..scene.contact_law import Interface
+from ..scene.contact_law import FrictionFrom, Interface
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
@@ -101,7 +101,8 @@ def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings
     """
     scene = sharpened(scene) if case["edges"] == "sharp" else scene
     scene = scene.with_kinematics(Kinematics(case["kinematics"]))
-    friction = scene.model.contact.friction
+    law = replace(scene.model.contact, friction_from=FrictionFrom.TOUCH)  # here the case says from when on
+    scene, friction = scene.with_model(contact=law), law.friction
     acting = 0.0 if case["friction"] == "never" else friction
     indenting = friction if case["friction"] == "always" else 0.0
     if scene.kinematics is Kinematics.FINITE:

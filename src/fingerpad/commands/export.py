@@ -13,7 +13,7 @@ from ..calculix.deck import DeckSettings, input_deck, kinematics_told
 from ..calculix.depth import indented_height
 from ..files import write_text
 from ..prediction.edges import mesh_device
-from ..scene.contact_law import Interface
+from ..scene.contact_law import FrictionFrom
 from .options import add_case_options, add_scene_options, checked_case, writable
 
 DECK = ".inp"
@@ -41,9 +41,8 @@ def add(parser: argparse.ArgumentParser) -> None:
     add_scene_options(parser)
     parser.add_argument(
         "--friction-from",
-        choices=["indentation", "stimulus"],
-        default="indentation",
-        help="when friction begins to act; 'stimulus' indents without it and converges better (default: %(default)s)",
+        choices=list(FrictionFrom),
+        help="from when on friction acts; 'stimulus' presses without and converges better (default: that of the config)",
     )
     for flag, default, what in (
         ("--pressure-slope", PRESSURE_SLOPE, "pressure over penetration [MPa/mm]"),
@@ -66,9 +65,12 @@ def run(options: argparse.Namespace) -> None:
     """
     output = writable(options.output, [DECK])
     scene, condition, touching = checked_case(options)
-    acting = scene.model.contact.coefficient(touching)
-    indenting = acting if options.friction_from == "indentation" else 0.0
-    interface = Interface.SHEAR if indenting > 0.0 else Interface.FRICTIONLESS
+    if options.friction_from is not None:
+        law = replace(scene.model.contact, friction_from=FrictionFrom(options.friction_from))
+        scene = scene.with_model(contact=law)
+    law = scene.model.contact
+    acting = law.coefficient(touching)
+    indenting = acting if law.friction_from is FrictionFrom.TOUCH else 0.0
     settings = DeckSettings(
         indentation=0.0,  # until it is known how deep
         friction_indenting=indenting,
@@ -83,7 +85,7 @@ def run(options: argparse.Namespace) -> None:
     with threadpool_limits(1), progress as bar:  # how deep the deck goes does not depend on the number of threads
         section = mesh_device(scene)
         bar.update()
-        settings = replace(settings, indentation=indented_height(scene, section, interface))
+        settings = replace(settings, indentation=indented_height(scene, section, touching))
         bar.update()
     write_text(output, input_deck(scene, section, condition, settings))
     print(f"written: {output}. {kinematics_told(scene.model.tissue)}")

@@ -15,12 +15,12 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from .advice import named_pressing, named_stimulus
 from .certificate import Certificate, certify, require_within_reach, worst
 from .depth import require_tissue
-from .formulation import ContactProblem, ContactState
+from .formulation import ContactProblem, ContactState, switch_friction
 from .increment import solve_increment
 from .indentation import indent
 from .patch import Patch
 from .path import SolveIncrement, advance
-from .problem import contact_problem, increments
+from .problem import contact_problem, increments, pressing_problem
 from .solution import Solution, solution
 from .symmetry import part_of, unfolded
 
@@ -45,9 +45,13 @@ def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
 def raised(
     scene: Scene, part: ContactProblem, solve: SolveIncrement[ContactState, Patch | None] = solve_increment
 ) -> ContactState:
-    """State of what of a row is pressed (`part_of`) after pre-indentation. solve: an increment. Raises ContactError."""
-    count, _ = increments(scene, part)
-    return indent(part, scene.model.contact, count, scene.model.finger.pad_thickness, solve)
+    """State of what of a row is pressed (`part_of`) after pre-indentation, with friction acting. solve: an increment.
+    Raises ContactError.
+    """
+    pressing = pressing_problem(scene, part)
+    count, _ = increments(scene, pressing)
+    state = indent(pressing, scene.model.contact, count, scene.model.finger.pad_thickness, solve)
+    return state if pressing is part else switch_friction(state)
 
 
 def follow_condition(

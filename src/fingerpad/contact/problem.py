@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..errors import MeshError
-from ..scene.contact_law import Interface
+from ..scene.contact_law import FrictionFrom, Interface
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.compliance import CondensedBody, CondensedSection
@@ -43,6 +45,13 @@ def contact_problem(
             f" ({missed.size} of {len(centres)} have none); try a smaller numerics.face_size"
         )
     return problem
+
+
+def pressing_problem(scene: Scene, problem: ContactProblem) -> ContactProblem:
+    """The problem that pre-indentation poses: without friction where that acts from the stimulus on."""
+    # ASSUME: contact.friction_from: whether skin also rubs while the device is pressed
+    from_touch = scene.model.contact.friction_from is FrictionFrom.TOUCH
+    return problem if from_touch or problem.friction == 0.0 else replace(problem, friction=0.0)
 
 
 def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:

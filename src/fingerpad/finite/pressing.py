@@ -18,10 +18,10 @@ from ..arrays import FloatArray
 from ..contact.advice import named_pressing
 from ..contact.certificate import require_within_reach
 from ..contact.force_curve import curve_of
-from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
+from ..contact.formulation import ContactProblem, ContactState, rest, switch_friction, touching_height
 from ..contact.indentation import raise_until
 from ..contact.path import SolveIncrement, advance, recording
-from ..contact.problem import contact_problem, increments
+from ..contact.problem import contact_problem, increments, pressing_problem
 from ..contact.symmetry import half_of, mirrors, unfolded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
@@ -76,7 +76,8 @@ class _Start:
 
     tractions, undeformed: of all contact nodes; the section has no maps, as nobody asks for them. parts: of the section
     that are solved. tissues: of each kind of loads. problem: of the parts' contact nodes, whatever its compliance;
-    whole: of all. state: at first touch. increments: of the tissue, and of contact in each.
+    whole: of all. switches: whether friction acts from the stimulus on alone. state: at first touch. increments: of the
+    tissue, and of contact in each.
     """
 
     tractions: Tractions
@@ -86,6 +87,7 @@ class _Start:
     tissues: tuple[TissuePart, ...]
     problem: ContactProblem
     whole: ContactProblem
+    switches: bool
     state: DeformedState
     increments: tuple[int, int]
 
@@ -131,7 +133,8 @@ def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, inter
         strain=NONE,
         residual=0.0,
     )
-    problem = contact_problem(scene, undeformed, body, interface)
+    acting = contact_problem(scene, undeformed, body, interface)
+    problem = pressing_problem(scene, acting)
     mirrored = scene.model.skips.mirrored_half and mirrors(problem)
     parts = right_half(section, tractions) if mirrored else whole(section, tractions)
     solved = half_of(problem) if mirrored else problem
@@ -143,6 +146,7 @@ def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, inter
         tissues=tuple(_part(scene, section, parts, which) for which in range(len(parts.held))),
         problem=solved,
         whole=problem,
+        switches=problem is not acting,
         state=deformed_state(rest(solved, touching_height(solved)), np.zeros(parts.dofs.size)),
         increments=increments_of(increments(scene, problem)[0]),
     )
@@ -192,6 +196,7 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
         curve = curve * [1.0, start.problem.images]
         columns = unfolding(start.tractions.position.shape[0], MIRROR)
         compliance = unfold(compliance, tangents[1].compliance, columns, columns)
+    state = switch_friction(state) if start.switches else state
     moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
     free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
     residual = max(reached.change, *(tangent.residual for tangent in tangents))

@@ -1,4 +1,4 @@
-"""How skin and actuators touch: friction, where the contact normal turns, when pre-indentation ends."""
+"""How skin and actuators touch: friction and when it acts, where the contact normal turns, when pre-indentation ends."""
 
 from __future__ import annotations
 
@@ -25,6 +25,13 @@ class TurningNormal(StrEnum):
     ALWAYS = "always"
 
 
+class FrictionFrom(StrEnum):
+    """From when on friction acts: from first touch, or once the device is pressed: what touches then sticks."""
+
+    TOUCH = "touch"
+    STIMULUS = "stimulus"
+
+
 class Criterion(StrEnum):
     """When pre-indentation ends: every flat face wholly in contact, every actuator touching, or the row as deep or as
     heavy as it is to be, whatever touches.
@@ -38,13 +45,15 @@ class Criterion(StrEnum):
 
 @dataclass(frozen=True)
 class ContactLaw:
-    """Coulomb friction coefficient [1], where the contact normal turns, and the criterion that ends pre-indentation.
+    """Coulomb friction coefficient [1], from when on it acts, where the contact normal turns, and the criterion that
+    ends pre-indentation.
 
     depth: from first touch [mm], of Criterion.DEPTH alone. force: of the row per mm of finger [N/mm], of
     Criterion.FORCE alone. Raises SceneError if friction is negative or not finite, depth or force not positive.
     """
 
     friction: float
+    friction_from: FrictionFrom
     turning_normal: TurningNormal
     criterion: Criterion
     depth: float
@@ -62,7 +71,10 @@ class ContactLaw:
         return self.friction if interface is Interface.SHEAR else 0.0
 
     def turns(self, kinematics: Kinematics, interface: Interface) -> bool:
-        """Whether the contact normal turns. Never without friction: skin would slide off the edges' slopes sideways."""
+        """Whether the contact normal turns. Never where anything is pressed without friction: skin would slide off the
+        edges' slopes sideways.
+        """
         chosen = {TurningNormal.NEVER: False, TurningNormal.ALWAYS: True}
         with_these = chosen.get(self.turning_normal, kinematics is Kinematics.FINITE)
-        return with_these and self.coefficient(interface) > 0.0
+        rubs_from_touch = self.coefficient(interface) > 0.0 and self.friction_from is FrictionFrom.TOUCH
+        return with_these and rubs_from_touch

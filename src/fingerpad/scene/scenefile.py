@@ -18,7 +18,7 @@ import yaml
 from ..errors import SceneError
 from ..requirements import require
 from .bodies import BODIES
-from .contact_law import ContactLaw, Criterion, TurningNormal
+from .contact_law import ContactLaw, Criterion, FrictionFrom, TurningNormal
 from .device import ActuatorRow, Body, Control, Device, evenly
 from .finger import Finger, Layer, Material
 from .numerics import Numerics, Skips
@@ -274,6 +274,7 @@ def _contact_law(given: dict[str, Any]) -> ContactLaw:
     """The law of the plain values under `contact`. Raises SceneError."""
     return ContactLaw(
         friction=given["friction"],
+        friction_from=FrictionFrom(given["friction_from"]),
         turning_normal=TurningNormal(given["turning_normal"]),
         criterion=Criterion(given["criterion"]),
         depth=given["depth"],

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import SceneError
-from ..scene.contact_law import ContactLaw, Criterion, TurningNormal
+from ..scene.contact_law import ContactLaw, Criterion, FrictionFrom, TurningNormal
 from ..scene.device import ActuatorRow, Body, Condition, Control, Device, evenly
 from ..scene.finger import Finger, Layer, Material
 from ..scene.numerics import Numerics, Skips
@@ -155,7 +155,7 @@ def _group(rng: np.random.Generator, number: int) -> Scene:
     model = Model(
         finger=finger,
         tissue=TissueLaw(Kinematics.SMALL, (Kinematics.SMALL,), Law.HENCKY, 2.0),
-        contact=ContactLaw(0.0, TurningNormal.FINITE, Criterion.TOUCH, depth=1.0, force=1.0),
+        contact=ContactLaw(0.0, FrictionFrom.TOUCH, TurningNormal.FINITE, Criterion.TOUCH, depth=1.0, force=1.0),
         gabor=GABOR,
         readout=ReadoutRule(above, Side(rng.choice(list(Side))), 1.0),
         vibration=STILL,
