@@ -119,7 +119,7 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "unknown key": (
         {"contact.colour": quantity(1.0, "1")},
         "contact.colour",
-        ["an unknown key", "the keys friction, turning_normal, criterion, depth, force ("],
+        ["an unknown key", "the keys friction, friction_from, turning_normal, criterion, depth, force ("],
     ),
     "key that is a number": (
         {"readout": {1: 2}},

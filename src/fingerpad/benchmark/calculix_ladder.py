@@ -11,7 +11,7 @@ from ..prediction.edges import mesh_device
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
-from .ladder import CALCULIX_LADDER
+from .ladders import CALCULIX_LADDER
 
 
 def calculix_ladder(

@@ -21,13 +21,11 @@ from ..scene.tissue_law import Kinematics
 from ..tissue.mesh import SectionMesh, mesh_section
 from ..tissue.reach import contact_tractions
 from .first_order import condense_first_order
+from .ladders import FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
 from .plain import plain_scores
 from .timing import fewest, peak_memory
 
 Row = dict[str, Any]
-OWN_LADDER, FIRST_ORDER_LADDER, PLAIN_LADDER = "fingerpad", "first-order elements", "factorised anew"
-CALCULIX_LADDER = "CalculiX"
-COMPARED_AT = 0.01  # error of a score [1] at which run times are compared; source: twice what default meshes aim at
 PATH = 1.8  # ways from first touch to the outermost face [1] that pre-indentation takes; source: devices (measured)
 
 

@@ -13,7 +13,8 @@ from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.actuator_body import body_of
 from ..tissue.condensation import condense_section
-from .crosscheck import ContactModel, Outcome, calculix_outcome, fingerpad_outcome, on_deck, prepared
+from .contact_model import ContactModel
+from .crosscheck import Outcome, calculix_outcome, fingerpad_outcome, on_deck, prepared
 from .deformed_crosscheck import deformed_outcome
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +36,7 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.elasticity import mesh_dofs, strain_of_gradient
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import arc_length, receptor_gradient
+from .contact_model import ContactModel
 from .deck import DeckSettings, input_deck
 from .depth import indented_height
 from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched
@@ -50,14 +50,6 @@ DECK_EDGE_SIZE = 0.03  # mm
 DECK_EDGE_ZONE = 0.015  # mm around an edge, half an element
 DECK_FACE_SIZE = 0.08  # mm
 DECK_RECEPTOR_SIZE = 0.09  # mm
-
-
-class ContactModel(StrEnum):
-    """Contact on fingerpad's side: its own; with CalculiX's penalties; with its turning normal too."""
-
-    OWN = "fingerpad"
-    PENALTIES = "fingerpad with penalties"
-    TURNING = "fingerpad with penalties and turning normal"
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ from ..errors import CalculixError, ContactError
 from ..scene.scene import Scene
 from ..store import alike
 from .both_sides import both_sides
-from .crosscheck import ContactModel, Outcome, differences
+from .contact_model import ContactModel
+from .crosscheck import Outcome, differences
 
 SHARED = ("kinematics", "law", "edges", "friction")  # what two cases must share for CalculiX to be compared with itself
 

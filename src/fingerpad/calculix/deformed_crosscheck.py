@@ -16,10 +16,10 @@ from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedBody
 from ..tissue.mesh import SectionMesh
+from .contact_model import ContactModel
 from .crosscheck import (
     INDENTATION_INCREMENTS,
     STIMULUS_INCREMENTS,
-    ContactModel,
     Outcome,
     outcome_of,
     softness,

@@ -11,7 +11,7 @@ from ..readouts.roughness import SCORE_UNIT
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from .both_sides import both_sides
-from .crosscheck import ContactModel
+from .contact_model import ContactModel
 
 DIGITS = 5  # significant digits of a score [1]
 

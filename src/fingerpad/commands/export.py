@@ -42,7 +42,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--friction-from",
         choices=list(FrictionFrom),
-        help="from when on friction acts; 'stimulus' presses without and converges better (default: that of the config)",
+        help="from when on friction acts; 'stimulus' presses without and converges better (default: the config's)",
     )
     for flag, default, what in (
         ("--pressure-slope", PRESSURE_SLOPE, "pressure over penetration [MPa/mm]"),

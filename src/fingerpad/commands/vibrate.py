@@ -15,7 +15,8 @@ from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
-from ..vibration.frequency import SLOWLY, frequency_name, steps, vibration_rows, without_caveats
+from ..vibration.frequency import steps, vibration_rows, without_caveats
+from ..vibration.speed import SLOWLY, frequency_name
 from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene
 from .printing import aligned, caveats_told, in_order, print_rows, require_scores, titled
 

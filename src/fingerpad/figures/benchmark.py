@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
-from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
+from ..benchmark.ladders import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
 from ..scene.tissue_law import Kinematics
 from ..words import PERCENT, plain
 from .style import (

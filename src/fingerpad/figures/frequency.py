@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import Readout
-from ..vibration.frequency import SLOWLY
+from ..vibration.speed import SLOWLY
 from ..words import INTERFACE_NAME, SCORE_SCALE, score_label
 from .style import (
     GREY,

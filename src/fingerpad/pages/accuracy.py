@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 
-from ..calculix.crosscheck import ContactModel
+from ..calculix.contact_model import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.accuracy import CASE
 from ..readouts.roughness import KEY
@@ -164,8 +164,9 @@ def _of_rubbing(compared: pd.DataFrame) -> str:
     """How far the programs differ where friction acts from the first touch, and CalculiX from itself, in words."""
     found = " ".join(_of_rubbing_with(kinematics, compared) for kinematics in Kinematics)
     return (
-        "With friction from the first touch, **as shipped scores have it**, CalculiX has not converged: it moves with"
-        f" its own increments and mesh, so it cannot tell which of the two is nearer. {found}"
+        "For one condition, Device 2 at 180°, with friction from the first touch, **as shipped scores have it**,"
+        " CalculiX has not converged: it moves with its own increments and mesh, so it cannot tell which of the two is"
+        f" nearer. {found}"
     )
 
 

@@ -12,7 +12,7 @@ from ..readouts.comparison import classes
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..vibration.frequency import SLOWLY, frequency_name
+from ..vibration.speed import SLOWLY, frequency_name
 from ..words import PERCENT, SCORE_SCALE
 from .filling import percent, table
 

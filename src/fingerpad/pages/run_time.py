@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from ..benchmark.ladder import CALCULIX_LADDER, COMPARED_AT, OWN_LADDER
+from ..benchmark.ladders import CALCULIX_LADDER, COMPARED_AT, OWN_LADDER
 from ..words import PERCENT
 from .filling import percent, table
 

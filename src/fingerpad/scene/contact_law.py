@@ -1,4 +1,4 @@
-"""How skin and actuators touch: friction and when it acts, where the contact normal turns, when pre-indentation ends."""
+"""How skin and actuators touch: friction and when it acts, where the normal turns, when pre-indentation ends."""
 
 from __future__ import annotations
 

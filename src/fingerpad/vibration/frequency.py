@@ -33,17 +33,7 @@ from ..words import PERCENT
 from .creep import Creep, condense_creep
 from .cycling import Vibration, vibrate
 from .inertia import Vibrating, condense_vibrating, highest_frequency, inertia_effect, slipping, stuck
-
-SLOWLY = 0.0  # Hz: so slowly that tissue is always relaxed
-
-
-def frequency_name(frequency: float) -> str:
-    """What a frequency [Hz] is called in tables.
-
-    >>> frequency_name(20.0), frequency_name(SLOWLY)
-    ('20 Hz', 'slow')
-    """
-    return f"{frequency:g} Hz" if frequency > SLOWLY else "slow"
+from .speed import SLOWLY
 
 
 @dataclass(frozen=True)
