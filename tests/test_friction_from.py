@@ -59,7 +59,7 @@ def test_friction_from_first_touch_leaves_shear_that_pressing_without_does_not()
         base = rubbing_from(scene("device2"), when)
         pressed = indent_device(base, given, None, Interface.SHEAR)
         assert np.any(pressed.state.force[:, 0]) == (when is FrictionFrom.TOUCH)
-        solution = stimulate(base, given, pressed, base.device.conditions[-1])
+        solution = stimulate(base, pressed, base.device.conditions[-1])
         assert np.any(solution.force[-1, :, 0])
         read = filtered_readouts(
             resampling_to_grid(given.arc, base.model.gabor.spacing), solution.reading.readouts, base.model.gabor
@@ -74,7 +74,7 @@ def test_a_plain_solver_switches_friction_at_the_same_time() -> None:
     pressed = indent_device(base, given, None, Interface.SHEAR)
     height = float(pressed.state.actuator[0, 1])
     _, rows = plain_scores(base, section("device2"), condition, height, (2, 2))
-    own = stimulate(base, given, pressed, condition)
+    own = stimulate(base, pressed, condition)
     read = filtered_readouts(
         resampling_to_grid(given.arc, base.model.gabor.spacing), own.reading.readouts, base.model.gabor
     )

@@ -275,7 +275,7 @@ def test_every_state_of_a_stimulus_is_certified(monkeypatch: pytest.MonkeyPatch)
         return certify(problem, section, state)
 
     monkeypatch.setattr(fingerpad.contact.linear_solution, "certify", noting)
-    stimulate(base, section, pressed, tap(0.01, 0.03, 0.02))
+    stimulate(base, pressed, tap(0.01, 0.03, 0.02))
     assert heights == pytest.approx([0.01, 0.03, 0.02])
 
 
@@ -853,7 +853,7 @@ def test_skin_belongs_to_the_actuator_that_it_is_pressed_to(interface: Interface
     assert np.any(pressed.state.given != base.device.actuators.nearest(found.position[:, 0]))
     gap = reevaluated_gap(pressed.problem, pressed.state)
     assert np.abs(gap - pressed.state.gap).max() < 1e-9
-    slid = stimulate(base, found, pressed, condition)
+    slid = stimulate(base, pressed, condition)
     before, after = pressed.state.given, slid.actuator
     touching = (pressed.state.status != 0) & (slid.status != 0)
     assert np.any((before != after)[touching]) == (interface is Interface.FRICTIONLESS)

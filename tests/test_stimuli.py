@@ -15,7 +15,7 @@ import yaml
 from fingerpad.errors import SceneError
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Cycle, Device
 from fingerpad.scene.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
-from fingerpad.scene.scenefile import recordings
+from fingerpad.scene.scenefile import read_yaml, recordings
 from fingerpad.scene.stimuli import KINDS, SETTLING, alternating, alternating_cycles, measured, phased, phased_cycles
 from fingerpad.scene.validation import check_device
 from fingerpad.vibration import cycling
@@ -231,14 +231,16 @@ def test_recording_lies_with_the_device(tmp_path: Path, file: str) -> None:
         check_device(device(tmp_path, file), SCHEMAS, CONFIG)
 
 
-def test_a_recording_that_never_ends_is_no_recording(tmp_path: Path) -> None:
-    """Files without an end are not read: a link to a device, or a pipe that waits for its writer."""
+def test_a_file_that_never_ends_is_not_read(tmp_path: Path) -> None:
+    """Neither as a recording nor as a scene file: a link to a device, or a pipe that waits for its writer."""
     pipe, link = tmp_path / "pipe.csv", tmp_path / "zero.csv"
     os.mkfifo(pipe)
     link.symlink_to("/dev/zero")
     for path in (pipe, link):
         with pytest.raises(SceneError, match=r"\.csv: is no file that ends; allowed: a CSV file"):
             read_recording(path, 4)
+        with pytest.raises(SceneError, match=r"\.csv: is no file that ends; allowed: a YAML file"):
+            read_yaml(path)
 
 
 def test_mistake_names_device_file_key_and_recording(tmp_path: Path) -> None:

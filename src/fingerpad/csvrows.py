@@ -12,6 +12,7 @@ from pathlib import Path
 
 from .errors import FingerpadError
 from .guess import closest, hint
+from .readable import require_ending
 
 LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, ten thousand times of 64 actuators
 
@@ -52,10 +53,7 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
     """Lines that are not empty, with their numbers. Raises `error` if the file cannot be read or is no CSV."""
     line, lines = 0, []
     try:
-        if path.exists() and not (path.is_file() or path.is_dir()):
-            raise error(f"{path}: is no file that ends; allowed: a CSV file")
-        if (size := path.stat().st_size) > LARGEST_FILE:
-            raise error(f"{path}: found {size} bytes; allowed: at most {LARGEST_FILE}")
+        require_ending(path, LARGEST_FILE, "CSV", error)
         text = path.read_bytes().decode("utf-8-sig")
         reader = csv.reader(StringIO(text, newline=""), strict=True)
         for row in reader:

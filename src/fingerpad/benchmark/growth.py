@@ -101,7 +101,7 @@ def _measured(varied: str, scene: Scene, repeats: int) -> Row:
     indenting = partial(indent_device, scene, condensed.section, condensed.body, Interface.SHEAR)
     indented, pressing = fewest(repeats, indenting)
     condition = scene.device.conditions[-1]
-    _, moving = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
+    _, moving = fewest(repeats, partial(stimulate, scene, indented, condition))
     section = mesh_section(scene, edges)
     numerics = scene.model.numerics
     return {

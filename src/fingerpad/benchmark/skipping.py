@@ -78,7 +78,7 @@ def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
     condensed, section = condense_scene(scene, edges), mesh_section(scene, edges)
     indented = indent_device(scene, condensed.section, condensed.body, Interface.SHEAR)
     condition = scene.device.conditions[-1]
-    solution, seconds = fewest(repeats, partial(stimulate, scene, condensed.section, indented, condition))
+    solution, seconds = fewest(repeats, partial(stimulate, scene, indented, condition))
     _, recovering = fewest(
         repeats, lambda: states_fields(scene, section, recover_displacement(section, scene, solution.force))
     )

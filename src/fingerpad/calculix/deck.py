@@ -29,6 +29,7 @@ from ..tissue.elasticity import lame, mesh_dofs
 from ..tissue.mesh import SectionMesh, element_nodes, mesh_strip
 from ..tissue.reach import contact_tractions
 from ..tissue.receptors import receptor_strain
+from ..words import plain
 
 ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off
 FACE_STEP = 0.1  # mm; length of an element on a rigid flat face, which any length describes exactly
@@ -70,10 +71,10 @@ class DeckSettings:
     def __post_init__(self) -> None:
         for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
             if not 0 < getattr(self, name) < math.inf:
-                raise SceneError(f"deck: {_told(name)} must be positive and finite, found {getattr(self, name)}")
+                raise SceneError(f"deck: {plain(name)} must be positive and finite, found {getattr(self, name)}")
         for name in ("indentation", "friction_indenting", "friction_acting", "rest_increments"):
             if not 0 <= getattr(self, name) < math.inf:
-                raise SceneError(f"deck: {_told(name)} must be finite and not negative, found {getattr(self, name)}")
+                raise SceneError(f"deck: {plain(name)} must be finite and not negative, found {getattr(self, name)}")
         if self.friction_acting < self.friction_indenting:
             raise SceneError(
                 f"deck: friction that indents must act too, found {self.friction_indenting:g}, and"
@@ -84,11 +85,6 @@ class DeckSettings:
     def steps_a_move(self) -> int:
         """Steps [1] of each move of the actuators: the move, and the rest after it if there is one."""
         return 2 if self.rest_increments else 1
-
-
-def _told(name: str) -> str:
-    """A setting's name as one says it."""
-    return name.replace("_", " ")
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from ..scene.contact_law import Interface
 from ..scene.problems import written
 from ..scene.scene import Scene
 from ..scene.variation import NO_VALUES
+from ..words import plain
 from .printing import aligned, caveats_told, in_order, read_times, titled
 
 COLUMNS = ("condition", "interface", "readout", "score", "score_error", "unit", "rank", "note")  # of the table
@@ -30,7 +31,7 @@ def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]], values: Mapping[st
     ]
     cells = [[str(row[column]) for column in COLUMNS] for row in told]
     columns = [i for i, name in enumerate(COLUMNS) if name != "note" or any(notes)]
-    chosen = [[line[i] for i in columns] for line in ([name.replace("_", " ") for name in COLUMNS], *cells)]
+    chosen = [[line[i] for i in columns] for line in ([plain(name) for name in COLUMNS], *cells)]
     lines = [title, *_contact(ordered)]
     if any(row["score"] is not None for row in rows):
         lines += aligned(chosen, [COLUMNS[i] in RIGHT for i in columns])

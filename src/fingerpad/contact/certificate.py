@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -27,6 +27,8 @@ CONE_LIMIT = 1e-6  # of the largest shear that friction allows, without friction
 # of the work of friction under the largest force so far along the indentation [1]; source: slip is solved to 1e-9 of
 # the way, in up to a hundred increments
 DISSIPATION_LIMIT = 1e-7
+
+LEAST = ("smallest_pressure", "dissipation")  # figures of a certificate that are worst where they are smallest
 
 
 @dataclass(frozen=True)
@@ -100,18 +102,11 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
 
 def worst(certificates: Sequence[Certificate]) -> Certificate:
     """The worst figures of several states."""
-    return Certificate(
-        equilibrium=max(each.equilibrium for each in certificates),
-        contact=max(each.contact for each in certificates),
-        penetration=max(each.penetration for each in certificates),
-        smallest_pressure=min(each.smallest_pressure for each in certificates),
-        cone_excess=max(each.cone_excess for each in certificates),
-        dissipation=min(each.dissipation for each in certificates),
-        penetration_share=max(each.penetration_share for each in certificates),
-        gap_share=max(each.gap_share for each in certificates),
-        tension_share=max(each.tension_share for each in certificates),
-        cone_share=max(each.cone_share for each in certificates),
-    )
+    figures = {
+        field.name: (min if field.name in LEAST else max)(getattr(each, field.name) for each in certificates)
+        for field in fields(Certificate)
+    }
+    return Certificate(**figures)
 
 
 def require_within_reach(problem: ContactProblem, section: CondensedSection, state: ContactState) -> None:

@@ -29,6 +29,7 @@ from .symmetry import part_of, unfolded
 class Indented:
     """A device pressed onto the finger, with the state's certificate: the same for all conditions."""
 
+    section: CondensedSection
     interface: Interface
     problem: ContactProblem
     state: ContactState
@@ -82,16 +83,16 @@ def indent_device(
     with named_pressing(scene, interface):
         state = indented_state(scene, problem)
         certificate = certify(problem, section, state)
-        return Indented(interface, problem, state, certificate)
+        return Indented(section, interface, problem, state, certificate)
 
 
-def stimulate(scene: Scene, section: CondensedSection, indented: Indented, condition: Condition) -> Solution:
+def stimulate(scene: Scene, indented: Indented, condition: Condition) -> Solution:
     """Solve the stimulus of one condition on the pressed finger.
 
     Raises ContactError, naming device, condition and interface, if the path cannot be followed, if a state's
     certificate exceeds a limit, or if contact reaches beyond the candidate nodes.
     """
-    problem, before = indented.problem, indented.state
+    section, problem, before = indented.section, indented.problem, indented.state
     with named_stimulus(scene, condition, indented.interface):
         solve = partial(_solve_within_reach, section)
         states = [before, *follow_condition(scene, problem, before, condition, solve)]
@@ -119,4 +120,4 @@ def solve_condition(
     interface: Interface,
 ) -> Solution:
     """The whole path of one condition: `indent_device`, then `stimulate`. Raises what they raise."""
-    return stimulate(scene, section, indent_device(scene, section, body, interface), condition)
+    return stimulate(scene, indent_device(scene, section, body, interface), condition)

@@ -18,6 +18,7 @@ from ..contact.profile import touching_heights
 from ..scene.device import ActuatorRow, Device
 from ..scene.scene import Model
 from ..tissue.mesh import SectionMesh, element_nodes
+from ..words import plain
 from .actuators import BASE, draw_actuators
 from .style import THIN, VERMILLION, WIDE, as_title, letter, new_figure, styled, subtitle
 
@@ -111,7 +112,7 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
     layers = (*finger.pad, *reversed(finger.dorsal))
     parts = [
         (
-            la.name.replace("_", " "),
+            plain(la.name),
             f"{la.thickness:g} mm",
             centre[:, section.layer == finger.layers.index(la)],
         )

@@ -8,7 +8,7 @@ from string import Template
 import pandas as pd
 
 from .. import markdown
-from ..words import PERCENT
+from ..words import PERCENT, plain
 
 
 def filled(template: str, values: Mapping[str, object]) -> str:
@@ -24,7 +24,7 @@ def table(rows: pd.DataFrame) -> str:
     |---|---|
     | 1 | x |
     """
-    heads = [str(column).replace("_", " ") for column in rows.columns]
+    heads = [plain(str(column)) for column in rows.columns]
     return markdown.table(heads, rows.itertuples(index=False))
 
 

@@ -18,6 +18,7 @@ from .order import StatedRelation, order_matrix, up_sets
 
 RATING_COLUMNS = ("device", "condition", "rating", "kind", "source")
 ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
+OF_DEVICES = " (a device with a file, in config/devices or among the scenes asked for)"
 NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
 SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
@@ -57,10 +58,10 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
     lines: dict[tuple[str, str], int] = {}
     for line, row in _read_rows(path, RATING_COLUMNS):
         device, condition, kind = row["device"], row["condition"], row["kind"]
-        _check_device(path, line, device, conditions_by_device)
+        _check_name(path, line, "device", device, conditions_by_device, OF_DEVICES)
         if not conditions_by_device[device]:
             continue
-        _check_condition(path, line, "condition", condition, device, conditions_by_device)
+        _check_name(path, line, "condition", condition, conditions_by_device[device], _conditions_of(device))
         _check_name(path, line, "kind", kind, [*RatingKind])
         rating = number(row["rating"])
         if not math.isfinite(rating):
@@ -92,11 +93,13 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
     """
     rows: list[dict[str, Any]] = []
     for line, row in _read_rows(path, ORDER_COLUMNS):
-        _check_device(path, line, row["device"], conditions_by_device)
+        _check_name(path, line, "device", row["device"], conditions_by_device, OF_DEVICES)
         if not conditions_by_device[row["device"]]:
             continue
         for column in ("lower", "higher"):
-            _check_condition(path, line, column, row[column], row["device"], conditions_by_device)
+            _check_name(
+                path, line, column, row[column], conditions_by_device[row["device"]], _conditions_of(row["device"])
+            )
         _check_name(path, line, "relation", row["relation"], [*StatedRelation])
         rows.append(dict(row))
     table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
@@ -142,25 +145,15 @@ def _read_rows(path: Path, columns: Sequence[str]) -> list[tuple[int, dict[str, 
     return rows
 
 
-def _check_device(path: Path, line: int, found: str, known: Collection[str]) -> None:
-    try:
-        _check_name(path, line, "device", found, known)
-    except RatingError as error:
-        raise RatingError(f"{error} (a device with a file, in config/devices or among the scenes asked for)") from None
+def _conditions_of(device: str) -> str:
+    """What names of conditions are allowed, in words."""
+    return f" (conditions of {device} as its file has them)"
 
 
-def _check_condition(
-    path: Path, line: int, column: str, found: str, device: str, conditions_by_device: Mapping[str, Sequence[str]]
-) -> None:
-    try:
-        _check_name(path, line, column, found, conditions_by_device[device])
-    except RatingError as error:
-        raise RatingError(f"{error} (conditions of {device} as its file has them)") from None
-
-
-def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str]) -> None:
+def _check_name(path: Path, line: int, column: str, found: str, allowed: Collection[str], about: str = "") -> None:
+    """Raise RatingError, with some words behind, if what is found is not one of the names allowed."""
     if found not in allowed:
-        raise _error(path, line, column, found, list(allowed))
+        raise RatingError(f"{_error(path, line, column, found, list(allowed))}{about}")
 
 
 def _error(path: Path, line: int, column: str, found: str, allowed: Sequence[str]) -> RatingError:

@@ -135,7 +135,7 @@ def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) ->
 def _moved(row: PressedRow, condition: Condition) -> Answer:
     """The answer on one mesh, its rows with caveats as notes and without errors. Raises ContactError."""
     scene = row.scene.with_conditions([condition])
-    solution = stimulate(scene, row.skin.section, row.indented, condition)
+    solution = stimulate(scene, row.indented, condition)
     readouts = read_out(scene, row.skin, solution)
     rows = noted_rows(_as_meshed(scene), condition, Interface.SHEAR, solution, readouts)
     return Answer(scene, row.skin.section, solution, readouts, rows)

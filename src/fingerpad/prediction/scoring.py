@@ -238,9 +238,7 @@ def pressed_device(
         pressed = press(scene, condensed.section, condensed.body, interface)
         finger = pressed_finger(scene, condensed.section, condensed.body, pressed, interface)
         return partial(stimulate_deformed, scene, finger)
-    return partial(
-        stimulate, scene, condensed.section, indent_device(scene, condensed.section, condensed.body, interface)
-    )
+    return partial(stimulate, scene, indent_device(scene, condensed.section, condensed.body, interface))
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

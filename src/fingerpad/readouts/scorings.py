@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
-from ..scene.readout import GaborFilter, Readout
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 from .accuracy import case_of, with_error
 from .gabor import FilteredReadouts, gabor_filtered
@@ -137,13 +137,8 @@ def response_rows(scene: Scene) -> list[dict[str, Any]]:
             "readout": str(readout),
             "length": name,
             "period": period,
-            "response": _response(gabor, readout, period),
+            "response": response(period, gabor.wavelength(readout), gabor.sigma),
         }
         for readout in Readout
         for name, period in lengths.items()
     ]
-
-
-def _response(gabor: GaborFilter, readout: Readout, period: float) -> float:
-    """`response` of the filter of a read-out."""
-    return response(period, gabor.wavelength(readout), gabor.sigma)

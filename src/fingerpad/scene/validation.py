@@ -1,8 +1,8 @@
 """Validation of scene files: one message that names file, key, what was found, what is allowed and what was meant.
 
 The JSON Schemas say what is allowed and, in their descriptions, what each key is. What a schema cannot say
-(actuators that overlap, layers that leave no bone) the scene itself refuses when it is built. Solver jobs read files
-that have passed here and never import this module.
+(actuators that overlap, layers that leave no bone) the scene itself refuses when it is built. Jobs of `all` read files
+that have passed here; those that vary values (the ensemble, phases) ask again.
 """
 
 from __future__ import annotations
