@@ -1104,6 +1104,11 @@ def test_python_gives_the_same_table(checkout: Path) -> None:
     rows = forecast(scene("device3"), error=False)
     assert list(table.columns) == list(rows[0])
     assert table["score"].dropna().tolist() == [row["score"] for row in rows if row["score"] is not None]
+    # numbers are numbers also where none is known: without errors, or without a second time to read
+    assert table["score_error"].isna().all()
+    assert table["rank"].max() == 3
+    assert (table.dtypes[["score", "score_error", "time_s"]] == "float64").all()
+    assert (table.dtypes[["rank", "first_rank", "last_rank"]] == "Int64").all()
 
 
 def test_a_device_with_shear_alone_says_why_the_rest_is_left_out() -> None:

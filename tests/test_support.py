@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
 import json
+import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +17,7 @@ import pytest
 from fingerpad.scene.readout import GaborFilter
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
-from support import checksum, commit, files_in, fingerprint, reached_modules
+from support import checksum, checksum_of_code, commit, files_in, fingerprint, reached_modules
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -33,6 +36,12 @@ FILES = {
     "src/fingerpad/drawing/unused.py": "",
 }
 REACHED_BY_MIDDLE = ["__init__", "middle", "leaf", "late", "top"]
+PRINT_CHECKSUM = """
+import sys
+from pathlib import Path
+from support import checksum_of_code
+print(checksum_of_code(*map(Path, sys.argv[1:])))
+"""
 DRAWING = ["drawing/__init__", "drawing/map", "drawing/style", "leaf", "late"]
 
 
@@ -99,11 +108,54 @@ def test_is_sorted_and_without_repeats(code: Path) -> None:
         "import fingerpad.drawing.map",
         "import fingerpad.drawing.map as drawn",
         "import sys, fingerpad.drawing.map",
+        "from fingerpad.drawing import (  # map (of a section)\n    map as drawn,\n)",
+        "from fingerpad.drawing \\\n    import map",
         "def main():\n    from fingerpad.drawing.map import draw\n",
     ],
 )
 def test_reaches_modules_of_a_package_and_the_package(code: Path, script: str) -> None:
     assert reached(code, script) == sorted(DRAWING)
+
+
+def test_imports_are_those_that_python_sees() -> None:
+    """What a search of the text finds in every program here is what a parser finds."""
+    source = ROOT / "src"
+    modules = {path.relative_to(source).with_suffix("").parts: str(path) for path in source.rglob("*.py")}
+    for path in (*source.rglob("*.py"), *(ROOT / "workflow" / "scripts").glob("*.py")):
+        package = path.parent.relative_to(source).parts if path.is_relative_to(source) else ()
+        parsed = set[str]()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                names = [tuple(alias.name.split(".")) for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                above = package[: len(package) - node.level + 1] if node.level else ()
+                base = (*above, *(node.module.split(".") if node.module else ()))
+                names = [base, *((*base, alias.name) for alias in node.names)]
+            else:
+                continue
+            parsed |= {modules[name] for name in names if name in modules}
+        reached = set(reached_modules(path, source))
+        assert parsed <= reached, path
+        # nothing more: what else is reached is a package's own module, or reached by one of these
+        through = set[str]().union(*(reached_modules(Path(each), source) for each in parsed), {str(path)})
+        assert {each for each in reached - through if not each.endswith("__init__.py")} == set(), path
+
+
+def test_edited_code_has_another_checksum(code: Path) -> None:
+    """In the next start of Snakemake, whichever of the modules that are reached it was; none of the others."""
+    script, source = code / "script.py", code / "src"
+
+    def checksum_now() -> str:
+        command = [sys.executable, "-c", PRINT_CHECKSUM, str(script), str(source)]
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "workflow")}
+        return subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
+
+    first = checksum_now()
+    assert first.strip() == checksum_of_code(script, source)
+    (source / "fingerpad" / "unused.py").write_text("from .top import other\n", encoding="utf-8")
+    assert checksum_now() == first
+    (source / "fingerpad" / "late.py").write_text("import cmath\n", encoding="utf-8")
+    assert checksum_now() != first
 
 
 def test_files_are_those_that_a_project_has(code: Path) -> None:

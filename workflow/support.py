@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import dataclasses
 import functools
 import hashlib
@@ -10,14 +9,19 @@ import json
 import re
 import shutil
 import subprocess
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 PACKAGE = "fingerpad"
-MAGIC = re.compile(r"^(\s*)[%!].*$", re.MULTILINE)  # a line for IPython or the shell, in a notebook
+COMMENT = re.compile(r"#.*$|\\\n", re.MULTILINE)  # or a line that goes on
+# Imports at the beginning of a line: dots, module and names, or modules. Parsing each module takes each start of
+# Snakemake half a second longer
+IMPORT = re.compile(
+    r"^[ \t]*(?:from[ \t]+(\.*)([\w.]*)[ \t]+import[ \t]*(\([^)]*\)|.+)|import[ \t]+(.+))$", re.MULTILINE
+)
 LEFT_BEHIND = {"__pycache__", ".ipynb_checkpoints", f"{PACKAGE}.egg-info"}  # folders that Python and Jupyter make
 
 
@@ -29,36 +33,36 @@ def reached_modules(script: Path, source: Path) -> list[str]:
     waiting = [script]
     while waiting:
         path = waiting.pop()
-        if path in reached:
-            continue
-        reached.add(path)
-        package = path.parent.relative_to(source).parts if path.is_relative_to(source) else ()
-        waiting.extend(_imported(_program(path), package, source))
-    return sorted(str(path) for path in reached)
+        if path not in reached:
+            reached.add(path)
+            waiting.extend(_imported(path, source))
+    return sorted(map(str, reached))
 
 
 @functools.cache  # nearly all rules reach nearly the same modules
-def _imported(program: str, package: tuple[str, ...], source: Path) -> list[Path]:
-    """Files that the text of a program, part of a package, imports from the package."""
-    found: list[Path] = []
-    for node in _statements(ast.parse(program)):
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            above = package[: len(package) - node.level + 1] if node.level else ()
-            base = ".".join((*above, node.module) if node.module else above)
-            names = [base] + [f"{base}.{alias.name}" for alias in node.names]
+def _imported(path: Path, source: Path) -> list[Path]:
+    """Files that a program imports from the package, wherever in it."""
+    package = path.parent.relative_to(source).parts if path.is_relative_to(source) else ()
+    modules, found = _modules(source), list[Path]()
+    for line in IMPORT.finditer(COMMENT.sub("", _program(path))):
+        dots, base, members, plain = line.groups()
+        if plain is None:
+            above = [*package[: len(package) - len(dots) + 1]] if dots else []
+            base = ".".join([*above, *filter(None, [base])])
+            names = [base, *(f"{base}.{name}" for name in _named(members))]
         else:
-            continue
+            names = _named(plain)
         for name in names:
             parts = name.split(".")
-            if parts[0] != PACKAGE:
-                continue
             # importing a.b.c runs a/__init__, a/b/__init__ and a/b/c, or a/b/c/__init__
             packages = ["/".join((*parts[:depth], "__init__.py")) for depth in range(1, len(parts) + 1)]
-            known = _modules(source)
-            found.extend(known[name] for name in (*packages, f"{'/'.join(parts)}.py") if name in known)
+            found.extend(modules[each] for each in (*packages, f"{'/'.join(parts)}.py") if each in modules)
     return found
+
+
+def _named(listed: str) -> list[str]:
+    """Names that an import lists, without those that they are given."""
+    return [name.split()[0] for name in listed.strip("() \t\n").split(",") if name.strip()]
 
 
 @functools.cache
@@ -67,30 +71,30 @@ def _modules(source: Path) -> dict[str, Path]:
     return {path.relative_to(source).as_posix(): path for path in (source / PACKAGE).rglob("*.py")}
 
 
-def _statements(tree: ast.Module) -> Iterator[ast.AST]:
-    """All statements, within others too; expressions, which are most of a tree, hold none."""
-    waiting: list[ast.AST] = [tree]
-    while waiting:
-        node = waiting.pop()
-        yield node
-        within = (ast.stmt, ast.excepthandler, ast.match_case)
-        waiting.extend(child for child in ast.iter_child_nodes(node) if isinstance(child, within))
-
-
 def _program(path: Path) -> str:
     """The text of a module, or of a notebook's code cells."""
     text = path.read_text(encoding="utf-8")
     if path.suffix != ".ipynb":
         return text
     cells = json.loads(text)["cells"]
-    program = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
-    return MAGIC.sub(r"\1pass", program)
+    return "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
 
 
 def checksum(files: Iterable[str]) -> str:
     """Of what the files say, whatever their names and times."""
-    digests = (hashlib.sha256(Path(file).read_bytes()).digest() for file in files)
-    return hashlib.sha256(b"".join(digests)).hexdigest()
+    return hashlib.sha256(b"".join(map(_digest, files))).hexdigest()
+
+
+def checksum_of_code(program: Path, source: Path) -> str:
+    """The same of a script or notebook and all modules that it reaches, as they were when the first was asked for."""
+    return hashlib.sha256(b"".join(map(_digest_of_code, reached_modules(program, source)))).hexdigest()
+
+
+def _digest(file: str) -> bytes:
+    return hashlib.sha256(Path(file).read_bytes()).digest()
+
+
+_digest_of_code = functools.cache(_digest)
 
 
 def files_in(paths: Iterable[Path]) -> list[Path]:

@@ -18,6 +18,9 @@ from .scene.tissue_law import Kinematics
 from .scene.validation import check_device, require_effect
 from .scene.variation import NO_VALUES, variants
 
+NUMBERS = ("score", "score_error", "indentation_mm", "force_N_per_mm", "sliding_share", "time_s")
+RANKS = ("rank", "first_rank", "last_rank")
+
 
 def predict(
     device: str | PathLike[str],
@@ -35,8 +38,9 @@ def predict(
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
     "finite". conditions: names of those that are predicted alone, on a mesh made for them (default: all). config: the
     config.yaml beside the device file's folder if not given, or else that of the checkout around the working folder, as
-    are schemas. Raises SceneError, and UsageError if there is no such checkout or there are no such kinematics, if what
-    is varied has no effect (`require_effect`), and if conditions are a text.
+    are schemas. Numbers that are not known are NaN, and such ranks NA. Raises SceneError, and UsageError if there is no
+    such checkout or there are no such kinematics, if what is varied has no effect (`require_effect`), and if conditions
+    are a text.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
@@ -54,4 +58,4 @@ def predict(
         for values, scene in cases
         for row in forecast(scene.with_asked(conditions).with_kinematics(Kinematics(kinematics)), error)
     ]
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows).astype(dict.fromkeys(NUMBERS, "float64") | dict.fromkeys(RANKS, "Int64"))

@@ -57,7 +57,7 @@ try:
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
     SHIPPED = {}
-    for path in sorted(SHIPPED_DEVICES.glob("[!.]*.yaml")):
+    for path in sorted(set(SHIPPED_DEVICES.glob("[!.]*.yaml")) - set(DEVICE_FILES)):
         with suppress(FingerpadError):  # a draft there concerns no other folder of scenes
             SHIPPED[path.stem] = check_device(path, SCHEMAS, BASE / "config" / "config.yaml")
     # a device of the paper that has no file any more has no conditions: what data/ says of it is left out
@@ -298,7 +298,7 @@ def code_of(program):
     """What a script or notebook and the modules that it reaches say: a rule reruns when that changes. As a parameter it is
     compared once; as inputs, Snakemake would look at each module of each waiting job again and again.
     """
-    return support.checksum(support.reached_modules(program, SOURCE))
+    return support.checksum_of_code(program, SOURCE)
 
 
 def code(script):
