@@ -6,14 +6,22 @@ import ast
 import importlib
 import re
 import tomllib
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 import yaml
 
-from fingerpad import errors
+from fingerpad import api, errors
+from fingerpad.contact.certificate import Certificate
+from fingerpad.contact.solution import Solution
 from fingerpad.digraph import levels
 from fingerpad.pages.codemap import dotted, imported, page, summary, unit
+from fingerpad.perception.correlation import COLUMNS
+from fingerpad.prediction import frictions, phases
+from fingerpad.readouts.gabor import FilteredReadouts
+from fingerpad.readouts.scorings import response_rows
+from scenes import scene
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "fingerpad"
@@ -161,3 +169,12 @@ def test_citation_has_the_version_of_the_project() -> None:
 @pytest.mark.parametrize("path", sorted(MODULES))
 def test_every_module_says_in_a_line_what_it_is(path: str) -> None:
     assert summary(MODULES[path]).endswith((".", ":"))
+
+
+def test_the_page_of_outputs_names_what_is_written() -> None:
+    """All arrays of what is solved and filtered, all columns of `predict` and of tables that `all` does not make."""
+    named = set(re.findall(r"`([\w/]+)`", (ROOT / "docs" / "outputs.md").read_text(encoding="utf-8")))
+    arrays = {field.name for kind in (Solution, FilteredReadouts) for field in fields(kind)}
+    arrays = arrays - {"reading", "certificate"} | {f"certificate/{field.name}" for field in fields(Certificate)}
+    columns = {*COLUMNS, *phases.COLUMNS, *frictions.COLUMNS, *api.NUMBERS, *api.RANKS}
+    assert arrays | columns | set(response_rows(scene("device2"))[0]) <= named

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import csv
 import hashlib
+import re
 from pathlib import Path
 
 import meshio
+import numpy as np
 import pandas as pd
 import pytest
 
-from conftest import SMALL_ONLY, Project
+from conftest import ROOT, SMALL_ONLY, Project
 from fingerpad.contact.solution import Solution
 from fingerpad.store import load
 from recorded import KEY, TOLERANCE, not_as_recorded
@@ -120,3 +123,18 @@ def test_figures_are_complete_and_byte_stable(changeable: Project) -> None:
     run = changeable.snakemake("--force", "results/figures/figure_5_correlation.png")
     assert run.status == 0, run.text
     assert before == {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in figures.iterdir()}
+
+
+@pytest.mark.workflow
+def test_a_run_writes_what_the_page_of_outputs_names(finite_run: Project) -> None:
+    """Every column of its tables, and every array of what is solved and filtered."""
+    named = set(re.findall(r"`([\w/]+)`", (ROOT / "docs" / "outputs.md").read_text(encoding="utf-8")))
+    written = set[str]()
+    for path in (finite_run.folder / "results").glob("*.csv"):
+        with path.open(encoding="utf-8", newline="") as file:
+            written |= set(next(csv.reader(file)))
+    for name in ("solution", "filtered"):
+        with np.load(finite_run.folder / f"results/small/device2/alternate_180/shear/{name}.npz") as archive:
+            written |= set(archive.files)
+    assert "certificate/cone_share" in written
+    assert written <= named
