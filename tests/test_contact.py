@@ -276,7 +276,7 @@ def missed_by_a_patch(compliance: FloatArray) -> float:
         max_cuts=10,
     )
     order = np.concatenate([2 * np.arange(x.size), 2 * np.arange(x.size) + 1])
-    response = patch_of(problem, np.arange(x.size), None).response
+    response = patch_of(problem, np.arange(x.size), x, None, np.zeros((1, 2))).response
     unit = compliance[np.ix_(order, order)] @ response.T  # which has one displacement a row
     return float(np.abs(unit - np.eye(2 * x.size)).max())
 

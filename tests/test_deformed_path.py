@@ -9,12 +9,11 @@ import pytest
 
 import fingerpad.finite.deformed_solution
 import fingerpad.finite.pressing
-from fingerpad.arrays import FloatArray
 from fingerpad.contact.advice import left_out
 from fingerpad.contact.path import advance
 from fingerpad.errors import ContactError, CrossingError, DepthError, SnapError
 from fingerpad.finite.deformed import deformed_state, solver_on
-from fingerpad.finite.deformed_path import DeformedTissue, move
+from fingerpad.finite.deformed_path import move
 from fingerpad.finite.deformed_solution import (
     PressedFinger,
     equilibria,
@@ -46,25 +45,8 @@ def finger(base: Scene) -> PressedFinger:
     return pressed_finger(base, section, None, pressed, Interface.FRICTIONLESS)
 
 
-def moved(tissue: DeformedTissue, forces: FloatArray) -> FloatArray:
-    return np.asarray(tissue.part.loads.T @ tissue.solve(tissue.part.loads @ forces))
-
-
-def test_a_spring_makes_the_softest_mode_as_stiff_as_the_next(finger: PressedFinger) -> None:
-    """On the tissue as in the compliance of the contact nodes; the others stay as they are."""
-    assert finger.tissue.spring is not None
-    compliance = finger.tissue.compliance
-    forces = np.random.default_rng(0).standard_normal(compliance.shape[0])
-    answer = moved(finger.tissue, forces)
-    assert np.abs(answer - compliance @ forces).max() < ROUNDING * np.abs(answer).max()
-    without, held = (np.linalg.eigvalsh(each) for each in (finger.pressed.section.compliance, compliance))
-    next_twice = np.append(without[:-1], without[-2])
-    assert np.abs(held - next_twice).max() < ROUNDING * without[-1]
-    assert without[-1] > 2.0 * without[-2]
-
-
 def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
-    """Both ends are in equilibrium: they differ by what corrections leave, though the spring held one of them."""
+    """Both ends are in equilibrium: they differ by what corrections leave."""
     up = 0.02 * np.array([1.0, 1.0, -1.0, -1.0])
     target = finger.start.state.actuator + np.stack([np.zeros(4), up], axis=1)
     corrected, _ = move(finger.tissue, finger.problem, finger.start, target, 4)

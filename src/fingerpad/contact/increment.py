@@ -100,15 +100,19 @@ def _solved_as_given(
     outset = _outset(problem, start, actuator, origin, gap_scale)
     start, status, reference, guess = outset.start, outset.status, outset.reference, outset.guess
     needed, ahead = outset.needed, outset.ahead
-    expected, there = guess, touch(problem, guess)
-    patch = patch if there is None else None
+    expected = guess
+    if patch is not None and problem.body is not None:  # it serves where skin touches the faces as it did
+        again = np.array_equal(patch.actuator, actuator) and np.array_equal(patch.given, problem.actuator_of)
+        patch, expected = (patch, patch.place) if again else (None, guess)
+    there = touch(problem, expected)
     iterations, searched, residual, bias = 0, False, float("inf"), None
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
     while iterations < MAX_ITERATIONS:
         if patch is None or not holds(patch, needed):
             try:
-                patch, bias = patch_of(problem, nodes_of(problem, needed, ahead), there), None
+                patch = patch_of(problem, nodes_of(problem, needed, ahead), expected, there, actuator)
+                bias = None
             except np.linalg.LinAlgError:
                 raise NotConvergedError(float("inf")) from None
         nodes = patch.nodes

@@ -22,22 +22,32 @@ ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; sourc
 class Patch:
     """Contact nodes (b,) by ascending index, and the forces (2b, 2b) [N/mm per mm] that unit displacements of skin and
     faces between them take: one displacement a row, ordered x0, x1, ..., y0, y1, ... stiffest: largest on the diagonal.
+    given: (n,) index of the actuator whose face each node touches, and place: (n,) where [mm], if deformable, with the
+    actuators at `actuator` (n_actuators, 2) [mm].
     """
 
     nodes: np.ndarray
     response: FloatArray
     stiffest: float
+    given: np.ndarray
+    place: FloatArray
+    actuator: FloatArray
 
 
-def patch_of(problem: ContactProblem, nodes: np.ndarray, there: FloatArray | None) -> Patch:
-    """Stiffness of some nodes, all other nodes unloaded. Raises LinAlgError if their compliance is singular."""
+def patch_of(
+    problem: ContactProblem, nodes: np.ndarray, place: FloatArray, there: FloatArray | None, actuator: FloatArray
+) -> Patch:
+    """Stiffness of some nodes, all other nodes unloaded. there: where skin at these places (n,) [mm] touches deformable
+    faces (`faces.touch`). Raises LinAlgError if their compliance is singular.
+    """
     compliance = nodal_compliance(problem, nodes, there)
     held = np.flatnonzero(np.diag(compliance) == 0.0)
     compliance[held, held] = 1.0  # what does not move answers no load: any stiffness leaves it where it is
     response = _inverse(compliance)
     if not _answers(response, compliance):
         response = np.asarray(np.linalg.inv(compliance).T, dtype=float)
-    return Patch(nodes, response, float(np.abs(np.diag(response)).max()))
+    stiffest = float(np.abs(np.diag(response)).max())
+    return Patch(nodes, response, stiffest, problem.actuator_of, place, actuator)
 
 
 def nodes_of(problem: ContactProblem, needed: np.ndarray, ahead: np.ndarray) -> np.ndarray:
@@ -46,8 +56,9 @@ def nodes_of(problem: ContactProblem, needed: np.ndarray, ahead: np.ndarray) -> 
 
 
 def holds(patch: Patch, nodes: np.ndarray) -> bool:
-    """Whether some nodes (k,) lie within a patch."""
-    return bool(np.isin(nodes, patch.nodes).all())
+    """Whether some nodes (k,), by ascending index, lie within a patch."""
+    place = np.searchsorted(patch.nodes, nodes)
+    return nodes.size == 0 or bool(nodes[-1] <= patch.nodes[-1] and (patch.nodes[place] == nodes).all())
 
 
 def _answers(response: FloatArray, compliance: FloatArray) -> bool:

@@ -124,19 +124,28 @@ def recording(solve: SolveIncrement[State, Carried], note: Callable[[State], obj
 
 
 def drifting_to(
-    last: FloatArray, begin: FloatArray, target: FloatArray, power: int = 1
+    last: FloatArray,
+    begin: FloatArray,
+    target: FloatArray,
+    power: int = 1,
+    patches: dict[float, Patch] | None = None,
 ) -> SolveIncrement[ContactState, Patch | None]:
     """What solves an increment of a line from `begin` to `target` (n_actuators, 2) [mm] along which contact nodes
     without forces drift from the problem's place to `last` (n, 2) [mm], with a power of the way.
+
+    patches: by the share of the way [1], that such a line with another drift left; those of this one are put there.
     """
     length = float(np.abs(target - begin).max())
+    kept = {} if patches is None else patches
 
     def solve(
         problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: Patch | None
     ) -> tuple[ContactState, Patch]:
         first = np.zeros_like(last) if problem.free is None else problem.free
         way = 1.0 if stands(begin, target) else float(np.abs(actuator - begin).max()) / length
-        return solve_increment(replace(problem, free=first + way**power * (last - first)), state, actuator, patch)
+        there = replace(problem, free=first + way**power * (last - first))
+        state, kept[way] = solve_increment(there, state, actuator, kept.get(way, patch))
+        return state, kept[way]
 
     return solve
 

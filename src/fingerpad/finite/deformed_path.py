@@ -8,9 +8,9 @@ of the way from u_0, where K is exact, and evenly from elsewhere; without fricti
 end is found again. So the tissue is in equilibrium wherever a move ends.
 
 Any K leads there, the slower the farther u is from u_0. Where a move that begins elsewhere does not settle soon, the
-tissue is linearised anew where it begins, and the moves that follow run on that. Without friction a pressed finger can
-all but sway freely, and corrections on its tangent go astray with the softest mode: there K is the tangent and a spring
-on that mode.
+tissue is linearised anew where it begins, and the moves that follow run on that. Corrections are accelerated in the
+norm of the energy that K gives them: without friction a pressed finger can all but sway freely, and in the norm of
+displacements what sways would hide the rest.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU
 
 from ..arrays import FloatArray
@@ -48,7 +47,7 @@ MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way
 # The same [1] of a move that begins elsewhere than where tissue was linearised, before it is linearised there; source:
 # fewest seconds of 5, 10, 20 (measured displacements that press and slip)
 FEW_CORRECTIONS = 10
-SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 3e-4
+SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 8e-4
 
 
 @dataclass(frozen=True)
@@ -57,7 +56,7 @@ class DeformedTissue:
 
     part: that section, which is moved as a whole. factors: of its tangent K. compliance: (2m, 2m) of its contact nodes
     [mm per N/mm]. displacement: (size,) [mm]. condensing: the same part in an order from which new tangents are
-    condensed, for moves that need them. spring: `solve` and compliance are with K + spring, or None.
+    condensed, for moves that need them.
     """
 
     part: TissuePart
@@ -65,41 +64,16 @@ class DeformedTissue:
     compliance: FloatArray
     displacement: FloatArray
     condensing: Callable[[], TissuePart]
-    spring: Spring | None
 
-    def solve(self, load: FloatArray) -> FloatArray:
-        """Displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
-        field = np.asarray(self.factors.solve(load))
-        return field if self.spring is None else field - self.spring.takes(load)
-
-    def back_from(self, displacement: FloatArray) -> FloatArray:
-        """-K^-1 R (n_free,) [mm] at a displacement (size,) [mm]: how far tissue that nothing holds there goes back.
-        Raises InvertedError.
-        """
-        elements = self.part.elements
-        return -self.solve(internal_force(elements, displacement)[elements.free])
+    @cached_property
+    def held(self) -> FloatArray:
+        """R(u_0) (n_free,) [N/mm], with which all moves from there begin."""
+        return np.asarray(internal_force(self.part.elements, self.displacement)[self.part.elements.free])
 
     @cached_property
     def back(self) -> FloatArray:
-        """`back_from` u_0, with which all moves from there begin."""
-        return self.back_from(self.displacement)
-
-
-@dataclass(frozen=True)
-class Spring:
-    """A spring that makes the softest mode v of the contact nodes as stiff as the next.
-
-    With C v = c v and the next eigenvalue c', C' = C - (c - c') v v^T is the compliance of contact nodes, and
-    K^-1 - (c - c')/c^2 g g^T with g = K^-1 W v that of the tissue (Sherman and Morrison). Only corrections feel it.
-    field: (n_free,) g. share: (c - c')/c^2.
-    """
-
-    field: FloatArray
-    share: float
-
-    def takes(self, load: FloatArray) -> FloatArray:
-        """What it takes of the displacement (n_free,) [mm] by a load (n_free,) [N/mm]."""
-        return self.share * float(self.field @ load) * self.field
+        """-K^-1 R(u_0) (n_free,) [mm]: how far tissue that nothing holds there goes back."""
+        return -np.asarray(self.factors.solve(self.held))
 
 
 @dataclass(frozen=True)
@@ -120,49 +94,21 @@ class Equilibrium:
 
 
 def deformed_tissue(
-    part: TissuePart,
-    displacement: FloatArray,
-    condensing: Callable[[], TissuePart],
-    compliance: FloatArray,
-    sprung: bool,
+    part: TissuePart, displacement: FloatArray, condensing: Callable[[], TissuePart], compliance: FloatArray
 ) -> DeformedTissue:
-    """Linearise about a displacement (size,) [mm], where contact nodes have that compliance (2m, 2m) [mm per N/mm],
-    with a spring on its softest mode if asked for.
+    """Linearise about a displacement (size,) [mm], where contact nodes have that compliance (2m, 2m) [mm per N/mm].
 
     Raises CondensationError if the tangent is singular, InvertedError if elements are turned inside out.
     """
     factors = factorise(tangent_stiffness(part.elements, displacement))
-    return _about(displacement, part, factors, compliance, condensing, sprung)
-
-
-def _about(
-    displacement: FloatArray,
-    part: TissuePart,
-    factors: SuperLU,
-    compliance: FloatArray,
-    condensing: Callable[[], TissuePart],
-    sprung: bool,
-) -> DeformedTissue:
-    """The tissue with the factors of its tangent about a displacement (size,) [mm]."""
-    spring, held = _spring(part, factors, compliance) if sprung else (None, compliance)
-    return DeformedTissue(part, factors, held, displacement, condensing, spring)
+    return DeformedTissue(part, factors, compliance, displacement, condensing)
 
 
 def _linearised_there(tissue: DeformedTissue, displacement: FloatArray) -> tuple[DeformedTissue, Tangent]:
     """The tissue about another displacement (size,) [mm], and its tangent there. Raises as `deformed_tissue`."""
     part = tissue.condensing()
     tangent = tangent_at(part, displacement)
-    sprung = tissue.spring is not None
-    return _about(displacement, part, tangent.factors, tangent.compliance, lambda: part, sprung), tangent
-
-
-def _spring(part: TissuePart, factors: SuperLU, compliance: FloatArray) -> tuple[Spring, FloatArray]:
-    """The spring on the softest mode of a compliance (2m, 2m), whose tissue has these factors, and C'."""
-    count = compliance.shape[0]
-    (next_one, softest), modes = eigh(compliance, subset_by_index=[count - 2, count - 1])
-    mode = modes[:, 1]
-    spring = Spring(factors.solve(part.loads @ mode), float(softest - next_one) / float(softest) ** 2)
-    return spring, compliance - (softest - next_one) * np.outer(mode, mode)
+    return DeformedTissue(part, tangent.factors, tangent.compliance, displacement, lambda: part), tangent
 
 
 def move(
@@ -221,25 +167,30 @@ def _corrected(
     part, free = tissue.part, tissue.part.elements.free
     problem = replace(problem, compliance=tissue.compliance)
     begins_there = np.array_equal(start.displacement, tissue.displacement)
-    power = 2 if begins_there and tissue.spring is None else 1
+    power = 2 if begins_there else 1
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
+    loads: list[FloatArray] = []
     displacement, first, state = start.displacement, None, None
     patch: Patch | None = None
+    patches: dict[float, Patch] = {}
     for correction in range(most):
         try:
-            back = tissue.back if begins_there and correction == 0 else tissue.back_from(displacement)
+            here = begins_there and correction == 0
+            held = tissue.held if here else internal_force(part.elements, displacement)[free]
+            back = tissue.back if here else -tissue.factors.solve(held)
             last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
             if state is None or problem.friction > 0.0:
-                drifting = drifting_to(last, start.state.actuator, target, power)
+                drifting = drifting_to(last, start.state.actuator, target, power, patches)
                 state, patch = advance(replace(problem, free=first), start.state, target, increments, patch, drifting)
             else:
                 there = replace(problem, free=last)
                 state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
         except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
             raise _UnsettledError from error
-        step = back + tissue.solve(part.loads @ state.force.ravel())
+        pushed = part.loads @ state.force.ravel()
+        step = back + tissue.factors.solve(pushed)
         reached = displacement[free] + step
         moved = float(np.abs(reached - start.displacement[free]).max())
         # a stimulus that never touches moves nothing
@@ -247,8 +198,9 @@ def _corrected(
         if correction > 0:  # the first is no correction, but the move itself
             steps.append(step)
             ends.append(reached)
+            loads.append(pushed - held)
         displacement = displacement.copy()
-        displacement[free] = reached
+        displacement[free] = accelerated(steps, ends, loads) if steps else reached
         if defect <= SETTLED:
             if is_far(moved, float(np.abs(target - start.state.actuator).max()), float(np.abs(target).max())):
                 raise _UnsettledError
@@ -259,8 +211,6 @@ def _corrected(
                 tangents=start.tangents,
                 defect=max(start.defect, defect),
             )
-        if steps:
-            displacement[free] = accelerated(steps, ends)
     raise _UnsettledError
 
 

@@ -26,7 +26,7 @@ from ..tissue.elasticity import mesh_dofs
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import receptor_gradient
 from ..tissue.skin import Skin, require_uncrossed, skin_of
-from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move, on_compliance
+from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move
 from .finite_strain import logarithmic_strain
 from .pressing import Pressed, whole_part
 
@@ -61,16 +61,14 @@ def pressed_finger(
     displacement[dofs] = pressed.displacement
     skin = skin_of(section, dofs, halved=False)
     problem, state, free = contact_problem(scene, pressed.section, body, interface), pressed.state, pressed.free
-    sprung = problem.friction == 0.0  # friction holds the finger, and minds the way
     condensing = partial(whole_part, scene, section, True)
-    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, problem.compliance, sprung)
-    free = on_compliance(tissue.compliance, problem.compliance, free, state.force)
+    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, problem.compliance)
     start = Equilibrium(state=state, displacement=displacement, free=free, tangents=0, defect=0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(
         interface=interface,
         pressed=pressed,
-        problem=replace(problem, compliance=tissue.compliance, free=free),
+        problem=replace(problem, free=free),
         tissue=tissue,
         start=start,
         gradient=gradient,
