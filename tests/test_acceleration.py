@@ -28,3 +28,15 @@ def test_only_the_last_iterates_are_combined() -> None:
     steps, ends = np.random.default_rng(1).normal(size=(2, MEMORY + 3, 40))
     expected = accelerated([*steps[-MEMORY:]], [*ends[-MEMORY:]])
     assert accelerated([*steps], [*ends]) == pytest.approx(expected, rel=1e-12)
+
+
+def test_what_is_left_of_steps_is_least_in_energy() -> None:
+    """On a structure with one mode that is all but free: its large steps, which cost nothing, hide no other."""
+    stiffness = np.diag([1e-6, 1.0, 2.0])
+    steps = [np.array([3.0, 0.2, -0.1]), np.array([-2.0, 0.1, 0.05])]
+    change = steps[1] - steps[0]
+    weight = change @ stiffness @ steps[1] / (change @ stiffness @ change)  # where the energy's derivative vanishes
+    ends = [np.zeros(3), np.ones(3)]
+    found = accelerated(steps, ends, [stiffness @ step for step in steps])
+    np.testing.assert_allclose(found, 1.0 - weight, rtol=1e-12)
+    assert np.abs(accelerated(steps, ends) - found).min() > 0.1  # the size of steps would have another
