@@ -24,6 +24,7 @@ from fingerpad.calculix.crosscheck import (
     differences,
     fingerpad_outcome,
     on_deck,
+    prepared,
     printed_outcome,
     sharpened,
 )
@@ -352,3 +353,33 @@ def test_differences_of_scores_are_relative() -> None:
     found = differences(other, one)
     assert found.pop("score_change_of_strain") == pytest.approx(0.1)
     assert set(found.values()) == {0.0}
+
+
+@pytest.mark.parametrize("changed", ["strain", "force"])
+@pytest.mark.parametrize(("time", "when"), [(0, "indented"), (1, "actuated")])
+def test_differences_are_those_of_their_own_time(time: int, when: str, changed: str) -> None:
+    """Strain or forces are a tenth larger after pre-indentation, or after the stimulus."""
+    arc = np.linspace(0.0, 1.0, 5)
+    one = Outcome(arc, np.array([arc + 1.0, 2.0 * arc + 1.0]), np.ones((2, 3, 2)), dict.fromkeys(Readout, 2.0))
+    larger = getattr(one, changed).copy()
+    larger[time] *= 1.1
+    found = differences(replace(one, **{changed: larger}), one)
+    forces = {"indented": "pressing_indented", "actuated": "force_actuated"}
+    for key in ("indented", "actuated"):
+        expected = 0.1 if key == when else 0.0
+        assert found[f"strain_{key}"] == pytest.approx(expected if changed == "strain" else 0.0)
+        assert found[forces[key]] == pytest.approx(expected if changed == "force" else 0.0)
+
+
+@pytest.mark.parametrize(
+    ("friction", "indenting", "acting"), [("never", 0.0, 0.0), ("stimulus", 0.0, 0.6), ("always", 0.6, 0.6)]
+)
+def test_friction_acts_from_when_on_a_case_says(friction: str, indenting: float, acting: float) -> None:
+    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
+    case = {key: getattr(SETTINGS, key) for key in keys}
+    base = scene("device2")
+    base = base.with_model(contact=replace(base.model.contact, friction=0.6))
+    _, settings = prepared(
+        base, case | {"kinematics": "small", "indentation": 1.0, "edges": "rounded", "friction": friction}
+    )
+    assert (settings.friction_indenting, settings.friction_acting) == (indenting, acting)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
+from scipy.linalg import solve_triangular
+from scipy.sparse import csc_matrix, csr_matrix, diags_array
 from scipy.sparse.linalg import spsolve
 
 from fingerpad.errors import CondensationError
@@ -12,8 +13,10 @@ from fingerpad.fields.recovery import recover_displacement
 from fingerpad.fields.states import states_fields
 from fingerpad.readouts.strain import maximum_principal
 from fingerpad.scene.contact_law import Interface
-from fingerpad.tissue.condensation import condense, section_stiffness
+from fingerpad.tissue.condensation import condense, condense_section, section_stiffness, trailing_compliance
 from fingerpad.tissue.elasticity import mesh_dofs, unit_loads
+from fingerpad.tissue.factors import factorise
+from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
 from scenes import condensed, scene, section, solved
@@ -54,11 +57,14 @@ def test_compliance_is_symmetric_and_positive(device: str) -> None:
 
 
 def test_receptor_line_is_ordered_and_spans_the_pad() -> None:
-    """Arc length ascends, is odd about the mid-line but for the rounding of sums of some hundred segments, and reaches
-    past the widest point on both sides.
+    """Its arc is as long as its facets are, but for what lies beyond the outermost receptors: it goes through them in
+    turn. It is odd about the mid-line but for the rounding of sums of some hundred segments, and reaches past the
+    widest point on both sides.
     """
-    found, _ = condensed("device1")
-    assert np.all(np.diff(found.arc) > 0)
+    (found, _), mesh = condensed("device1"), section("device1")
+    ends = mesh.mesh.p[:, mesh.mesh.facets[:, mesh.receptor_facets]]
+    length = np.hypot(*(ends[:, 1] - ends[:, 0]))
+    assert 0.0 < length.sum() - np.ptp(found.arc) < length.max()
     assert np.abs(found.arc + found.arc[::-1]).max() < 1e-12
     assert found.arc[-1] > 10.0
 
@@ -118,6 +124,30 @@ def test_a_singular_stiffness_is_a_named_error() -> None:
     none = csr_matrix((0, matrix.shape[0]))
     with pytest.raises(CondensationError, match="nothing holds"):
         condense(matrix, dofs, np.array([], dtype=int), unit_loads(dofs, mesh.skin[:5], matrix.shape[0]), none)
+
+
+def test_factors_that_leave_a_residual_are_a_named_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of another stiffness, by a thousandth."""
+    base = scene("device2").coarsened(4.0)
+    monkeypatch.setattr("fingerpad.tissue.condensation.factorise", lambda matrix: factorise(csc_matrix(1.001 * matrix)))
+    with pytest.raises(CondensationError, match="equilibrium residual"):
+        condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+
+
+def test_compliance_at_the_end_of_the_factors_is_held_against_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of five springs of 1 N/mm in line the last nodes yield by 4 and 5 mm; what is off by a thousandth is an error."""
+    beside = np.full(4, -1.0)
+    line = csc_matrix(diags_array([beside, np.array([2.0, 2.0, 2.0, 2.0, 1.0]), beside], offsets=[-1, 0, 1]))
+    loads = csc_matrix(np.eye(5)[:, 3:])
+    compliance, _ = trailing_compliance(line, factorise(line), loads)
+    assert compliance == pytest.approx(np.array([[4.0, 4.0], [4.0, 5.0]]), rel=1e-12)
+
+    def off(*given: object, **how: object) -> np.ndarray:
+        return np.asarray(1.001 * solve_triangular(*given, **how))
+
+    monkeypatch.setattr("fingerpad.tissue.condensation.solve_triangular", off)
+    with pytest.raises(CondensationError, match="equilibrium residual"):
+        trailing_compliance(line, factorise(line), loads)
 
 
 def test_body_compliance_is_its_own_mirror_image() -> None:

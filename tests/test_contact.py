@@ -13,7 +13,14 @@ from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact.active_set import NotConvergedError
 from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
-from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
+from fingerpad.contact.formulation import (
+    ContactProblem,
+    ContactState,
+    Status,
+    actuator_forces,
+    rest,
+    touching_height,
+)
 from fingerpad.contact.increment import solve_increment
 from fingerpad.contact.indentation import SHALLOW, raise_until
 from fingerpad.contact.ownership import given_anew, given_to
@@ -304,6 +311,11 @@ def test_the_front_of_contact_is_where_hertz_has_it() -> None:
     assert front(x, np.maximum(x - 0.07, 0.0) ** 1.5, x < 0.02) == pytest.approx(0.07, abs=1e-13)  # rounding
 
 
+def test_the_front_of_contact_lies_no_nearer_than_what_touches() -> None:
+    """Though skin beyond hardly rises from one node to the next, and extrapolates to zero before."""
+    assert front(np.arange(4.0), np.array([0.0, 0.0, 1.0, 1.1]), np.arange(4) < 2) == 1.0
+
+
 def test_skin_that_is_given_to_another_actuator_has_the_gap_over_that_one() -> None:
     """Actuators stand at heights and places of their own. Exact, but for the rounding of lengths of some mm."""
     x = np.linspace(-0.5, 2.5, 13)
@@ -350,6 +362,14 @@ def test_skin_that_is_given_to_another_actuator_does_not_touch_it_yet() -> None:
     assert ((found.status == Status.OPEN) == moved).all()
     assert (found.drift == ~moved[:, None]).all()
     assert (found.trend == ~moved[:, None]).all()
+
+
+def test_forces_are_borne_by_the_actuator_that_skin_is_given_to() -> None:
+    """Not by the one that undeformed skin is nearest to."""
+    problem = two_pins(np.linspace(-0.5, 2.5, 13))
+    state = replace(rest(problem, 0.0), force=np.ones((13, 2)))
+    _, other = given_to(problem, state, np.full(13, 1))
+    assert actuator_forces(problem, [state, other])[:, :, 1].tolist() == [[7.0, 6.0], [0.0, 13.0]]
 
 
 def test_of_skin_that_went_sideways_that_beside_contact_stays() -> None:

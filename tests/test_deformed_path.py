@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+import fingerpad.finite.deformed
+import fingerpad.finite.deformed_path
 import fingerpad.finite.deformed_solution
 import fingerpad.finite.pressing
 from fingerpad.contact.advice import left_out
+from fingerpad.contact.certificate import Certificate, certify
+from fingerpad.contact.formulation import ContactProblem, ContactState
 from fingerpad.contact.path import advance
-from fingerpad.errors import ContactError, CrossingError, DepthError, SnapError
+from fingerpad.errors import ContactError, CrossingError, DepthError, ReachError, SnapError
+from fingerpad.finite.deformation import internal_force
 from fingerpad.finite.deformed import deformed_state, solver_on
 from fingerpad.finite.deformed_path import move
 from fingerpad.finite.deformed_solution import (
     PressedFinger,
+    certified_equilibria,
     equilibria,
     pressed_finger,
     receptor_logarithmic_strain,
@@ -26,11 +33,12 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.tissue.compliance import CondensedSection
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from scenes import scene
 
 COARSER = 3.0  # times the shipped sizes and strides
-ROUNDING = 1e-8  # relative, of what a soft mode magnifies
+RISEN = np.array([0.0, 0.01])  # mm
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +76,10 @@ def refusing(kind: type[ContactError]) -> Callable[..., None]:
     return refuse
 
 
-@pytest.mark.parametrize(("check", "kind"), [("require_uncrossed", CrossingError), ("require_stable", SnapError)])
+@pytest.mark.parametrize(
+    ("check", "kind"),
+    [("require_uncrossed", CrossingError), ("require_stable", SnapError), ("require_within_reach", ReachError)],
+)
 def test_pressing_is_refused_by_its_checks(
     base: Scene, monkeypatch: pytest.MonkeyPatch, check: str, kind: type[ContactError]
 ) -> None:
@@ -77,6 +88,60 @@ def test_pressing_is_refused_by_its_checks(
     monkeypatch.setattr(fingerpad.finite.pressing, check, refusing(kind))
     with pytest.raises(kind, match="device=device1, interface=frictionless, pre-indentation: refused"):
         press(base, section, None, Interface.FRICTIONLESS)
+
+
+def test_the_pressed_state_is_in_equilibrium_as_far_as_it_says(finger: PressedFinger) -> None:
+    """What its tangent would still move, over the load, is no more than the residual that certificates tell."""
+    pressed, tissue = finger.pressed, finger.tissue
+    elements = tissue.part.elements
+    left = tissue.part.loads @ pressed.state.force.ravel()
+    left -= internal_force(elements, tissue.displacement)[elements.free]
+    step = tissue.factors.solve(left)
+    assert 0.0 < np.abs(step).max() / pressed.state.actuator[0, 1] <= pressed.section.residual
+
+
+def test_what_corrections_left_is_told_by_certificates(base: Scene, finger: PressedFinger) -> None:
+    """As the residual of equilibrium; what a move began with stays in it."""
+    found, certificate = certified_equilibria(base, finger, base.device.condition("low_000"))
+    assert 0.0 < found[-1].defect <= certificate.equilibrium
+    rough = replace(finger.start, defect=0.5)
+    reached, _ = move(finger.tissue, finger.problem, rough, finger.start.state.actuator + RISEN, 4)
+    assert reached.defect == rough.defect
+
+
+def test_tissue_that_jumps_is_not_pressed_further(base: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fingerpad.finite.deformed, "is_far", lambda *_: True)
+    with pytest.raises(SnapError):
+        press(base, mesh_section(base, nominal_edges(base.device.actuators)), None, Interface.FRICTIONLESS)
+
+
+def test_a_correction_that_jumps_is_made_again_with_new_tangents(
+    finger: PressedFinger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(fingerpad.finite.deformed_path, "is_far", lambda *_: True)
+    reached, _ = move(finger.tissue, finger.problem, finger.start, finger.start.state.actuator + RISEN, 4)
+    assert reached.tangents > 0
+
+
+def tap(*heights: float) -> Condition:
+    """All four pins up to some heights [mm] above those of pre-indentation, one after the other."""
+    normal = np.array(heights)[:, None] * np.ones(4)
+    return Condition("tap", "test", 0.0, np.arange(1.0, len(heights) + 1.0), normal, np.zeros_like(normal))
+
+
+def test_every_equilibrium_of_a_stimulus_is_certified(
+    base: Scene, finger: PressedFinger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The pressed one, those on the way, and the last one."""
+    heights = list[float]()
+
+    def noting(problem: ContactProblem, section: CondensedSection, state: ContactState) -> Certificate:
+        heights.append(float(state.actuator[0, 1] - finger.start.state.actuator[0, 1]))
+        return certify(problem, section, state)
+
+    monkeypatch.setattr(fingerpad.finite.deformed_solution, "certify", noting)
+    stimulate_deformed(base, finger, tap(0.01, 0.02, 0.0))
+    assert heights == pytest.approx([0.0, 0.01, 0.02, 0.0])
 
 
 def test_a_stimulus_asks_whether_skin_crosses_itself(
@@ -88,11 +153,9 @@ def test_a_stimulus_asks_whether_skin_crosses_itself(
 
 
 def test_a_stimulus_through_deformed_tissue_is_refused(base: Scene, finger: PressedFinger) -> None:
-    """Before it is followed: no path leads there."""
-    far = np.full((1, 4), 5.0)
-    stroke = Condition("deep", "test", 0.0, np.array([1.0]), far, np.zeros_like(far))
-    with pytest.raises(DepthError, match=r"condition=deep, interface=frictionless: .* mm deep, into 5 mm of tissue"):
-        stimulate_deformed(base, finger, stroke)
+    """Before it is followed, though it comes back: no path leads there."""
+    with pytest.raises(DepthError, match=r"condition=tap, interface=frictionless: .* mm deep, into 5 mm of tissue"):
+        stimulate_deformed(base, finger, tap(0.0, 5.0, 0.0))
 
 
 def test_finite_receptors_read_logarithmic_strain(base: Scene, finger: PressedFinger) -> None:

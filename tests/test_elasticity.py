@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 
 from fingerpad.closedforms.blocks import block_mesh
 from fingerpad.closedforms.equilibrium import linear_equilibrium
 from fingerpad.scene.finger import Material
-from fingerpad.tissue.elasticity import displacement_basis, facet_strain, node_dofs, stiffness
+from fingerpad.scene.readout import Side
+from fingerpad.tissue.elasticity import displacement_basis, facet_strain, mesh_dofs, node_dofs, stiffness
+from fingerpad.tissue.mesh import element_nodes, mesh_section, nominal_edges
+from fingerpad.tissue.receptors import receptor_strain
+from scenes import scene
 
 
 def test_facet_strain_reads_the_side_that_is_asked_for() -> None:
@@ -28,3 +35,18 @@ def test_facet_strain_reads_the_side_that_is_asked_for() -> None:
         element = np.where(upper[adjacent[0]] == material, adjacent[0], adjacent[1])
         _, strain = facet_strain(mesh, interface, element)
         assert np.abs((strain @ field).reshape(-1, 3)[:, 1] - expected).max() < 1e-12
+
+
+@pytest.mark.parametrize("side", Side)
+def test_receptors_lie_in_elements_of_the_side_they_are_read_on(side: Side) -> None:
+    """What moves where that layer does not reach strains none of them; its own nodes strain every one."""
+    base = scene("device2").coarsened(4.0)
+    base = base.with_model(readout=replace(base.model.readout, side=side))
+    section = mesh_section(base, nominal_edges(base.device.actuators))
+    own = np.unique(element_nodes(section.mesh)[section.layer == base.model.receptor_layer(side)])
+    others = np.setdiff1d(np.arange(section.mesh.doflocs.shape[1]), own)
+    _, strain = receptor_strain(section, base)
+    for nodes, strained in ((own, True), (others, False)):
+        field = np.zeros(strain.shape[1])
+        field[mesh_dofs(section.mesh)[:, nodes]] = np.random.default_rng(0).standard_normal((2, nodes.size))
+        assert np.all((strain @ field).reshape(-1, 3).any(axis=1) == strained)

@@ -32,6 +32,7 @@ from fingerpad.pages.robustness import robustness_values
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.prediction import scoring
+from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
@@ -314,6 +315,14 @@ def test_members_leave_out_kinematics_that_a_device_does() -> None:
     own = scene("device2")
     small = replace(own, device=replace(own.device, kinematics=(Kinematics.SMALL,))).coarsened(8.0)
     assert member_scores([small], Kinematics.FINITE, None, FIRST) == []
+
+
+def test_members_have_rows_of_what_is_not_predicted() -> None:
+    """As the score table of device 3, whose motion is not prescribed without friction."""
+    rows = member_scores([scene("device3").coarsened(4.0)], Kinematics.SMALL, None, FIRST)
+    silent = [row for row in rows if row["interface"] == Interface.FRICTIONLESS]
+    assert len(silent) == len(rows) / 2
+    assert {(row["score"], row["note"]) for row in silent} == {(None, "no prediction")}
 
 
 def test_the_scenes_as_configured_have_their_own_errors() -> None:

@@ -103,6 +103,7 @@ def test_every_time_of_a_history_has_its_forces() -> None:
     assert [(row["time_s"], row["actuator"]) for row in shear] == [
         (t, n) for t in (0.0, 0.5, 2.0) for n in (1, 2, 3, 4)
     ]
+    assert [row["x_mm"] for row in shear[:4]] == list(given.device.actuators.positions)
     assert [row[NORMAL] for row in shear[:4]] == pytest.approx([row[NORMAL] for row in shear[4:8]], rel=EQUAL)
     assert shear[8][NORMAL] > shear[4][NORMAL]
     assert [row["is_read"] for row in shear] == [False] * 8 + [True] * 4

@@ -13,7 +13,9 @@ from fingerpad.errors import ContactError, ConvergenceError, CriterionError, Mes
 from fingerpad.prediction import edges
 from fingerpad.prediction.edges import REACH, edge_intervals, mesh_device
 from fingerpad.scene.contact_law import Interface
-from fingerpad.scene.device import ActuatorRow
+from fingerpad.scene.device import ActuatorRow, Condition
+from fingerpad.scene.scene import Scene
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue import mesh as mesh_of
 from fingerpad.tissue.actuator_body import condense_body
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
@@ -94,6 +96,19 @@ def test_sizes_are_as_asked() -> None:
     read = np.hypot(*(ends[:, 1] - ends[:, 0]))
     below = np.abs(ends[0].mean(axis=0)) < max(row.positions) + row.width / 2
     assert read[below].max() <= numerics.receptor_size * (1.0 + numerics.growth)
+
+
+def test_elements_in_a_zone_beside_edges_are_as_small_as_at_them() -> None:
+    """However much wider than an element it is."""
+    base, zone = scene("device2").coarsened(4.0), 0.2  # mm
+    base = base.with_model(numerics=replace(base.model.numerics, edge_zone=zone))
+    edges = nominal_edges(base.device.actuators)
+    mesh = mesh_section(base, edges)
+    nodes = mesh.mesh.doflocs[:, mesh.skin]
+    length, (x, y) = np.hypot(*(nodes[:, 2::2] - nodes[:, :-2:2])), nodes[:, 1::2]
+    beside = np.any((x[:, None] > edges[:, 0] - zone) & (x[:, None] < edges[:, 1] + zone), axis=1)
+    beside &= y < base.model.finger.height / 2.0
+    assert length[beside].max() <= base.model.numerics.edge_size
 
 
 def test_same_scene_same_mesh_and_round_trip(tmp_path) -> None:  # type: ignore[no-untyped-def]
@@ -264,6 +279,27 @@ def test_edges_end_up_in_their_intervals(name: str) -> None:
     undeformed = np.interp(ends, found.place + centre[found.actuator], found.position[:, 0])[..., None]
     inside = (undeformed >= start - MEASURED) & (undeformed <= stop + MEASURED)
     assert inside.any(axis=-1).all()
+
+
+def edges_of_strokes(base: Scene, *ways: float) -> np.ndarray:
+    """Intervals of a device whose actuators go some ways [mm] aside together, one after the other."""
+    tangential = np.repeat(np.array(ways)[:, None], 4, axis=1)
+    strokes = Condition("strokes", "test", 0.0, np.arange(1.0, len(ways) + 1.0), np.zeros_like(tangential), tangential)
+    return edge_intervals(base.with_conditions((strokes,)))
+
+
+def test_edges_of_a_stimulus_that_comes_back_lie_where_they_did_on_the_way() -> None:
+    base = scene("device2").coarsened(2.0)
+    (start, stop), (first, last) = edges_of_strokes(base, 0.3, 0.0).T, edges_of_strokes(base, 0.3).T
+    assert np.all(start <= first)
+    assert np.all(stop >= last)
+
+
+def test_edges_of_next_to_no_stimulus_are_those_of_pre_indentation() -> None:
+    """With finite kinematics, where stimuli go on from tissue that is deformed already."""
+    base = scene("device2").coarsened(2.0).with_kinematics(Kinematics.FINITE)
+    base = replace(base, device=replace(base.device, frictionless=False))
+    assert np.abs(edges_of_strokes(base, 1e-5) - edges_of_strokes(base, 0.0)).max() < MEASURED
 
 
 def test_an_interval_within_another_takes_nothing_from_it() -> None:

@@ -23,6 +23,7 @@ from fingerpad.readouts.roughness import score_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.readout import Side
+from fingerpad.tissue.compliance import CondensedSection
 from scenes import condensed, scene, section, solve, solved
 
 DEVICE = "device2"
@@ -35,6 +36,12 @@ def rows() -> list[dict[str, Any]]:
         (c.name, Interface.SHEAR): solved(DEVICE, c.name, Interface.SHEAR) for c in scene(DEVICE).device.conditions
     }
     return list(readout_rows(scene(DEVICE), {Side.DERMIS: condensed(DEVICE)[0]}, solutions))
+
+
+@cache
+def both_sides() -> dict[Side, CondensedSection]:
+    """Device 2's maps to strain on both sides."""
+    return on_both_sides(scene(DEVICE), condensed(DEVICE)[0], section(DEVICE))
 
 
 def test_every_variant_is_scored_once() -> None:
@@ -96,13 +103,26 @@ def test_energy_and_stress_have_their_unit() -> None:
 
 def test_other_side_is_condensed_anew() -> None:
     """Receptors are where they are and tissue gives way as it does, but strain across the interface jumps."""
-    own, mesh = condensed(DEVICE)[0], section(DEVICE)
-    found = on_both_sides(scene(DEVICE), own, mesh)
+    own, found = condensed(DEVICE)[0], both_sides()
     assert found[Side.DERMIS] is own
     other = found[Side.EPIDERMIS]
     assert other.receptor == pytest.approx(own.receptor, abs=1e-12)
     assert np.array_equal(other.compliance, own.compliance)
     assert np.abs(other.strain - own.strain).max() > 0.1 * np.abs(own.strain).max()
+
+
+def test_strain_is_that_of_the_side_on_which_it_is_read() -> None:
+    """Everywhere another than across the interface."""
+    name = scene(DEVICE).device.conditions[-1].name
+    solutions = {(name, Interface.SHEAR): solved(DEVICE, name, Interface.SHEAR)}
+    found = [
+        row
+        for row in readout_rows(scene(DEVICE), both_sides(), solutions)
+        if row["measure"] == Measure.MAXIMUM_PRINCIPAL and row["wavelength_factor"] == 1.0
+    ]
+    own, other = ([row["score"] for row in found if row["side"] == side] for side in Side)
+    assert len(own) == 2
+    assert all(abs(far - near) > 0.01 * near for near, far in zip(own, other, strict=True))
 
 
 def test_material_is_that_of_the_side() -> None:

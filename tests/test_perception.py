@@ -22,6 +22,7 @@ from fingerpad.perception.correlation import (
 from fingerpad.perception.extremes import rating_range
 from fingerpad.perception.order import order_matrix, up_sets
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.readouts.comparison import classes
 
 Array = NDArray[np.float64]
 Matrix = NDArray[np.bool_]
@@ -509,6 +510,13 @@ def test_errors_take_tau_to_no_place_beyond_its_range(size: int) -> None:
         assert tau_range(np.arange(size), score, 0.0 * error, rating) == pytest.approx(
             (kendalltau(score, rating).statistic,) * 2
         )
+
+
+def test_tau_of_tied_scores_without_errors_is_one_value() -> None:
+    """Kendall's tau-b, which counts no pair that is tied in scores or in ratings."""
+    score, rating = np.array([1.0, 1.0, 2.0, 3.0, 2.5]), np.array([1.0, 2.0, 3.0, 3.0, 1.0])
+    tau = kendalltau(score, rating).statistic
+    assert tau_range(classes(score), score, np.zeros(5), rating) == pytest.approx((tau, tau))
 
 
 def test_tau_has_no_range_where_errors_are_not_known() -> None:

@@ -151,6 +151,13 @@ def test_resampling_is_cubic_and_finer_grids_change_nothing() -> None:
     assert scores[0] == pytest.approx(scores[1], rel=5e-4)
 
 
+@pytest.mark.parametrize(("start", "stop"), [(-1.0, 1.2), (-1.2, 1.0)])
+def test_a_grid_ends_where_the_shorter_half_of_the_receptors_does(start: float, stop: float) -> None:
+    """Whichever that is: it mirrors, and has no value that is not measured."""
+    grid = resampling_to_grid(np.linspace(start, stop, 50), 0.1).grid
+    assert grid[[0, -1]].tolist() == [-1.0, 1.0]
+
+
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e6])
 def test_values_are_constant_up_to_a_share_of_the_largest(scale: float) -> None:
     assert is_constant(scale * np.array([1.0, 1.0 + 1e-10]))

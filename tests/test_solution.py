@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +20,7 @@ from fingerpad.contact.certificate import (
     certify,
     reevaluated_gap,
     require_within_reach,
+    worst,
 )
 from fingerpad.contact.criterion import END_TOLERANCE, NEARLY
 from fingerpad.contact.depth import require_tissue
@@ -279,6 +280,25 @@ def test_every_state_of_a_stimulus_is_certified(monkeypatch: pytest.MonkeyPatch)
     assert heights == pytest.approx([0.01, 0.03, 0.02])
 
 
+def test_of_several_states_the_worst_figures_are_told() -> None:
+    """Whichever comes first: the largest, but of pressure and of frictional work the smallest."""
+    names = [each.name for each in fields(Certificate)]
+    low, high = (Certificate(**dict.fromkeys(names, figure)) for figure in (1.0, 2.0))
+    expected = replace(high, smallest_pressure=1.0, dissipation=1.0)
+    assert worst([low, high]) == worst([high, low]) == expected
+
+
+def test_sliding_share_counts_both_directions() -> None:
+    """Of what presses at the time that is read, not before."""
+    solution = solved("device2", "alternate_180", Interface.SHEAR)
+    status = np.full_like(solution.status, Status.OPEN)
+    status[:4] = Status.STICK, Status.SLIP_FORWARD, Status.SLIP_BACKWARD, Status.STICK
+    contact = np.full_like(solution.contact, 9.0)
+    contact[1 + solution.reading.time, :, 1] = 0.0
+    contact[1 + solution.reading.time, :4, 1] = 4.0, 3.0, 2.0, 1.0
+    assert replace(solution, contact=contact, status=status).sliding_share == pytest.approx(0.5)
+
+
 def test_normal_and_lateral_histories_combine() -> None:
     """An arbitrary stimulus: each pin its own normal and tangential path; lifting one pin off unloads it alone."""
     time = np.array([1.0, 2.0, 3.0])
@@ -429,6 +449,19 @@ def test_every_state_on_the_way_is_certified(way: list[float]) -> None:
     far = Condition("far", "test", 0.0, np.arange(1.0, len(way) + 1.0), np.zeros_like(row), row)
     with pytest.raises(ReachError):
         solve_anew(scene("device2").coarsened(3.0), far)
+
+
+def test_every_increment_asks_whether_contact_stays_within_reach(monkeypatch: pytest.MonkeyPatch) -> None:
+    """So that no path is followed that leads to no solution."""
+    base = scene("device2")
+    pressed = indent_device(base, *condensed("device2"), Interface.SHEAR)
+
+    def refuse(*_: object) -> None:
+        raise ReachError("refused")
+
+    monkeypatch.setattr(fingerpad.contact.linear_solution, "require_within_reach", refuse)
+    with pytest.raises(ReachError, match="device=device2, condition=tap, interface=shear: refused"):
+        stimulate(base, pressed, tap(0.01))
 
 
 @pytest.mark.parametrize("interface", Interface)
@@ -593,9 +626,10 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
         pressure = (state.force[:, 1] / found.weight).max()
         return bearing(0.0, -share * TENSION_LIMIT * pressure * found.weight[least])
 
-    def sheared(share: float) -> tuple[ContactProblem, ContactState]:
+    def sheared(share: float, way: float = 1.0) -> tuple[ContactProblem, ContactState]:
         limit = problem.friction * state.force[least, 1]
-        return bearing(limit + share * CONE_LIMIT * (problem.friction or 1.0) * largest, state.force[least, 1])
+        beyond = share * CONE_LIMIT * (problem.friction or 1.0) * largest
+        return bearing(way * (limit + beyond), state.force[least, 1])
 
     def certified(tampered: tuple[ContactProblem, ContactState]) -> Certificate:
         return certify(tampered[0], found, tampered[1])
@@ -614,6 +648,7 @@ def test_certificate_refuses_what_breaks_a_single_law(interface: Interface) -> N
         ("gap in contact", lowered(-2.0)),
         ("tension", pulling(2.0)),
         ("excess over the friction cone", sheared(2.0)),
+        ("excess over the friction cone", sheared(2.0, -1.0)),
     ):
         with pytest.raises(CertificateError, match=f"certificate: {law} "):
             certified(tampered)
@@ -753,7 +788,9 @@ def test_a_stimulus_through_the_tissue_is_refused(interface: Interface) -> None:
     for extra, pins in ((-0.01, [0, 0, 1, 0]), (0.01, [1, 0, 0, 1])):
         up = np.stack([np.zeros(4), (room + extra) * np.array(pins)], axis=1)
         require_tissue(pressed.problem, (pressed.state.actuator + up)[None], base.model.finger.pad_thickness)
-    deep = Condition("deep", "test", 0.0, np.array([1.0]), np.array([[0, 0, room + 0.01, 0]]), np.zeros((1, 4)))
+    normal = np.zeros((3, 4))
+    normal[1, 2] = room + 0.01  # on the way, not at its ends
+    deep = Condition("deep", "test", 0.0, np.arange(1.0, 4.0), normal, np.zeros_like(normal))
     with pytest.raises(DepthError, match=r"5\.01 mm deep, into 5 mm of tissue"):
         follow_condition(base, pressed.problem, pressed.state, deep)
     with pytest.raises(DepthError, match=r"displacements are in mm$"), named_stimulus(base, deep, interface):
@@ -770,9 +807,9 @@ def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:
     assert not left.force.any()
     assert left.largest_force >= pressed.largest_force > 0.0
     allowed = DISSIPATION_LIMIT * problem.friction * left.largest_force * np.abs(left.actuator).max()
-    certify(problem, found, replace(left, dissipation=-0.5 * allowed))
+    certify(problem, found, replace(left, dissipation=-0.9 * allowed))
     with pytest.raises(CertificateError, match="certificate: negative dissipation "):
-        certify(problem, found, replace(left, dissipation=-2.0 * allowed))
+        certify(problem, found, replace(left, dissipation=-1.1 * allowed))
 
 
 def test_face_shape_functions_interpolate_quadratics() -> None:

@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from skfem import MeshTri, MeshTri2
 
 import fingerpad.vibration.cycling
 from fingerpad.contact.certificate import certify
@@ -18,14 +19,14 @@ from fingerpad.prediction.edges import mesh_device
 from fingerpad.prediction.scoring import condense_mesh
 from fingerpad.readouts.roughness import scene_span
 from fingerpad.readouts.strain import maximum_principal
-from fingerpad.scene.contact_law import Interface
+from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import ActuatorRow, Cycle
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.vibration_rule import Relaxation
 from fingerpad.tissue.compliance import CondensedSection
 from fingerpad.tissue.condensation import condense_section
-from fingerpad.tissue.elasticity import mass
+from fingerpad.tissue.elasticity import mass, mesh_dofs
 from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import IN_BAND, Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import Vibration, displacement, vibrate
@@ -296,6 +297,14 @@ def test_mass_is_density_times_area() -> None:
     assert both @ matrix @ both / 2.0 == pytest.approx(2.0 * soft, rel=1e-7)  # parabolas for arcs: 6e-9 (measured)
 
 
+def test_mass_is_exact_of_motion_that_elements_can_follow() -> None:
+    """On a square of 1 mm that moves by x^2 it is the density times the integral of x^4, but for rounding."""
+    square = MeshTri2.from_mesh(MeshTri.init_symmetric())
+    moved = np.zeros(2 * square.doflocs.shape[1])
+    moved[mesh_dofs(square)[0]] = square.doflocs[0] ** 2
+    assert moved @ mass(square, None, 3.0) @ moved == pytest.approx(3.0 / 5.0, rel=1e-12)
+
+
 def test_inertia_grows_with_the_square_of_frequency_and_is_nothing_without_mass() -> None:
     given, section = coarse(), mesh(("device2", False))
     cycle, indented = given.device.cycles[0], pressed(Interface.SHEAR)
@@ -437,20 +446,25 @@ def test_what_rests_has_neither_score_nor_inertia() -> None:
     assert all(abs(row["score"]) < 1e-12 for row in rows if row["readout"] == Readout.CHANGE_OF_STRAIN)
 
 
-def test_table_says_where_inertia_forbids_a_prediction() -> None:
+@pytest.mark.parametrize("interface", BOTH)
+def test_table_says_where_inertia_forbids_a_prediction(interface: Interface) -> None:
     given = coarse()
     device = replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1])
     careful = replace(given.model, vibration=replace(given.model.vibration, inertia_limit=1e-6))
-    condensed = condense_mesh(given, mesh(("device2", False)))
+    condensed, cycle = condense_mesh(given, mesh(("device2", False))), device.cycles[0]
+    if interface is Interface.SHEAR:
+        driven = stuck(pressed(interface), cycle)
+    else:
+        driven = slipping(vibration(interface, cycle, 5.0))
     for model, predicted in ((given.model, True), (careful, False)):
         asked = Scene(model, device)
         at = condense_vibrating(mesh(("device2", False)), asked, 5.0)
-        rows = frequency_rows(asked, condensed, creeping(), [None, at], Interface.SHEAR)
+        rows = frequency_rows(asked, condensed, creeping(), [None, at], interface)
         assert [row["frequency_hz"] for row in rows] == [0.0, 0.0, 5.0, 5.0]
         assert all(row["score"] > 0.0 for row in rows[:2])  # slow cycles have no inertia
         assert all((row["score"] is not None) is predicted for row in rows[2:])
         assert predicted or all("inertia" in row["note"] and "try about" in row["note"] for row in rows[2:])
-        effect = inertia_effect(given, stuck(pressed(Interface.SHEAR), device.cycles[0]), at.still, at.moving)
+        effect = inertia_effect(given, driven, at.still, at.moving)
         assert all(row["inertia"] == pytest.approx(effect, rel=1e-12) for row in rows[2:])
 
 
@@ -486,6 +500,17 @@ def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> Non
     assert filtered.startswith("the filter's wavelength is 1.3 receptor elements")
     assert [row["note"] for row in without_caveats([plain, told])] == ["", f"{strain}; {filtered}"]
     assert "caveats" not in without_caveats([told])[0]
+
+
+def test_actuators_that_leave_the_skin_at_any_time_of_a_cycle_are_told() -> None:
+    """Two of the pins that hardly touch lift off in each half of it."""
+    given = coarse()
+    touching = replace(given.model, contact=replace(given.model.contact, criterion=Criterion.TOUCH))
+    lifted = Scene(touching, replace(given.device, cycles=(normal(0.4),)))
+    condensed = condense_mesh(given, mesh(("device2", False)))
+    row, _ = frequency_rows(lifted, condensed, creeping(), [None], Interface.FRICTIONLESS)
+    (told,) = row["caveats"]
+    assert told.startswith("actuators that leave the skin, counted from the left: 1, 2, 3, 4 (")
 
 
 def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
@@ -588,9 +613,13 @@ def test_cycles_pass_through_the_snapshot() -> None:
 
 
 def test_variants_of_relaxation_leave_what_they_say() -> None:
-    """Of the modulus: as configured, of some layers alone, half-way to all, half, and as much at another speed."""
+    """Of the modulus: as configured, of some layers alone, half-way to all, half, and as much at another speed. The
+    layers are those below the receptors, and the speed is the fastest.
+    """
     variants = {name: each.model.vibration.relaxation for name, each in _relaxation_variants(scene("device2")).items()}
     usual, *_ = variants.values()
     left = 1.0 - sum(usual.shares)
     found = {name: 1.0 - sum(each.shares) for name, each in variants.items()}
     assert list(found.values()) == pytest.approx([left, left, (1.0 + left) / 2.0, left / 2.0, left])
+    assert [each.layers for each in variants.values()] == [usual.layers, DEEP] + [usual.layers] * 3
+    assert [each.times for each in variants.values()] == [usual.times] * 4 + [(min(usual.times),)]
