@@ -16,15 +16,11 @@ from fingerpad.benchmark.first_order import condense_first_order
 from fingerpad.benchmark.growth import exponents, growth, row_of
 from fingerpad.benchmark.increments import increment_rows
 from fingerpad.benchmark.ladder import (
-    CALCULIX_LADDER,
-    COMPARED_AT,
-    FIRST_ORDER_LADDER,
-    OWN_LADDER,
-    PLAIN_LADDER,
     first_order_ladder,
     own_ladder,
     plain_ladder,
 )
+from fingerpad.benchmark.ladders import CALCULIX_LADDER, COMPARED_AT, FIRST_ORDER_LADDER, OWN_LADDER, PLAIN_LADDER
 from fingerpad.benchmark.skipping import always_rows, skip_rows
 from fingerpad.benchmark.timing import exponent
 from fingerpad.errors import SceneError

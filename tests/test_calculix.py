@@ -17,8 +17,8 @@ from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.both_sides import BothSides
+from fingerpad.calculix.contact_model import ContactModel
 from fingerpad.calculix.crosscheck import (
-    ContactModel,
     Outcome,
     calculix_outcome,
     differences,
