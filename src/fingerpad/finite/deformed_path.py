@@ -67,7 +67,7 @@ class DeformedTissue:
 
     @cached_property
     def held(self) -> FloatArray:
-        """R(u_0) (n_free,) [N/mm], with which all moves from there begin."""
+        """R(u_0) (n_free,) [N/mm], with which all moves from there begin. Raises InvertedError."""
         return np.asarray(internal_force(self.part.elements, self.displacement)[self.part.elements.free])
 
     @cached_property

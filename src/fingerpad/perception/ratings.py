@@ -96,10 +96,9 @@ def read_stated_order(path: Path, conditions_by_device: Mapping[str, Sequence[st
         _check_name(path, line, "device", row["device"], conditions_by_device, OF_DEVICES)
         if not conditions_by_device[row["device"]]:
             continue
+        known, about = conditions_by_device[row["device"]], _conditions_of(row["device"])
         for column in ("lower", "higher"):
-            _check_name(
-                path, line, column, row[column], conditions_by_device[row["device"]], _conditions_of(row["device"])
-            )
+            _check_name(path, line, column, row[column], known, about)
         _check_name(path, line, "relation", row["relation"], [*StatedRelation])
         rows.append(dict(row))
     table = pd.DataFrame(rows, columns=list(ORDER_COLUMNS))
