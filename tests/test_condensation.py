@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix, csr_matrix, diags_array
 from scipy.sparse.linalg import spsolve
 
@@ -13,9 +12,9 @@ from fingerpad.fields.recovery import recover_displacement
 from fingerpad.fields.states import states_fields
 from fingerpad.readouts.strain import maximum_principal
 from fingerpad.scene.contact_law import Interface
-from fingerpad.tissue.condensation import condense, condense_section, section_stiffness, trailing_compliance
+from fingerpad.tissue.condensation import condense, condense_ordered, condense_section, section_stiffness
 from fingerpad.tissue.elasticity import mesh_dofs, unit_loads
-from fingerpad.tissue.factors import factorise
+from fingerpad.tissue.factors import Factors, factorise
 from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
@@ -129,25 +128,59 @@ def test_a_singular_stiffness_is_a_named_error() -> None:
 def test_factors_that_leave_a_residual_are_a_named_error(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of another stiffness, by a thousandth."""
     base = scene("device2").coarsened(4.0)
-    monkeypatch.setattr("fingerpad.tissue.condensation.factorise", lambda matrix: factorise(csc_matrix(1.001 * matrix)))
+
+    def off(matrix: csc_matrix, rows: csr_matrix) -> Factors:
+        return factorise(csc_matrix(1.001 * matrix), rows)
+
+    monkeypatch.setattr("fingerpad.tissue.condensation.factorise", off)
     with pytest.raises(CondensationError, match="equilibrium residual"):
         condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
 
 
-def test_compliance_at_the_end_of_the_factors_is_held_against_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
+SPRINGS = csc_matrix(
+    diags_array([np.full(4, -1.0), np.array([2.0, 2.0, 2.0, 2.0, 1.0]), np.full(4, -1.0)], offsets=[-1, 0, 1])
+)
+
+
+def test_what_is_read_from_the_factors_is_held_against_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of five springs of 1 N/mm in line the last nodes yield by 4 and 5 mm; what is off by a thousandth is an error."""
-    beside = np.full(4, -1.0)
-    line = csc_matrix(diags_array([beside, np.array([2.0, 2.0, 2.0, 2.0, 1.0]), beside], offsets=[-1, 0, 1]))
     loads = csc_matrix(np.eye(5)[:, 3:])
-    compliance, _ = trailing_compliance(line, factorise(line), loads)
+    _, compliance, stretch, _ = condense_ordered(SPRINGS, loads, csr_matrix([[0.0, 0.0, 0.0, -1.0, 1.0]]))
     assert compliance == pytest.approx(np.array([[4.0, 4.0], [4.0, 5.0]]), rel=1e-12)
+    assert stretch == pytest.approx(np.array([[0.0, 1.0]]), abs=1e-12)
 
-    def off(*given: object, **how: object) -> np.ndarray:
-        return np.asarray(1.001 * solve_triangular(*given, **how))
+    read = Factors.read
+    monkeypatch.setattr(Factors, "read", lambda self, count: 1.001 * read(self, count))
+    with pytest.raises(CondensationError, match="displacements are off"):
+        condense_ordered(SPRINGS, loads)
 
-    monkeypatch.setattr("fingerpad.tissue.condensation.solve_triangular", off)
-    with pytest.raises(CondensationError, match="equilibrium residual"):
-        trailing_compliance(line, factorise(line), loads)
+
+def test_rows_may_read_nothing_or_anything_in_any_order() -> None:
+    """Tissue in two pieces, unknowns in no order, stiffness of either sign: K^-1 of numpy, and the number of negative
+    eigenvalues, to rounding.
+    """
+    random = np.random.default_rng(1)
+    pieces = []
+    for size, sign in ((30, 1.0), (12, -1.0)):
+        chain = np.diag(np.full(size, 4.0)) - np.eye(size, k=1) - np.eye(size, k=-1)
+        pieces.append(sign * chain)
+    stiffness = np.zeros((42, 42))
+    stiffness[:30, :30], stiffness[30:, 30:] = pieces
+    order = random.permutation(42)
+    stiffness = stiffness[np.ix_(order, order)]
+    rows = np.where(random.random((9, 42)) < 0.1, random.standard_normal((9, 42)), 0.0)
+    rows[[0, 4]] = 0.0
+    factors = factorise(csc_matrix(stiffness), csr_matrix(rows))
+    inverse = np.linalg.inv(stiffness)
+    assert np.abs(factors.read(5) - rows @ inverse @ rows[:5].T).max() < 1e-14
+    assert np.abs(factors.solve(rows.T) - inverse @ rows.T).max() < 1e-14
+    assert np.count_nonzero(factors.pivots < 0.0) == 12
+
+
+def test_a_pivot_that_is_zero_to_the_last_bit_is_not_one_of_the_rows() -> None:
+    """Two nodes that a spring joins and nothing holds, one of them read."""
+    with pytest.raises(CondensationError, match="nothing holds"):
+        factorise(csc_matrix([[1.0, -1.0], [-1.0, 1.0]]), csr_matrix([[0.0, 1.0]]))
 
 
 def test_body_compliance_is_its_own_mirror_image() -> None:

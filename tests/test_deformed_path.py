@@ -59,7 +59,7 @@ def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
     target = finger.start.state.actuator + np.stack([np.zeros(4), up], axis=1)
     corrected, _ = move(finger.tissue, finger.problem, finger.start, target, 4)
     assert corrected.tangents == 0
-    part = finger.tissue.condensing()
+    part = finger.tissue.part
     begin = deformed_state(finger.start.state, finger.start.displacement)
     followed, _ = advance(finger.problem, begin, target, 1, None, solver_on(part, 1))
     way = np.abs(followed.displacement - finger.start.displacement).max()
@@ -205,7 +205,7 @@ def test_moves_far_from_the_pressed_state_run_on_tissue_linearised_there(base: S
     way = 0.03 * np.array([[1.0, 1.0], [-1.0, 1.0], [1.0, 1.0], [-1.0, 1.0]])  # to the sides, and into the skin [mm]
     reached, tissue = finger.start, finger.tissue
     followed = deformed_state(finger.start.state, finger.start.displacement)
-    part, tangent = finger.tissue.condensing(), None
+    part, tangent = finger.tissue.part, None
     for number in range(1, 6):
         target = finger.start.state.actuator + number * way
         reached, tissue = move(tissue, finger.problem, reached, target, 4)

@@ -46,7 +46,7 @@ def finite(pressed: Scene, interface: Interface) -> tuple[FloatArray, float, flo
     """The same of tissue that deforms much."""
     section = mesh_section(pressed, nominal_edges(pressed.device.actuators))
     found = press(pressed, section, None, interface)
-    elements = whole_part(pressed, section, True).elements
+    elements = whole_part(pressed, section).elements
     dofs = node_dofs(displacement_basis(section.mesh))
     displacement = np.empty(dofs.size)
     displacement[dofs] = found.displacement

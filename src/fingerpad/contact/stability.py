@@ -12,19 +12,19 @@ the stiffness is left out.
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse.linalg import SuperLU
 
 from ..arrays import FloatArray
+from ..tissue.factors import Factors
 from .faces import nodal_compliance, touch
 from .formulation import ContactProblem, Status
 
 
-def unstable_directions(problem: ContactProblem, status: np.ndarray, place: FloatArray, factors: SuperLU) -> int:
+def unstable_directions(problem: ContactProblem, status: np.ndarray, place: FloatArray, factors: Factors) -> int:
     """Number of movements that lower the energy while contact holds its nodes, of states (n,) and places (n,) [mm].
 
-    problem: with the compliance of the tissue whose stiffness has these factors, without pivoting.
+    problem: with the compliance of the tissue whose stiffness has these factors.
     """
-    negative = int(np.count_nonzero(factors.U.diagonal() < 0.0))
+    negative = int(np.count_nonzero(factors.pivots < 0.0))
     active = np.flatnonzero(status != Status.OPEN)
     if negative == 0 or active.size == 0:
         return negative

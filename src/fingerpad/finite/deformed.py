@@ -18,7 +18,6 @@ from functools import partial
 
 import numpy as np
 from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import SuperLU
 
 from ..arrays import FloatArray
 from ..contact.acceleration import accelerated
@@ -29,8 +28,8 @@ from ..contact.patch import Patch
 from ..contact.path import SolveIncrement
 from ..contact.stability import unstable_directions
 from ..errors import CondensationError, InvertedError, SnapError
-from ..tissue.condensation import trailing_compliance
-from ..tissue.factors import factorise
+from ..tissue.condensation import condense_ordered
+from ..tissue.factors import Factors
 from .deformation import Elements, internal_force, tangent_stiffness
 
 MAX_ITERATIONS = 25  # of linearisations within one increment before it is halved [1]; source: usual count is 4-8
@@ -50,8 +49,7 @@ TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; 
 class TissuePart:
     """The tissue that is solved: a section, or its right half under loads that mirror.
 
-    elements. loads: (n_free, 2m) nodal forces of unit contact forces, in the order of the tangent, which has the nodes
-    that they act on last.
+    elements. loads: (n_free, 2m) nodal forces of unit contact forces, in the order of the tangent.
     """
 
     elements: Elements
@@ -62,11 +60,11 @@ class TissuePart:
 class Tangent:
     """Tissue linearised about a displacement.
 
-    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of the factorisation
-    [1]. patch: that contact was solved on last.
+    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of both [1]. patch:
+    that contact was solved on last.
     """
 
-    factors: SuperLU
+    factors: Factors
     compliance: FloatArray
     residual: float
     patch: Patch | None = None
@@ -237,9 +235,8 @@ def require_stable(problem: ContactProblem, state: ContactState, tangent: Tangen
 
 def tangent_at(part: TissuePart, displacement: FloatArray) -> Tangent:
     """Linearise about a displacement (size,) [mm]. Raises InvertedError, CondensationError."""
-    matrix = tangent_stiffness(part.elements, displacement)
-    factors = factorise(matrix)
-    return Tangent(factors, *trailing_compliance(matrix, factors, part.loads))
+    factors, compliance, _, residual = condense_ordered(tangent_stiffness(part.elements, displacement), part.loads)
+    return Tangent(factors, compliance, residual)
 
 
 def _followed(

@@ -15,13 +15,11 @@ displacements what sways would hide the rest.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse.linalg import SuperLU
 
 from ..arrays import FloatArray
 from ..contact.acceleration import accelerated
@@ -30,7 +28,7 @@ from ..contact.increment import solve_increment
 from ..contact.patch import Patch
 from ..contact.path import advance, drifting_to, stands
 from ..errors import CondensationError, ContactError, InvertedError
-from ..tissue.factors import factorise
+from ..tissue.factors import Factors, factorise
 from .deformation import internal_force, tangent_stiffness
 from .deformed import (
     Tangent,
@@ -55,15 +53,13 @@ class DeformedTissue:
     """The whole section about the pre-indented state, or where a later move begins.
 
     part: that section, which is moved as a whole. factors: of its tangent K. compliance: (2m, 2m) of its contact nodes
-    [mm per N/mm]. displacement: (size,) [mm]. condensing: the same part in an order from which new tangents are
-    condensed, for moves that need them.
+    [mm per N/mm]. displacement: (size,) [mm].
     """
 
     part: TissuePart
-    factors: SuperLU
+    factors: Factors
     compliance: FloatArray
     displacement: FloatArray
-    condensing: Callable[[], TissuePart]
 
     @cached_property
     def held(self) -> FloatArray:
@@ -93,22 +89,19 @@ class Equilibrium:
     defect: float
 
 
-def deformed_tissue(
-    part: TissuePart, displacement: FloatArray, condensing: Callable[[], TissuePart], compliance: FloatArray
-) -> DeformedTissue:
+def deformed_tissue(part: TissuePart, displacement: FloatArray, compliance: FloatArray) -> DeformedTissue:
     """Linearise about a displacement (size,) [mm], where contact nodes have that compliance (2m, 2m) [mm per N/mm].
 
     Raises CondensationError if the tangent is singular, InvertedError if elements are turned inside out.
     """
     factors = factorise(tangent_stiffness(part.elements, displacement))
-    return DeformedTissue(part, factors, compliance, displacement, condensing)
+    return DeformedTissue(part, factors, compliance, displacement)
 
 
 def _linearised_there(tissue: DeformedTissue, displacement: FloatArray) -> tuple[DeformedTissue, Tangent]:
     """The tissue about another displacement (size,) [mm], and its tangent there. Raises as `deformed_tissue`."""
-    part = tissue.condensing()
-    tangent = tangent_at(part, displacement)
-    return DeformedTissue(part, tangent.factors, tangent.compliance, displacement, lambda: part), tangent
+    tangent = tangent_at(tissue.part, displacement)
+    return DeformedTissue(tissue.part, tangent.factors, tangent.compliance, displacement), tangent
 
 
 def move(
@@ -223,7 +216,7 @@ def _followed_newly(
     tangent: Tangent | None,
 ) -> Equilibrium:
     """`move` with a new tangent wherever an increment asks for one; the first may be there."""
-    part = tissue.condensing()
+    part = tissue.part
     begin, (count, within) = deformed_state(start.state, start.displacement), increments_of(increments)
     reached, _ = advance(problem, begin, target, count, tangent, solver_on(part, within))
     moved = (part.loads.T @ reached.displacement[part.elements.free]).reshape(-1, 2)

@@ -6,7 +6,6 @@ Receptors are read as maximum principal logarithmic strain, over their undeforme
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -61,8 +60,7 @@ def pressed_finger(
     displacement[dofs] = pressed.displacement
     skin = skin_of(section, dofs, halved=False)
     problem, state, free = contact_problem(scene, pressed.section, body, interface), pressed.state, pressed.free
-    condensing = partial(whole_part, scene, section, True)
-    tissue = deformed_tissue(whole_part(scene, section, False), displacement, condensing, problem.compliance)
+    tissue = deformed_tissue(whole_part(scene, section), displacement, problem.compliance)
     start = Equilibrium(state=state, displacement=displacement, free=free, tangents=0, defect=0.0)
     gradient = receptor_gradient(section, scene)[1]
     return PressedFinger(

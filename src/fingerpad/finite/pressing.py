@@ -204,20 +204,17 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
     return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
 
 
-def whole_part(scene: Scene, section: SectionMesh, condensing: bool) -> TissuePart:
-    """The tissue of the whole section, in an order from which a tangent can be condensed, or in that of least fill.
-
-    Raises MeshError as `contact_tractions`.
-    """
-    return _part(scene, section, whole(section, contact_tractions(section, scene)), 0, condensing)
+def whole_part(scene: Scene, section: SectionMesh) -> TissuePart:
+    """The tissue of the whole section. Raises MeshError as `contact_tractions`."""
+    return _part(scene, section, whole(section, contact_tractions(section, scene)), 0)
 
 
-def _part(scene: Scene, section: SectionMesh, parts: Parts, which: int, condensing: bool = True) -> TissuePart:
+def _part(scene: Scene, section: SectionMesh, parts: Parts, which: int) -> TissuePart:
     """The tissue with one choice of what is held."""
     loads = parts.loads[which]
     basis = displacement_basis(section.mesh, parts.elements)
     joined = _coupling(basis.element_dofs, parts.dofs.size)
-    order = fill_reducing_order(joined, parts.dofs, parts.held[which], loads.indices if condensing else None)
+    order = fill_reducing_order(joined, parts.dofs, parts.held[which])
     materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
     return TissuePart(elements_of(basis, tissue, order), csc_matrix(loads[order]))

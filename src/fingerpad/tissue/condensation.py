@@ -3,15 +3,13 @@
 With forces f on the skin that actuators can reach (`reach`), nodal forces W f, and everything else unloaded,
     K u = W f,      u_c = W^T u = C f      displacement of the skin in contact; C compliance
                     eps_r = B u = E f      strain along the receptor line.
-K is factorised once, and a solution for every unit force gives a column of both maps (docs/decisions/0014).
+K is factorised once, with W^T and B as rows below it, out of which both maps come (`factors`, docs/decisions/0045).
 """
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import solve_triangular
-from scipy.sparse import csc_matrix, csr_matrix, hstack
-from scipy.sparse.linalg import SuperLU
+from scipy.sparse import csc_matrix, csr_matrix, hstack, vstack
 from threadpoolctl import threadpool_limits
 
 from ..arrays import FloatArray
@@ -19,7 +17,7 @@ from ..errors import CondensationError
 from ..scene.scene import Scene
 from .compliance import MIRROR, MIRROR_VOIGT, VOIGT, CondensedSection
 from .elasticity import displacement_basis, stiffness, unit_forces
-from .factors import backward_error, factorise, fill_reducing_order
+from .factors import Factors, backward_error, factorise, fill_reducing_order
 from .halves import Parts, right_half, unfold, unfolding, whole
 from .mesh import SectionMesh
 from .reach import contact_tractions
@@ -27,8 +25,7 @@ from .receptors import arc_length, receptor_strain
 from .traction import Tractions
 
 RESIDUAL_TOLERANCE = 1e-12  # backward error [1]; source: 1e4 units of rounding for factors of 1e4 unknowns
-TRAILING_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
-AT_ONCE = 32  # solutions [1] in one call; source: fewest seconds of 8, 16, 32, 64, 314 (measured)
+READ_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
 
 
 def section_stiffness(section: SectionMesh, scene: Scene, elements: np.ndarray | None = None) -> csc_matrix:
@@ -141,46 +138,30 @@ def condense(
     Raises CondensationError if the stiffness is singular or the residual is beyond RESIDUAL_TOLERANCE.
     """
     order = fill_reducing_order(matrix, dofs, fixed)
-    permuted, right, read = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order]
-    factors, count = factorise(permuted), right.shape[1]
-    compliance, strain_map = np.zeros((count, count)), np.zeros((read.shape[0], count))
-    mix = np.random.default_rng(0).standard_normal(count)
-    mixed = np.zeros(permuted.shape[0])
-    with threadpool_limits(1):  # the factors' blocks are small: more threads take longer, and round otherwise
-        for start in range(0, count, AT_ONCE):
-            block = slice(start, start + AT_ONCE)
-            field = factors.solve(right[:, block].toarray(order="F"))
-            compliance[:, block] = right.T @ field
-            strain_map[:, block] = read @ field
-            mixed += field @ mix[block]
-    residual = backward_error(permuted, mixed, right @ mix)
-    if not residual <= RESIDUAL_TOLERANCE:
-        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
-    return (compliance + compliance.T) / 2.0, strain_map, residual  # Betti, but for rounding
+    permuted, right = csc_matrix(matrix[order][:, order]), csc_matrix(loads[order])
+    return condense_ordered(permuted, right, strain[:, order])[1:]
 
 
-def trailing_compliance(permuted: csc_matrix, factors: SuperLU, loads: csc_matrix) -> tuple[FloatArray, float]:
-    """Compliance (k, k) of loads (n_free, k) on the last unknowns of a stiffness, and relative residual.
+def condense_ordered(
+    permuted: csc_matrix, loads: csc_matrix, strain: csr_matrix | None = None
+) -> tuple[Factors, FloatArray, FloatArray, float]:
+    """Factors of a stiffness in a fill-reducing order, and compliance (k, k), strain map (n_rows of strain, k) and
+    relative residual of loads (size, k): in balance, and of displacements read from the factors those of a solution.
 
-    The trailing block of the factors K = L D L^T is that of the stiffness condensed to the last unknowns, so that
-    C = Y^T D^-1 Y with L Y = W on that block: nothing is solved on the whole. Raises CondensationError.
+    Raises CondensationError as `condense`.
     """
-    size = permuted.shape[0] - int(loads.indices.min())
-    place = factors.perm_c[-size:] - (permuted.shape[0] - size)
-    if place.min() < 0:
-        raise CondensationError("some of the tissue hangs together with nothing that actuators can touch")
-    upper = np.asarray(factors.U[-size:, -size:].toarray())
-    pivots = np.diag(upper)[:, None]
-    last = np.empty((size, loads.shape[1]))
-    last[place] = loads[-size:].toarray()
-    carried = solve_triangular((upper / pivots).T, last, lower=True, unit_diagonal=True)
-    compliance = carried.T @ (carried / pivots)
-
-    mix = np.random.default_rng(0).standard_normal(loads.shape[1])
+    count = loads.shape[1]
+    factors = factorise(permuted, csr_matrix(loads.T if strain is None else vstack([loads.T, strain])))
+    with threadpool_limits(1):  # the factors' blocks are small: more threads take longer, and round otherwise
+        read = factors.read(count)
+    compliance = (read[:count] + read[:count].T) / 2.0  # Betti, but for rounding
+    mix = np.random.default_rng(0).standard_normal(count)
     load = loads @ mix
     field = factors.solve(load)
     residual = backward_error(permuted, field, load)
-    residual = max(residual, float(np.abs(loads.T @ field - compliance @ mix).max() / np.abs(field).max()))
-    if not residual <= TRAILING_TOLERANCE:
-        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {TRAILING_TOLERANCE:.0e}")
-    return (compliance + compliance.T) / 2.0, residual
+    if not residual <= RESIDUAL_TOLERANCE:
+        raise CondensationError(f"condensation: equilibrium residual {residual:.1e} > {RESIDUAL_TOLERANCE:.0e}")
+    off = float(np.abs(loads.T @ field - compliance @ mix).max() / np.abs(field).max())
+    if not off <= READ_TOLERANCE:
+        raise CondensationError(f"condensation: displacements are off by {off:.1e} > {READ_TOLERANCE:.0e}")
+    return factors, compliance, read[count:], max(residual, off)

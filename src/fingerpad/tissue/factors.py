@@ -1,9 +1,18 @@
-"""Factors of a sparse symmetric stiffness: a fill-reducing order, LU factors in it, and what they leave of K u = f."""
+"""Factors of a sparse symmetric stiffness: a fill-reducing order, LU factors in it, and what they leave of K u = f.
+
+What is read of many solutions comes out of the factors themselves. With rows R below the stiffness K = L D L^T,
+    [K 0; R I] = [L 0; Y I] [D L^T 0; 0 I],      Y = R L^-T D^-1,      R K^-1 R^T = Y D Y^T,
+so that eliminating K once answers all loads R^T at once: a row of Y has entries only where elimination carries what
+that row reads, and columns of Y with the same rows, as a supernode's, are one dense block of the product.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+
 import numpy as np
-from scipy.sparse import csc_matrix, diags_array
+from scipy.sparse import block_array, csc_matrix, csr_matrix, diags_array, eye_array
 from scipy.sparse.linalg import SuperLU, splu
 
 from ..arrays import FloatArray
@@ -14,44 +23,90 @@ PIVOT_LIMIT = 1e-14  # of the largest pivot [1]; source: rounding; held tissue o
 SINGULAR = "the stiffness is singular: nothing holds some of the tissue"
 
 
-def fill_reducing_order(
-    matrix: csc_matrix, dofs: np.ndarray, held: np.ndarray, last: np.ndarray | None = None
-) -> np.ndarray:
+def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, held: np.ndarray) -> np.ndarray:
     """Fill-reducing order of the unknowns that are not held, found on the graph of nodes (an eighth of the work).
 
-    dofs: (2, n_nodes) unknowns of the nodes. held: unknowns that do not move. last: unknowns that come last. The
-    factors join them to one another, and so does the graph beforehand.
+    dofs: (2, n_nodes) unknowns of the nodes. held: unknowns that do not move.
     """
     free = np.ones(matrix.shape[0], dtype=bool)
     free[held] = False
     nodes = np.flatnonzero(free[dofs].any(axis=0))
     first = dofs[0, nodes]
     graph = csc_matrix(matrix[first][:, first])
-    if last is not None:
-        joined = np.isin(dofs[:, nodes], last).any(axis=0).astype(float)[:, None]
-        graph = csc_matrix(abs(graph) + csc_matrix(joined) @ csc_matrix(joined).T)
     graph.data[:] = -1.0
     graph = csc_matrix(graph + diags_array(np.full(nodes.size, 2.0 * np.diff(graph.indptr).max())))
     permutation = _factorise(graph, "MMD_AT_PLUS_A").perm_c
     order = np.empty_like(permutation)
     order[permutation] = np.arange(permutation.size)
     ordered = dofs[:, nodes[order]].T.ravel()
-    ordered = ordered[free[ordered]]
-    after = np.isin(ordered, [] if last is None else last)
-    return np.concatenate([ordered[~after], ordered[after]])
+    return np.asarray(ordered[free[ordered]])
 
 
-def factorise(permuted: csc_matrix) -> SuperLU:
-    """LU factors of a symmetric stiffness already in a fill-reducing order.
+@dataclass(frozen=True)
+class Factors:
+    """LU factors of a stiffness with rows below it that are read of its solutions.
+
+    lu: of both, without pivoting. size: of the stiffness.
+    """
+
+    lu: SuperLU
+    size: int
+
+    @property
+    def pivots(self) -> FloatArray:
+        """Pivots (size,) of the stiffness [N/mm per mm]: as many are negative as its eigenvalues."""
+        return np.asarray(self.lu.U.diagonal()[self.lu.perm_c[: self.size]])
+
+    def solve(self, load: FloatArray) -> FloatArray:
+        """K^-1 of a load (size,) or of some (size, k)."""
+        padded = np.zeros((self.lu.shape[0], *load.shape[1:]), order="F")
+        padded[: self.size] = load
+        return np.asarray(self.lu.solve(padded)[: self.size])
+
+    def read(self, count: int) -> FloatArray:
+        """R K^-1 R_c^T (n_rows, count): what all rows read of the answers to the first `count` of them as loads."""
+        border = self.lu.perm_c[self.size :]
+        carried = csc_matrix(self.lu.L[border])
+        carried.sort_indices()
+        pivots = self.lu.U.diagonal()
+        pivots[border] = 0.0  # of the rows' own columns, which are not the stiffness's
+        found = np.zeros((border.size, count))
+        for rows, block, pivot in _blocks(carried, pivots):
+            own = np.searchsorted(rows, count)
+            found[np.ix_(rows, rows[:own])] += (block.T * pivot) @ block[:, :own]
+        return found
+
+
+def _blocks(carried: csc_matrix, pivots: FloatArray) -> Iterator[tuple[np.ndarray, FloatArray, FloatArray]]:
+    """Runs of neighbouring columns with entries in the same rows: these (k,), the entries (n, k), the pivots (n,)."""
+    starts, rows = carried.indptr, carried.indices
+    counts = np.diff(starts)
+    before = rows[np.maximum(np.arange(rows.size) - np.repeat(counts, counts), 0)]
+    other = np.add.reduceat(np.append(rows != before, False), starts[:-1]) > 0  # of empty ones anything
+    goes_on = np.zeros(counts.size, dtype=bool)
+    goes_on[1:] = (counts[1:] == counts[:-1]) & ~other[1:]
+    first = np.flatnonzero(~goes_on)
+    for begin, end in zip(first, np.append(first[1:], counts.size), strict=True):
+        if counts[begin] > 0:
+            block = carried.data[starts[begin] : starts[end]].reshape(end - begin, -1)
+            yield rows[starts[begin] : starts[begin + 1]], block, pivots[begin:end]
+
+
+def factorise(permuted: csc_matrix, rows: csr_matrix | None = None) -> Factors:
+    """LU factors of a symmetric stiffness already in a fill-reducing order. rows: (k, size) that are read of solutions.
 
     Raises CondensationError if it is singular.
     """
+    bordered = permuted
+    if rows is not None:
+        bordered = csc_matrix(block_array([[permuted, None], [rows, eye_array(rows.shape[0])]]))
     try:
-        factors = _factorise(permuted, "NATURAL")
+        lu = _factorise(bordered, "NATURAL")
     except RuntimeError as error:  # a pivot is zero to the last bit
         raise CondensationError(SINGULAR) from error
-    pivots = np.abs(factors.U.diagonal())
-    if not pivots.min() >= PIVOT_LIMIT * pivots.max():
+    factors = Factors(lu, permuted.shape[0])
+    pivots = np.abs(factors.pivots)
+    if not (np.array_equal(lu.perm_r, lu.perm_c) and pivots.min() >= PIVOT_LIMIT * pivots.max()):
         raise CondensationError(SINGULAR)
     return factors
 
