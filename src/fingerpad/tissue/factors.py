@@ -73,7 +73,7 @@ class Factors:
         found = np.zeros((border.size, count))
         for rows, block, pivot in _blocks(carried, pivots):
             own = np.searchsorted(rows, count)
-            found[np.ix_(rows, rows[:own])] += (block.T * pivot) @ block[:, :own]
+            found[rows[:, None], rows[:own]] += (block.T * pivot) @ block[:, :own]
         return found
 
 
