@@ -145,14 +145,15 @@ SPRINGS = csc_matrix(
 def test_what_is_read_from_the_factors_is_held_against_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of five springs of 1 N/mm in line the last nodes yield by 4 and 5 mm; what is off by a thousandth is an error."""
     loads = csc_matrix(np.eye(5)[:, 3:])
-    _, compliance, stretch, _ = condense_ordered(SPRINGS, loads, csr_matrix([[0.0, 0.0, 0.0, -1.0, 1.0]]))
-    assert compliance == pytest.approx(np.array([[4.0, 4.0], [4.0, 5.0]]), rel=1e-12)
-    assert stretch == pytest.approx(np.array([[0.0, 1.0]]), abs=1e-12)
+    strain = csr_matrix([[0.0, 0.0, 0.0, -1.0, 1.0]])
+    found = condense_ordered(SPRINGS, loads, strain)
+    assert found.compliance == pytest.approx(np.array([[4.0, 4.0], [4.0, 5.0]]), rel=1e-12)
+    assert found.strain == pytest.approx(np.array([[0.0, 1.0]]), abs=1e-12)
 
     read = Factors.read
     monkeypatch.setattr(Factors, "read", lambda self, count: 1.001 * read(self, count))
     with pytest.raises(CondensationError, match="displacements are off"):
-        condense_ordered(SPRINGS, loads)
+        condense_ordered(SPRINGS, loads, strain)
 
 
 def test_rows_may_read_nothing_or_anything_in_any_order() -> None:

@@ -107,7 +107,8 @@ def test_other_side_is_condensed_anew() -> None:
     assert found[Side.DERMIS] is own
     other = found[Side.EPIDERMIS]
     assert other.receptor == pytest.approx(own.receptor, abs=1e-12)
-    assert np.array_equal(other.compliance, own.compliance)
+    # sums of other blocks: rounding, 1e-16, times some 1e6 by which the stiffness magnifies it
+    assert np.abs(other.compliance - own.compliance).max() < 1e-10 * np.abs(own.compliance).max()
     assert np.abs(other.strain - own.strain).max() > 0.1 * np.abs(own.strain).max()
 
 

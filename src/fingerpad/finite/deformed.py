@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 
 from ..arrays import FloatArray
 from ..contact.acceleration import accelerated
@@ -42,6 +42,7 @@ SLIGHT = 1e-3  # of the load [1], by which tissue may move besides; source: equi
 LOOSER = 1e3  # times [1] the tolerance of contact, to which tissue settles; source: scores then hold to 3e-6 (measured)
 CONTRACTION = 0.4  # of a change [1] to the one before it, above which a new tangent is made; source: fewest seconds
 CONTACT_INCREMENTS = 4  # in one of the tissue [1], at most; source: scores move by 0.15 of their errors at most
+TANGENT_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
 TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; source: fewer are halved too often
 
 
@@ -60,8 +61,8 @@ class TissuePart:
 class Tangent:
     """Tissue linearised about a displacement.
 
-    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of both [1]. patch:
-    that contact was solved on last.
+    factors: of its stiffness. compliance: (2m, 2m) of its contact nodes [mm per N/mm]. residual: of the factorisation,
+    or how far displacements are off [1]. patch: that contact was solved on last.
     """
 
     factors: Factors
@@ -235,8 +236,9 @@ def require_stable(problem: ContactProblem, state: ContactState, tangent: Tangen
 
 def tangent_at(part: TissuePart, displacement: FloatArray) -> Tangent:
     """Linearise about a displacement (size,) [mm]. Raises InvertedError, CondensationError."""
-    factors, compliance, _, residual = condense_ordered(tangent_stiffness(part.elements, displacement), part.loads)
-    return Tangent(factors, compliance, residual)
+    matrix = tangent_stiffness(part.elements, displacement)
+    found = condense_ordered(matrix, part.loads, csr_matrix((0, matrix.shape[0])), TANGENT_TOLERANCE)
+    return Tangent(found.factors, found.compliance, max(found.residual, found.off))
 
 
 def _followed(
