@@ -82,7 +82,7 @@ def _blocks(carried: csc_matrix, pivots: FloatArray) -> Iterator[tuple[np.ndarra
     starts, rows = carried.indptr, carried.indices
     counts = np.diff(starts)
     before = rows[np.maximum(np.arange(rows.size) - np.repeat(counts, counts), 0)]
-    other = np.add.reduceat(np.append(rows != before, False), starts[:-1]) > 0  # of empty ones anything
+    other = np.logical_or.reduceat(np.append(rows != before, False), starts[:-1])  # of empty ones anything
     goes_on = np.zeros(counts.size, dtype=bool)
     goes_on[1:] = (counts[1:] == counts[:-1]) & ~other[1:]
     first = np.flatnonzero(~goes_on)
