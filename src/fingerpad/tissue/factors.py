@@ -1,6 +1,7 @@
 """Factors of a sparse symmetric stiffness: a fill-reducing order, LU factors in it, and what they leave of K u = f.
 
-What is read of many solutions comes out of the factors themselves. With rows R below the stiffness K = L D L^T,
+What is read of many solutions comes out of the factors themselves (as a Schur complement of an augmented matrix does,
+Petra et al. 2014). With rows R below the stiffness K = L D L^T,
     [K 0; R I] = [L 0; Y I] [D L^T 0; 0 I],      Y = R L^-T D^-1,      R K^-1 R^T = Y D Y^T,
 so that eliminating K once answers all loads R^T at once: a row of Y has entries only where elimination carries what
 that row reads, and columns of Y with the same rows, as a supernode's, are one dense block of the product.
