@@ -1,6 +1,6 @@
 # Run times: of set-up and of a condition in one process, of the whole graph against empty scripts, against error on ladders
 # of meshes (beside CalculiX where ccx is installed), with the size of a scene, and with every skip off.
-# Not part of `all`: ask for them with `snakemake benchmark`, alone on the machine (most of an hour).
+# Not part of `all`: ask for them with `snakemake benchmark`, alone on the machine (half an hour).
 # REQUIRED INPUTS: scene files, results/scores.csv, results/small/device2/reference.csv.
 # OUTPUTS: results/benchmark/{timings,graph,ladder,growth,exponents,skipping,always}.csv, results/figures/benchmark.{png,pdf}
 
