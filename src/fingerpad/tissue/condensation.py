@@ -53,8 +53,7 @@ def section_stiffness(section: SectionMesh, scene: Scene, elements: np.ndarray |
 def condense_section(section: SectionMesh, scene: Scene) -> CondensedSection:
     """Condense the finger to contact nodes and receptor line, where it mirrors by halves (`halves`).
 
-    Raises CondensationError if a factorisation leaves a residual beyond RESIDUAL_TOLERANCE, MeshError as
-    `contact_tractions`.
+    Raises CondensationError as `condense`, MeshError as `contact_tractions`.
     """
     tractions = contact_tractions(section, scene)
     parts = parts_of(section, scene, tractions)
@@ -151,7 +150,8 @@ def condense(
     borne without an answer); loads: nodal forces (n_unknowns, k) of unit forces; strain: rows that are read, as a
     linear map of all unknowns.
 
-    Raises CondensationError if the stiffness is singular or the residual is beyond RESIDUAL_TOLERANCE.
+    Raises CondensationError if the stiffness is singular, if the residual is beyond RESIDUAL_TOLERANCE, or if
+    displacements by the compliance are off those of a solution by more than READ_TOLERANCE.
     """
     order = fill_reducing_order(matrix, dofs, fixed)
     found = condense_ordered(csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order])
@@ -163,7 +163,7 @@ def condense_ordered(
 ) -> Answers:
     """`condense` of a stiffness in a fill-reducing order, loads (size, k) and rows (n_rows, size).
 
-    Raises CondensationError as that, and if displacements are off by more than the tolerance.
+    tolerance: of displacements, in place of READ_TOLERANCE. Raises CondensationError as that.
     """
     count = loads.shape[1]
     factors = factorise(permuted, csr_matrix(vstack([loads.T, strain])))
