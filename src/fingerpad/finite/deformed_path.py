@@ -45,6 +45,7 @@ MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way
 # The same [1] of a move that begins elsewhere than where tissue was linearised, before it is linearised there; source:
 # fewest seconds of 5, 10, 20 (measured displacements that press and slip)
 FEW_CORRECTIONS = 10
+STEPS_BACK = 3  # halvings [1] of a correction that turns tissue inside out; source: one suffices (measured)
 SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 8e-4
 
 
@@ -164,14 +165,18 @@ def _corrected(
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
     loads: list[FloatArray] = []
-    displacement, first, state = start.displacement, None, None
+    before = displacement = start.displacement
+    first, state = None, None
     patch: Patch | None = None
     patches: dict[float, Patch] = {}
     for correction in range(most):
         try:
-            here = begins_there and correction == 0
-            held = tissue.held if here else internal_force(part.elements, displacement)[free]
-            back = tissue.back if here else -tissue.factors.solve(held)
+            if begins_there and correction == 0:
+                held, back = tissue.held, tissue.back
+            else:
+                displacement, held = _not_inverted(part, before, displacement)
+                back = -tissue.factors.solve(held)
+            before = displacement
             last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
             first = last if first is None else first
             if state is None or problem.friction > 0.0:
@@ -180,7 +185,7 @@ def _corrected(
             else:
                 there = replace(problem, free=last)
                 state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
-        except ContactError as error:  # an overshoot: tissue turned inside out, or contact without a solution
+        except ContactError as error:  # an overshoot: tissue turned far inside out, or contact without a solution
             raise _UnsettledError from error
         pushed = part.loads @ state.force.ravel()
         step = back + tissue.factors.solve(pushed)
@@ -205,6 +210,17 @@ def _corrected(
                 defect=max(start.defect, defect),
             )
     raise _UnsettledError
+
+
+def _not_inverted(part: TissuePart, before: FloatArray, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """A displacement (size,) [mm] and the internal forces (n_free,) [N/mm] there; where a correction overshot into
+    tissue turned inside out, half as far from the one before. Raises InvertedError after STEPS_BACK halves.
+    """
+    for _ in range(STEPS_BACK):
+        with suppress(InvertedError):
+            return displacement, np.asarray(internal_force(part.elements, displacement)[part.elements.free])
+        displacement = (before + displacement) / 2.0
+    return displacement, np.asarray(internal_force(part.elements, displacement)[part.elements.free])
 
 
 def _followed_newly(
