@@ -26,7 +26,6 @@ TABLE_AND_FIGURE = (
 SMALL_ONLY = "short"  # a device for which finite kinematics are left out
 COARSER = {
     "edge_size": 8.0,
-    "finite_edge_size": 4.0,
     "face_size": 2.0,
     "receptor_size": 4.0,
 }  # times the shipped sizes: a run of seconds

@@ -185,14 +185,15 @@ class Case:
 def small_case() -> Case:
     """Nodes are 0.1 mm apart on faces 1 mm wide."""
     small = on_deck(sharpened(scene("device2")), 4.0)
-    small = small.with_model(numerics=replace(small.model.numerics, growth=0.8, largest_size=2.0))
+    small = small.with_model(numerics=replace(small.model.numerics, growth=0.8, nail_size=2.0, largest_size=2.0))
     return Case(small, mesh_device(small), SETTINGS)
 
 
 def large_case() -> Case:
     """Nodes are half as far apart, strains are large."""
     large = finite(on_deck(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
-    large = large.with_model(numerics=replace(large.model.numerics, growth=1.2, receptor_size=0.6, largest_size=3.0))
+    sizes = {"growth": 1.2, "receptor_size": 0.6, "nail_size": 3.0, "largest_size": 3.0}
+    large = large.with_model(numerics=replace(large.model.numerics, **sizes))
     return Case(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, indentation=0.8))
 
 

@@ -577,7 +577,7 @@ def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:
     gabor = replace(given.model.gabor, wavelength_change=0.1)
     fine = given.with_model(gabor=gabor)
     (found,) = solution_caveats(fine, solved("device2", "alternate_090", Interface.SHEAR))
-    assert found == "the filter's wavelength is 1.1 receptor elements: try a smaller numerics.receptor_size"
+    assert found == "the filter's wavelength is 1.7 receptor elements: try a smaller numerics.receptor_size"
 
 
 def test_caveats_are_notes_of_scores() -> None:
@@ -1406,7 +1406,7 @@ def test_edges_that_finite_strain_cannot_tell_from_sharp_ones_are_a_caveat() -> 
         own = Scene(model, replace(given.device, actuators=row)).with_kinematics(kinematics)
         return [caveat for caveat in scene_caveats(own) if "edges are sharper" in caveat]
 
-    size = given.model.numerics.finite_edge_size
+    size = given.model.numerics.edge_size
     assert sharpness(0.0, Kinematics.FINITE, 0.6) == sharpness(0.9 * size, Kinematics.FINITE, 0.6)
     assert f"--vary actuators.edge_radius={size:g}" in sharpness(0.0, Kinematics.FINITE, 0.6)[0]
     for other in ((size, Kinematics.FINITE, 0.6), (0.0, Kinematics.SMALL, 0.6), (0.0, Kinematics.FINITE, 0.0)):

@@ -23,7 +23,8 @@ from scenes import condensed, scene, section, solved
 
 def test_maps_equal_a_direct_solve_of_the_whole_section() -> None:
     """Displacement and receptor strain under a lopsided load: folded halves against one sparse solve,
-    apart by rounding, 1e-16, times some 1e6 by which the stiffness magnifies it.
+    apart by rounding, 1e-16, times some 1e6 by which the stiffness magnifies it. Strain is a difference of what moves
+    at the ends of elements, a hundredth of the section, and loses two digits more (measured: 1e-11 and 1e-9).
     """
     mesh, base = section("device2"), scene("device2")
     found, _ = condensed("device2")
@@ -41,7 +42,7 @@ def test_maps_equal_a_direct_solve_of_the_whole_section() -> None:
     points, strain = receptor_strain(mesh, base)
     assert np.array_equal(points, found.receptor)
     exact_strain = strain @ field
-    assert np.abs(found.strain @ load - exact_strain).max() < 1e-9 * np.abs(exact_strain).max()
+    assert np.abs(found.strain @ load - exact_strain).max() < 1e-8 * np.abs(exact_strain).max()
 
 
 @pytest.mark.parametrize("device", ["device1", "device2", "device3"])

@@ -98,6 +98,24 @@ def test_sizes_are_as_asked() -> None:
     assert read[below].max() <= numerics.receptor_size * (1.0 + numerics.growth)
 
 
+def test_elements_around_the_nails_corners_are_as_small_as_asked() -> None:
+    """Where nail, pad and the bed of the nail meet, and where nail and pad do on the skin: at the ends of its sides.
+    Other elements of the nail are larger.
+    """
+    base, mesh = scene("device2"), section("device2")
+    names = np.array([layer.name for layer in base.model.finger.layers])[mesh.layer]
+    points, triangles = mesh.mesh.p, mesh.mesh.t
+    in_nail, in_bed = np.unique(triangles[:, names == "nail"]), np.unique(triangles[:, names == "nail_bed"])
+    of_pad = np.unique(triangles[:, ~np.isin(names, ["nail", "nail_bed"])])
+    side = np.intersect1d(in_nail, of_pad)
+    corners = np.union1d(np.intersect1d(side, in_bed), np.intersect1d(side, mesh.skin))
+    assert corners.size == 4
+    length = np.hypot(*(points[:, triangles] - np.roll(points[:, triangles], 1, axis=1))).max(axis=0)
+    around = np.isin(triangles, corners).any(axis=0)
+    largest = base.model.numerics.nail_size * (1.0 + base.model.numerics.growth)
+    assert length[around].max() <= largest < length[names == "nail"].max()
+
+
 def test_elements_in_a_zone_beside_edges_are_as_small_as_at_them() -> None:
     """However much wider than an element it is."""
     base, zone = scene("device2").coarsened(4.0), 0.2  # mm
@@ -309,7 +327,7 @@ def test_an_interval_within_another_takes_nothing_from_it() -> None:
 
 def test_without_a_coarse_mesh_edges_are_sought_widely() -> None:
     """A mesh four times as coarse as this one has pins that no node is near."""
-    given = scene("device2").coarsened(6.0)
+    given = scene("device2").coarsened(9.0)
     nominal = nominal_edges(given.device.actuators)
     wide = nominal + REACH * np.array([-1.0, 1.0])
     assert np.array_equal(edge_intervals(given), wide)

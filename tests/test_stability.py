@@ -44,8 +44,8 @@ def arch(width: float, nail: float) -> Scene:
     base = scene("device2").with_kinematics(Kinematics.FINITE)
     pad = (Layer("shell", SHELL, Material(10.0, 0.3)), Layer("soft", 8.0 - SHELL, Material(10.0 / CONTRAST, 0.0)))
     dorsal = (Layer("nail", 0.3, Material(100.0, 0.3)), Layer("nail_bed", 0.7, Material(100.0, 0.3)))
-    sizes = {"face_size": 0.4, "receptor_size": 0.8, "largest_size": 2.0}
-    at_edges = {"finite_edge_size": 0.4, "finite_edge_zone": 0.1}
+    at_edges = {"edge_size": 0.4, "edge_zone": 0.1, "face_size": 0.4}
+    sizes = {"receptor_size": 0.8, "nail_size": 2.0, "largest_size": 2.0}
     model = replace(
         base.model,
         finger=Finger(width, 12.0, 3.0, nail, pad, dorsal),

@@ -155,9 +155,9 @@ def test_a_mesh_of_deformed_tissue_is_fine_where_a_row_aside_lies_and_there_alon
     read = np.hypot(*(ends[:, 1] - ends[:, 0]))[(ends[0].min(axis=0) > 0.2) & (ends[0].max(axis=0) < 3.4)]
     assert read.max() <= numerics.receptor_size * (1.0 + numerics.growth)
     for start, stop in nominal_edges(row):
-        assert length[on_pad & (middle > start) & (middle < stop)].max() <= numerics.finite_edge_size
+        assert length[on_pad & (middle > start) & (middle < stop)].max() <= numerics.edge_size
     images = on_pad & (middle > -3.5) & (middle < -1.0)
-    assert length[images].min() > numerics.finite_edge_size
+    assert length[images].min() > numerics.edge_size
     assert length[on_pad & (middle < -3.5)].max() > length[under].max()
 
 

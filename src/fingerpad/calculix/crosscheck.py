@@ -70,10 +70,9 @@ def on_deck(scene: Scene, coarsening: float) -> Scene:
         scene.model.numerics,
         edge_size=coarsening * DECK_EDGE_SIZE,
         edge_zone=DECK_EDGE_ZONE,
-        finite_edge_size=coarsening * DECK_EDGE_SIZE,
-        finite_edge_zone=DECK_EDGE_ZONE,
         face_size=coarsening * DECK_FACE_SIZE,
         receptor_size=coarsening * DECK_RECEPTOR_SIZE,
+        nail_size=scene.model.numerics.largest_size,
     )
     return scene.with_model(numerics=numerics)
 

@@ -87,9 +87,9 @@ def uniform(scene: Scene, size: float) -> Scene:
     numerics = replace(
         scene.model.numerics,
         edge_size=size,
-        finite_edge_size=size,
         face_size=size,
         receptor_size=size,
+        nail_size=size,
         largest_size=size,
     )
     return scene.with_model(numerics=numerics)

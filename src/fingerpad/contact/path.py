@@ -34,7 +34,6 @@ NEGLIGIBLE = 1e-12  # relative movement [1] that is none; source: halved 10 time
 # Distances of the closest nodes [1] to which increments grow again once one was halved, as fronts that cross many nodes
 # at once fail again and again; source: fewest seconds of 1, 2, 4 (a stroke of 1 mm of six close pins, measured)
 CROSSED = 2.0
-SIZES = "numerics.edge_size, or finite_edge_size"  # what config.yaml calls those at the edges
 # Times as many halvings [1] in a straight line as one increment may have; a path that needs more is lost. source:
 # chosen, as a bound on time
 CRAWL = 2
@@ -104,7 +103,7 @@ def advance(
                     f"contact did not converge {done / increments:.1%} of the way from {_located(start[moved])} to"
                     f" {_located(target[moved])} mm, increment {int(done) + 1}/{increments}{halved}"
                     f"{residual}; {advice} or"
-                    f" {'stiffer bodies' if problem.body else f'a finer mesh at the edges ({SIZES})'}"
+                    f" {'stiffer bodies' if problem.body else 'a finer mesh at the edges (numerics.edge_size)'}"
                 ) from failure
             longest = min(longest, max(step, CROSSED * problem.spacing * increments / length))
     return state, carried

@@ -122,10 +122,10 @@ def scene_caveats(scene: Scene) -> list[str]:
             f" {PRESS_AS_ASKED}"
         )
     numerics = scene.model.numerics
-    row, size = scene.device.actuators, numerics.edges(scene.kinematics)[0]
+    row, size = scene.device.actuators, numerics.edge_size
     elements = row.width / size
     if elements < FEW:
-        found.append(f"actuators are {elements:.1f} elements wide: try a smaller {numerics.edge_key(scene.kinematics)}")
+        found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
     is_sharp = scene.kinematics is Kinematics.FINITE and row.edge_radius < SHARP * size
     if is_sharp and scene.model.contact.friction > 0.0:
         found.append(

@@ -5,30 +5,28 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..requirements import require, require_positive
-from .tissue_law import Kinematics
 
 
 @dataclass(frozen=True)
 class Numerics:
     """Mesh sizes [mm], load increments and tolerances.
 
-    edge_size: element size on the skin within edge_zone of an actuator's edge; finite_edge_size, finite_edge_zone: the
-    same with finite kinematics. face_size: largest on the skin under an actuator. growth: growth of element size with
-    distance [1]. receptor_size: largest on the receptor line. largest_size: anywhere. contact_margin: beyond actuators
-    and their strokes, in which skin may come into contact. indentation_increments, stimulus_increments: load increments
-    (per segment of a stimulus). newton_tolerance: on forces relative to the largest and on gaps relative to the load.
-    max_cuts: how often an increment may be halved.
+    edge_size: element size on the skin within edge_zone of an actuator's edge. face_size: largest on the skin under an
+    actuator. growth: growth of element size with distance [1]. receptor_size: largest on the receptor line. nail_size:
+    at the corners of the nail's edges. largest_size: anywhere. contact_margin: beyond actuators and their strokes, in
+    which skin may come into contact. indentation_increments, stimulus_increments: load increments (per segment of a
+    stimulus). newton_tolerance: on forces relative to the largest and on gaps relative to the load. max_cuts: how often
+    an increment may be halved.
 
     Raises SceneError if max_cuts is negative, or anything else not positive.
     """
 
     edge_size: float
     edge_zone: float
-    finite_edge_size: float
-    finite_edge_zone: float
     face_size: float
     growth: float
     receptor_size: float
+    nail_size: float
     largest_size: float
     contact_margin: float
     indentation_increments: int
@@ -40,26 +38,15 @@ class Numerics:
         require_positive("numerics", **{name: each for name, each in vars(self).items() if name != "max_cuts"})
         require(self.max_cuts >= 0, f"numerics: max_cuts {self.max_cuts} < 0")
 
-    def edges(self, kinematics: Kinematics) -> tuple[float, float]:
-        """Element size at an actuator's edge, and how far from it that holds [mm]."""
-        if kinematics is Kinematics.FINITE:
-            return self.finite_edge_size, self.finite_edge_zone
-        return self.edge_size, self.edge_zone
-
-    @staticmethod
-    def edge_key(kinematics: Kinematics) -> str:
-        """What config.yaml calls that element size."""
-        return "numerics.finite_edge_size" if kinematics is Kinematics.FINITE else "numerics.edge_size"
-
     def coarsened(self, factor: float) -> Numerics:
         """Element sizes, everywhere, and load increments `factor` times as large; finer below 1."""
         return replace(
             self,
             edge_size=factor * self.edge_size,
-            finite_edge_size=factor * self.finite_edge_size,
             face_size=factor * self.face_size,
             growth=factor * self.growth,
             receptor_size=factor * self.receptor_size,
+            nail_size=factor * self.nail_size,
             largest_size=factor * self.largest_size,
         ).with_increments(1.0 / factor)
 

@@ -92,7 +92,6 @@ def random_scene(number: int) -> Scene:
     numerics = replace(
         group.model.numerics,
         edge_size=row.width / BODY_ELEMENTS,
-        finite_edge_size=row.width / BODY_ELEMENTS,
         indentation_increments=_whole(rng, INDENTATION_INCREMENTS),
         stimulus_increments=_whole(rng, STIMULUS_INCREMENTS),
     )
@@ -207,11 +206,10 @@ def _numerics(rng: np.random.Generator, row: ActuatorRow, width: float) -> Numer
     return Numerics(
         edge_size=at_edges,
         edge_zone=spacing * CLOSENESS,
-        finite_edge_size=at_edges,
-        finite_edge_zone=spacing * CLOSENESS,
         face_size=spacing,
         growth=1.0,
         receptor_size=width / RECEPTOR_ELEMENTS,
+        nail_size=width / LARGEST_ELEMENTS,
         largest_size=width / LARGEST_ELEMENTS,
         contact_margin=CONTACT_MARGIN,
         indentation_increments=1,

@@ -28,7 +28,7 @@ from ..scene.tissue_law import Kinematics
 from ..store import load_arrays, save_arrays
 from .compliance import MIRROR
 
-MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and twice what the finest reference needs
+MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and half as many again as the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
 ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
 NEAR = 0.25  # depth in a body, of its width [1], to which its elements are as at the edges; source: HIGHEST
@@ -91,6 +91,17 @@ class _Outline:
         table = np.linspace(0.0, np.pi, ARC_POINTS)
         return float(np.interp(arc, a * ellipeinc(table, 1.0 - (b / a) ** 2), table))
 
+    @property
+    def nail(self) -> float:
+        """Logical coordinate s [mm] of the line on which pad and nail meet."""
+        return (np.pi - self.angle_of_arc(self.finger.nail_width / 2.0)) * self.semi_axes[0]
+
+    @property
+    def nail_corners(self) -> FloatArray:
+        """Where layers of the nail end on that line (2, k) [mm]: its strain is singular there, as stiffness jumps."""
+        depths = np.cumsum([0.0, *(layer.thickness for layer in self.finger.dorsal[:-1])])
+        return self.physical(np.stack([np.full_like(depths, self.nail), depths]))
+
     def physical(self, logical: FloatArray) -> FloatArray:
         """Points (2, n) [mm] of logical coordinates (2, n): outline, normal offset, then straight to the bone."""
         a, b = self.semi_axes
@@ -112,8 +123,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
 
     edges: (k, 2) intervals of x [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
     size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
-    0), of the scene's kinematics. It is at most face_size + growth * distance from the skin under the row, too, and
-    receptor_size + growth * distance from the receptor line.
+    0). It is at most face_size + growth * distance from the skin under the row, too, and
+    receptor_size + growth * distance from the receptor line, and nail_size + growth * distance from the nail's corners.
 
     The mesh mirrors where the row does. With small kinematics it does so for every row, and is refined under the images
     of its edges, too: the section is then condensed by halves, which saves more than these elements cost (decision 40).
@@ -138,7 +149,7 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
         if sum(half.t.shape[1] for half in (halves[0], halves[-1])) > MAX_ELEMENTS:
             raise MeshError(
                 f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try thicker layers,"
-                f" or larger {scene.model.numerics.edge_key(scene.kinematics)}, face_size, receptor_size or growth"
+                " or larger numerics.edge_size, face_size, receptor_size or growth"
             )
     else:
         raise MeshError(f"{scene.device.name}: {MAX_REFINEMENTS} refinements leave elements larger than asked for")
@@ -230,11 +241,10 @@ def _base(outline: _Outline, numerics: Numerics) -> MeshTri:
     lines = np.array(sorted(depths))
     largest = numerics.largest_size / np.sqrt(2.0)  # legs of a triangle whose longest edge is the largest size
     soft = finger.pad_thickness - finger.parallel_depth
-    nail = a * (np.pi - outline.angle_of_arc(finger.nail_width / 2.0))
     # thin layers want columns of their own thickness, or refinement would only make their cells flatter
     thinnest = min(layer.thickness for layer in finger.pad)
     column = min(max(2.0 * thinnest, numerics.receptor_size), largest)
-    along = _subdivided(np.array([0.0, nail, np.pi * a]), column)
+    along = _subdivided(np.array([0.0, outline.nail, np.pi * a]), column)
     fractions = np.linspace(0.0, 1.0, 1 + int(np.ceil(soft / largest)))[1:]
     across = np.concatenate([_subdivided(lines, largest), finger.parallel_depth + fractions])
     return MeshTri.init_tensor(along, across)
@@ -289,7 +299,7 @@ def _too_large(scene: Scene, outline: _Outline, half: MeshTri, side: _Graded) ->
     """Elements of a half, as if it were the right one, that are larger than asked for."""
     corners = outline.physical(half.p)[:, half.t]
     size = np.max(np.hypot(*(corners - np.roll(corners, 1, axis=1))), axis=0)
-    wanted = _size(scene, side, corners.mean(axis=1), half.p[1, half.t].mean(axis=0))
+    wanted = _size(scene, outline, side, corners.mean(axis=1), half.p[1, half.t].mean(axis=0))
     return np.flatnonzero(size > wanted * (1.0 + SIZE_SLACK))
 
 
@@ -307,7 +317,7 @@ def _on_mid_line(half: MeshTri) -> np.ndarray:
     return np.asarray((half.p[0] == 0.0) | (half.p[0] == half.p[0].max()))
 
 
-def _size(scene: Scene, side: _Graded, centre: FloatArray, zeta: FloatArray) -> FloatArray:
+def _size(scene: Scene, outline: _Outline, side: _Graded, centre: FloatArray, zeta: FloatArray) -> FloatArray:
     """Largest allowed element size (n,) [mm] at element centres (2, n) [mm] of logical depth zeta (n,)."""
     finger, numerics = scene.model.finger, scene.model.numerics
     start, stop = side.edges.T[..., None]
@@ -322,13 +332,14 @@ def _size(scene: Scene, side: _Graded, centre: FloatArray, zeta: FloatArray) -> 
     beyond = np.min(np.abs(centre[0] - np.clip(centre[0], first, last)), axis=0)
     to_face = np.hypot(depth, beyond)
     to_receptors = np.hypot(depth - scene.model.receptor_depth, beyond)
-    edge_size, edge_zone = numerics.edges(scene.kinematics)
+    to_nail = np.min(np.hypot(*(centre[:, None] - outline.nail_corners[:, :, None])), axis=0)
     size: FloatArray = np.minimum.reduce(
         [
             np.full(depth.shape, numerics.largest_size),
-            edge_size + numerics.growth * np.maximum(to_edge - edge_zone, 0.0),
+            numerics.edge_size + numerics.growth * np.maximum(to_edge - numerics.edge_zone, 0.0),
             numerics.face_size + numerics.growth * to_face,
             numerics.receptor_size + numerics.growth * to_receptors,
+            numerics.nail_size + numerics.growth * to_nail,
         ]
     )
     return size
@@ -357,11 +368,10 @@ def _joined(scene: Scene, outline: _Outline, right: MeshTri, left: MeshTri) -> S
     along = np.concatenate([logical[0], middle[0]])
     s = np.sign(mesh.doflocs[0]) * along
     zeta = np.concatenate([logical[1], middle[1]])
-    nail = (np.pi - outline.angle_of_arc(finger.nail_width / 2.0)) * outline.semi_axes[0]
 
-    layer = _layers(finger, along[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), nail)
+    layer = _layers(finger, along[mesh.t].mean(axis=0), zeta[mesh.t].mean(axis=0), outline.nail)
     depth = round(scene.model.receptor_depth, ROUNDED)
-    on_pad = along <= nail + LINE_SLACK
+    on_pad = along <= outline.nail + LINE_SLACK
     facet_nodes = points.shape[1] + np.arange(ends.shape[1])
     level = np.all(zeta[ends] == depth, axis=0) & on_pad[facet_nodes]
     receptor_facets = np.flatnonzero(level)

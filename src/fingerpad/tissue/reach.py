@@ -37,6 +37,6 @@ def contact_tractions(section: SectionMesh, scene: Scene) -> Tractions:
     if tractions.weight.size > MAX_CONTACT:
         raise MeshError(
             f"{scene.device.name}: {tractions.weight.size} skin nodes may come into contact, more than {MAX_CONTACT};"
-            f" try larger {scene.model.numerics.edge_key(scene.kinematics)} and numerics.face_size"
+            " try larger numerics.edge_size and numerics.face_size"
         )
     return tractions
