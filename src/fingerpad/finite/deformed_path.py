@@ -45,7 +45,7 @@ MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way
 # The same [1] of a move that begins elsewhere than where tissue was linearised, before it is linearised there; source:
 # fewest seconds of 5, 10, 20 (measured displacements that press and slip)
 FEW_CORRECTIONS = 10
-STEPS_BACK = 3  # halvings [1] of a correction that turns tissue inside out; source: one suffices (measured)
+STEPS_BACK = 6  # halvings [1] of a correction that turns tissue inside out; source: two suffice on 4 times finer mesh
 SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 8e-4
 
 
