@@ -27,7 +27,8 @@ SMALL_ONLY = "short"  # a device for which finite kinematics are left out
 COARSER = {
     "edge_size": 8.0,
     "face_size": 2.0,
-    "receptor_size": 4.0,
+    "receptor_size": 6.0,
+    "nail_size": 8.0,
 }  # times the shipped sizes: a run of seconds
 NOT_RESULTS = ("results/logs/", "results/benchmarks/")  # they say when and how long
 LONGEST = "test_adding_a_device.py"

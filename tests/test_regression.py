@@ -26,6 +26,7 @@ NOT_BORNE_OUT = {  # with small strain, in the first half-cycle
     "Device 2: the strain correlates well.": "undecided",
     "Device 1: the strain correlates very poorly.": "undecided",
     "Device 3: the strain correlates negatively.": "undecided",
+    "Device 2 without shear: the strain correlates negatively.": "undecided",
     "Device 2 without shear: the change of strain correlates weakly.": "no",
     "Device 2 without shear: the change of strain is smaller at every phase.": "no",
     "Device 2 without shear: the change of strain correlates more weakly than with it.": "undecided",
