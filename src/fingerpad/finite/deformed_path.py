@@ -212,15 +212,18 @@ def _corrected(
     raise _UnsettledError
 
 
-def _not_inverted(part: TissuePart, before: FloatArray, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _not_inverted(
+    part: TissuePart, before: FloatArray, displacement: FloatArray, halvings: int = STEPS_BACK
+) -> tuple[FloatArray, FloatArray]:
     """A displacement (size,) [mm] and the internal forces (n_free,) [N/mm] there; where a correction overshot into
-    tissue turned inside out, half as far from the one before. Raises InvertedError after STEPS_BACK halves.
+    tissue turned inside out, half as far from the one before. Raises InvertedError after so many halvings.
     """
-    for _ in range(STEPS_BACK):
-        with suppress(InvertedError):
-            return displacement, np.asarray(internal_force(part.elements, displacement)[part.elements.free])
-        displacement = (before + displacement) / 2.0
-    return displacement, np.asarray(internal_force(part.elements, displacement)[part.elements.free])
+    try:
+        return displacement, np.asarray(internal_force(part.elements, displacement)[part.elements.free])
+    except InvertedError:
+        if halvings == 0:
+            raise
+        return _not_inverted(part, before, (before + displacement) / 2.0, halvings - 1)
 
 
 def _followed_newly(

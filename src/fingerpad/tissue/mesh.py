@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 
@@ -91,12 +92,12 @@ class _Outline:
         table = np.linspace(0.0, np.pi, ARC_POINTS)
         return float(np.interp(arc, a * ellipeinc(table, 1.0 - (b / a) ** 2), table))
 
-    @property
+    @cached_property
     def nail(self) -> float:
         """Logical coordinate s [mm] of the line on which pad and nail meet."""
         return (np.pi - self.angle_of_arc(self.finger.nail_width / 2.0)) * self.semi_axes[0]
 
-    @property
+    @cached_property
     def nail_corners(self) -> FloatArray:
         """Where layers of the nail end on that line (2, k) [mm]: its strain is singular there, as stiffness jumps."""
         depths = np.cumsum([0.0, *(layer.thickness for layer in self.finger.dorsal[:-1])])
@@ -123,8 +124,8 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
 
     edges: (k, 2) intervals of x [mm] on the skin over which actuators' edges lie (`edges.edge_intervals`). Element
     size h [mm] (longest edge) at distance r from the nearest of them is at most edge_size + growth * max(r - edge_zone,
-    0). It is at most face_size + growth * distance from the skin under the row, too, and
-    receptor_size + growth * distance from the receptor line, and nail_size + growth * distance from the nail's corners.
+    0). It is at most face_size + growth * distance from the skin under the row, too, receptor_size + growth * distance
+    from the receptor line, and nail_size + growth * distance from the corners of the nail's edges.
 
     The mesh mirrors where the row does. With small kinematics it does so for every row, and is refined under the images
     of its edges, too: the section is then condensed by halves, which saves more than these elements cost (decision 40).
@@ -149,7 +150,7 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
         if sum(half.t.shape[1] for half in (halves[0], halves[-1])) > MAX_ELEMENTS:
             raise MeshError(
                 f"{scene.device.name}: the section's mesh needs more than {MAX_ELEMENTS} elements; try thicker layers,"
-                " or larger numerics.edge_size, face_size, receptor_size or growth"
+                " or larger numerics.edge_size, face_size, receptor_size, nail_size or growth"
             )
     else:
         raise MeshError(f"{scene.device.name}: {MAX_REFINEMENTS} refinements leave elements larger than asked for")
