@@ -47,16 +47,15 @@ def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, held: np.ndarray) 
 class Factors:
     """LU factors of a stiffness with rows below it that are read of its solutions.
 
-    lu: of both, without pivoting. size: of the stiffness.
+    lu: of both, without pivoting. size: of the stiffness. pivots: (size + n_rows,) in the order of elimination [N/mm
+    per mm], 0 for the rows; as many are negative as eigenvalues of the stiffness. carried: (n_rows, size + n_rows) what
+    L has in the rows.
     """
 
     lu: SuperLU
     size: int
-
-    @property
-    def pivots(self) -> FloatArray:
-        """Pivots (size,) of the stiffness [N/mm per mm]: as many are negative as its eigenvalues."""
-        return np.asarray(self.lu.U.diagonal()[self.lu.perm_c[: self.size]])
+    pivots: FloatArray
+    carried: csc_matrix
 
     def solve(self, load: FloatArray) -> FloatArray:
         """K^-1 of a load (size,) or of some (size, k)."""
@@ -66,13 +65,8 @@ class Factors:
 
     def read(self, count: int) -> FloatArray:
         """R K^-1 R_c^T (n_rows, count): what all rows read of the answers to the first `count` of them as loads."""
-        border = self.lu.perm_c[self.size :]
-        carried = csc_matrix(self.lu.L[border])
-        carried.sort_indices()
-        pivots = self.lu.U.diagonal()
-        pivots[border] = 0.0  # of the rows' own columns, which are not the stiffness's
-        found = np.zeros((border.size, count))
-        for rows, block, pivot in _blocks(carried, pivots):
+        found = np.zeros((self.carried.shape[0], count))
+        for rows, block, pivot in _blocks(self.carried, self.pivots):
             own = np.searchsorted(rows, count)
             found[rows[:, None], rows[:own]] += (block.T * pivot) @ block[:, :own]
         return found
@@ -105,11 +99,25 @@ def factorise(permuted: csc_matrix, rows: csr_matrix | None = None) -> Factors:
         lu = _factorise(bordered, "NATURAL")
     except RuntimeError as error:  # a pivot is zero to the last bit
         raise CondensationError(SINGULAR) from error
-    factors = Factors(lu, permuted.shape[0])
-    pivots = np.abs(factors.pivots)
-    if not (np.array_equal(lu.perm_r, lu.perm_c) and pivots.min() >= PIVOT_LIMIT * pivots.max()):
+    size = permuted.shape[0]
+    lower, upper = lu.L, lu.U
+    pivots = upper.diagonal()
+    own, border = np.split(lu.perm_c, [size])
+    sizes = np.abs(pivots[own])
+    if not (np.array_equal(lu.perm_r, lu.perm_c) and sizes.min() >= PIVOT_LIMIT * sizes.max()):
         raise CondensationError(SINGULAR)
-    return factors
+    pivots[border] = 0.0
+    carried = csc_matrix(lower[border])
+    carried.sort_indices()
+    _let_go(lower)
+    _let_go(upper)
+    return Factors(lu, size, pivots, carried)
+
+
+def _let_go(copied: csc_matrix) -> None:
+    """Empty a triangle that SuperLU copied out and keeps for as long as it lives, as large as its own."""
+    copied.data, copied.indices = copied.data[:0].copy(), copied.indices[:0].copy()
+    copied.indptr = np.zeros_like(copied.indptr)
 
 
 def _factorise(matrix: csc_matrix, ordering: str) -> SuperLU:
