@@ -461,7 +461,7 @@ def test_graph_of_jobs_is_timed_and_only_the_real_one_again(tmp_path: Path, monk
         return float(len(runs))
 
     monkeypatch.setattr(script, "seconds_of_all", seconds_of_all)
-    script.main(project, files, 2, ["small"], 1, tmp_path / "graph.csv")
+    script.main(project / "Snakefile", files, 2, ["small"], 1, tmp_path / "graph.csv")
     assert runs == [(True, "small}"), (False, "small}"), (False, "small}")]
     (row,) = read_rows(tmp_path / "graph.csv")
     assert (row["empty_s"], row["real_s"], row["again_s"]) == ("1.0", "2.0", "3.0")

@@ -1067,7 +1067,7 @@ def test_faces_are_projected_on_the_receptor_line() -> None:
 def test_saved_files_are_the_same_byte_for_byte(tmp_path: Path, correlations: pd.DataFrame) -> None:
     """They hold no date, whatever the clock says, and a stem with a point keeps it."""
     for name in ("first", "second"):
-        save(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL), tmp_path / f"{name}.v1")
+        save(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL), tmp_path / f"{name}.v1.png")
         save_as(
             correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL), tmp_path / f"{name}.v1.svg"
         )

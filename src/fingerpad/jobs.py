@@ -1,21 +1,73 @@
-"""Jobs of the workflow: how they end where something goes wrong."""
+"""Jobs of the workflow: what a script is given, and how a job ends where something goes wrong."""
 
 from __future__ import annotations
 
 import sys
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from enum import Enum
+from inspect import signature
 from pathlib import Path
+from types import UnionType
+from typing import Any, Protocol, get_args, get_origin
 
 from .errors import FingerpadError
 
 
-@contextmanager
-def logged(logs: Sequence[str]) -> Iterator[None]:
-    """Write to the job's logs why it fails, and end it with status 1: at a FingerpadError with its message alone, there
-    and on standard error; at any other error with the traceback.
+class Job(Protocol):
+    """What a rule names for its script, by kind."""
+
+    input: Mapping[str, Any]
+    output: Mapping[str, Any]
+    wildcards: Mapping[str, Any]
+    params: Mapping[str, Any]
+    threads: int
+    log: Sequence[str]
+
+
+def run(main: Callable[..., None], job: Job) -> None:
+    """Call a script's main function with what its job has under the names of the parameters, and say in the job's logs
+    why it fails.
+
+    Ends with status 1: at a FingerpadError with its message alone, there and on standard error; at any other error with
+    the traceback.
     """
+    with _logged(job.log):
+        main(**_given(main, job))
+
+
+def _given(main: Callable[..., None], job: Job) -> dict[str, Any]:
+    """Arguments of the function by name, as its annotations say: inputs, outputs and parameters of the job, or where
+    none has that name a wildcard, or its threads. Raises TypeError if the job has none, or several.
+    """
+    named = [*job.input.items(), *job.output.items(), *job.params.items()]
+    implied = [*job.wildcards.items(), ("threads", job.threads)]
+    given = {}
+    for name, parameter in signature(main, eval_str=True).parameters.items():
+        found = [value for own, value in named if own == name] or [value for own, value in implied if own == name]
+        if len(found) != 1:
+            raise TypeError(f"the script asks for {name}; its rule has {len(found)} of these")
+        given[name] = _as(parameter.annotation, found[0])
+    return given
+
+
+def _as(annotation: Any, value: Any) -> Any:
+    """A path, a member of an enumeration, a list of these, or None where there is no path; anything else as it is."""
+    if get_origin(annotation) is list:
+        [member] = get_args(annotation)
+        return [_as(member, each) for each in value]
+    if get_origin(annotation) is UnionType:
+        [file, _] = get_args(annotation)
+        return _as(file, value) if value else None
+    if isinstance(annotation, type) and issubclass(annotation, (Path, Enum)):
+        return annotation(value)
+    return value
+
+
+@contextmanager
+def _logged(logs: Sequence[str]) -> Iterator[None]:
+    """Write to the logs what ends a job."""
     try:
         yield
     except FingerpadError as error:

@@ -36,7 +36,7 @@ rule code_map:
         rules=RULE_FILES,
         scripts=sorted((BASE / "workflow" / "scripts").glob("*.py")),
     output:
-        page="docs/map.md",
+        written="docs/map.md",
     log:
         "results/logs/code_map.log",
     conda:

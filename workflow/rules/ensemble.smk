@@ -45,7 +45,7 @@ rule ensemble_member:
         runtime=30,
     params:
         code=code("ensemble_member.py"),
-        scenes=lambda w: [scored(name, w.kinematics) for name in DEVICES_WITH[w.kinematics]],
+        scene=lambda w: [scored(name, w.kinematics) for name in DEVICES_WITH[w.kinematics]],
         written=lambda w: as_written(DEVICES_WITH[w.kinematics]),
         varied=lambda w: support.fingerprint(MEMBERS[w.member]),
         varied_in=lambda w: varied_in(MEMBERS[w.member]),

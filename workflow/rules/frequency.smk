@@ -76,7 +76,7 @@ rule frequency_variants:
 rule frequencies:
     input:
         scores=expand("results/small/{device}/frequency.csv", device=VIBRATING),
-        variants=expand("results/small/{device}/frequency_variants.csv", device=VIBRATING),
+        varied=expand("results/small/{device}/frequency_variants.csv", device=VIBRATING),
     output:
         table="results/frequency.csv",
         variants="results/frequency_variants.csv",

@@ -62,7 +62,7 @@ rule page:
         tables=lambda w: PAGE_TABLES[w.page].values(),
         figures=lambda w: [f"docs/figures/{name}.png" for name in PAGE_FIGURES.get(w.page, [])],
     output:
-        page="docs/{page}.md",
+        written="docs/{page}.md",
     log:
         "results/logs/page_{page}.log",
     wildcard_constraints:

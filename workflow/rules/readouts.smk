@@ -17,7 +17,7 @@ rule readouts:
         ],
     output:
         table="results/ablation_readout.csv",
-        agreement="results/ablation_agreement.csv",
+        compared="results/ablation_agreement.csv",
     log:
         "results/logs/readouts.log",
     benchmark:

@@ -66,7 +66,7 @@ rule scores:
         scores=cases("results/{kinematics}/{device}/{condition}/{interface}/score.csv"),
         checks=[f"results/{each}/{name}/check.csv" for each in KINEMATICS for name in DEVICES_WITH[each]],
     output:
-        scores="results/scores.csv",
+        table="results/scores.csv",
     log:
         "results/logs/scores.log",
     priority: 2

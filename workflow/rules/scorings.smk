@@ -27,7 +27,7 @@ rule other_scores:
         order=DATA / "stated_order.csv",
         published=DATA / "published_r2.csv",
     output:
-        scores="results/scorings.csv",
+        scorings="results/scorings.csv",
         correlations="results/scoring_correlations.csv",
         claims="results/scoring_claims.csv",
         response="results/filter_response.csv",

@@ -49,7 +49,7 @@ rule stress_summary:
         small=STRESS_CHUNKS["small"],
         finite=STRESS_CHUNKS["finite"],
     output:
-        summary="results/stress/summary.csv",
+        table="results/stress/summary.csv",
     log:
         "results/logs/stress_summary.log",
     conda:

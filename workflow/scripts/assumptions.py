@@ -3,25 +3,20 @@
 from pathlib import Path
 
 from fingerpad.files import write_text
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.sources import page
 
 
-def main(files: list[Path], package: Path, listed: Path) -> None:
+def main(files: list[Path], package: list[Path], listed: Path) -> None:
     """Read the scene files and the code, write the page."""
     named = {f"{path.parent.name}/{path.name}": read_yaml(path) for path in files}
+    folder = package[0].parent
     code = {
-        path.relative_to(package).as_posix(): path.read_text(encoding="utf-8") for path in sorted(package.rglob("*.py"))
+        path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.py"))
     }
     write_text(listed, page(named, code))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            [Path(path) for path in job.input.files],
-            Path(job.input.package[0]).parent,
-            Path(job.output.listed),
-        )
+    run(main, snakemake)

@@ -7,11 +7,10 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.store import write_rows
 
 EMPTY_SCRIPT = '''"""An empty job: it makes its outputs and does nothing."""
@@ -32,7 +31,7 @@ def seconds_of_all(project: Path, cores: int) -> float:
     return time.perf_counter() - start
 
 
-def copied(base: Path, files: Sequence[Path], folder: str, kinematics: str, empty: bool) -> Path:
+def copied(base: Path, files: list[Path], folder: str, kinematics: str, empty: bool) -> Path:
     """A copy of the project's files, which lie in base, in a folder, for those kinematics ("small" or "both"), with its
     scripts or empty ones.
     """
@@ -54,31 +53,22 @@ def copied(base: Path, files: Sequence[Path], folder: str, kinematics: str, empt
     return project
 
 
-def main(base: Path, files: Sequence[Path], cores: int, kinematics: list[str], repeats: int, table: Path) -> None:
+def main(snakefile: Path, files: list[Path], threads: int, kinematics: list[str], repeats: int, graph: Path) -> None:
     """Copy the project, empty the scripts of every second copy, time all in turns, the real ones twice; write all."""
     rows = []
     for repeat, each in product(range(1, repeats + 1), kinematics):
         found = {}
         for kind in ("empty", "real"):
             with tempfile.TemporaryDirectory() as folder:
-                project = copied(base, files, folder, each, empty=kind == "empty")
-                found[kind] = seconds_of_all(project, cores)
+                project = copied(snakefile.parent, files, folder, each, empty=kind == "empty")
+                found[kind] = seconds_of_all(project, threads)
                 if kind == "real":
-                    found["again"] = seconds_of_all(project, cores)
+                    found["again"] = seconds_of_all(project, threads)
         seconds = {f"{kind}_s": round(value, 1) for kind, value in found.items()}
         ratio = round(found["real"] / found["empty"], 2)
-        rows.append({"repeat": repeat, "cores": cores, "kinematics": each, **seconds, "ratio": ratio})
-    write_rows(table, rows)
+        rows.append({"repeat": repeat, "cores": threads, "kinematics": each, **seconds, "ratio": ratio})
+    write_rows(graph, rows)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.snakefile).parent,
-            [Path(path) for path in job.input.files],
-            job.threads,
-            job.params.kinematics,
-            job.params.repeats,
-            Path(job.output.graph),
-        )
+    run(main, snakemake)

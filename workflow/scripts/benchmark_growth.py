@@ -5,7 +5,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.growth import exponents, growth
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
@@ -20,15 +20,6 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with logged(job.log), threadpool_limits(1):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            job.params.factors,
-            job.params.counts,
-            job.params.repeats,
-            Path(job.output.sizes),
-            Path(job.output.fits),
-        )
+    with threadpool_limits(1):
+        run(main, snakemake)

@@ -9,7 +9,7 @@ from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
 from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.errors import CalculixError
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import alike, read_rows, write_rows
@@ -26,7 +26,7 @@ def main(
     cases: dict[str, dict[str, Any]],
     limit: float,
     repeats: dict[str, int],
-    folder: Path,
+    decks: Path,
     table: Path,
 ) -> None:
     """Read scene and small kinematics' reference, climb every ladder, write a row per mesh. With finite kinematics the
@@ -42,33 +42,19 @@ def main(
             rows += first_order_ladder(scene, asked, climbed["first_order"], wanted, repeats[each])
         if climbed["plain"]:
             rows += plain_ladder(scene, asked, climbed["plain"], wanted)
-        decks = folder / each
-        decks.mkdir(parents=True, exist_ok=True)
+        folder = decks / each
+        folder.mkdir(parents=True, exist_ok=True)
         if not installed():
             print(f"CalculiX {SKIPPED}")
             continue
         try:
-            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], decks, limit)
+            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], folder, limit)
         except CalculixError as error:
             print(f"CalculiX's ladder is left out: {error}")
     write_rows(table, alike(rows))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with logged(job.log), threadpool_limits(1):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.reference),
-            [Kinematics(each) for each in job.params.kinematics],
-            job.params.finest,
-            job.params.condition,
-            job.params.factors,
-            job.params.cases,
-            job.params.limit,
-            job.params.repeats,
-            Path(job.output.decks),
-            Path(job.output.table),
-        )
+    with threadpool_limits(1):
+        run(main, snakemake)

@@ -5,7 +5,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.steps import step_rows
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
@@ -19,13 +19,6 @@ def main(config: Path, devices: list[Path], finite: list[Path], repeats: dict[st
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with logged(job.log), threadpool_limits(1):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            [Path(path) for path in job.input.finite],
-            job.params.repeats,
-            Path(job.output.timings),
-        )
+    with threadpool_limits(1):
+        run(main, snakemake)

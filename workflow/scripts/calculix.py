@@ -7,39 +7,24 @@ from threadpoolctl import threadpool_limits
 
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
 from fingerpad.calculix.program import SKIPPED, installed
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
 
 def main(
-    config: Path,
-    device: Path,
-    condition: str,
-    cases: dict[str, dict[str, Any]],
-    limit: float,
-    folder: Path,
-    table: Path,
+    config: Path, device: Path, condition: str, cases: dict[str, dict[str, Any]], limit: float, decks: Path, table: Path
 ) -> None:
-    """Read the scene, run every case, write the table and keep the decks in the folder."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Read the scene, run every case, write the table and keep the decks in a folder."""
+    decks.mkdir(parents=True, exist_ok=True)
     if not installed():
         print(SKIPPED)
         write_rows(table, [{"note": SKIPPED}])
         return
-    write_rows(table, crosscheck_rows(load_scene(config, device), condition, cases, folder, limit))
+    write_rows(table, crosscheck_rows(load_scene(config, device), condition, cases, decks, limit))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with logged(job.log), threadpool_limits(1):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            job.params.condition,
-            job.params.cases,
-            job.params.limit,
-            Path(job.output.decks),
-            Path(job.output.table),
-        )
+    with threadpool_limits(1):
+        run(main, snakemake)

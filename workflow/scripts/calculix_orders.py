@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.calculix.program import SKIPPED
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.store import read_rows, write_rows
 
 
@@ -14,6 +14,4 @@ def main(scores: list[Path], table: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main([Path(path) for path in job.input.scores], Path(job.output.table))
+    run(main, snakemake)

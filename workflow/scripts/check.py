@@ -3,11 +3,10 @@
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.prediction.edges import load_edges
 from fingerpad.prediction.scoring import ReadSolution, error_rows
 from fingerpad.readouts.gabor import FilteredReadouts
-from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
@@ -16,7 +15,7 @@ from fingerpad.store import load, write_rows
 def main(
     config: Path,
     device: Path,
-    kinematics: str,
+    kinematics: Kinematics,
     edges: Path,
     cases: list[tuple[str, str]],
     solutions: list[Path],
@@ -24,24 +23,13 @@ def main(
     errors: Path,
 ) -> None:
     """Read the scene, its edges and what was read in all cases, solve them coarsely, write errors."""
-    scene = load_scene(config, device, Kinematics(kinematics))
+    scene = load_scene(config, device, kinematics)
     read = {
-        (condition, Interface(interface)): ReadSolution(load(solved, Solution), load(path, FilteredReadouts))
+        (condition, interface): ReadSolution(load(solved, Solution), load(path, FilteredReadouts))
         for (condition, interface), solved, path in zip(cases, solutions, filtered, strict=True)
     }
     write_rows(errors, error_rows(scene, load_edges(edges), read))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            job.wildcards.kinematics,
-            Path(job.input.edges),
-            job.params.cases,
-            [Path(path) for path in job.input.solutions],
-            [Path(path) for path in job.input.filtered],
-            Path(job.output.errors),
-        )
+    run(main, snakemake)

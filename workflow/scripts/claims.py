@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.perception.claims import claims_table
 from fingerpad.store import write_table
 
@@ -16,6 +16,4 @@ def main(scores: Path, correlations: Path, claims: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.scores), Path(job.input.correlations), Path(job.output.claims))
+    run(main, snakemake)

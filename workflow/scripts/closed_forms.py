@@ -4,7 +4,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from fingerpad.closedforms.table import CASES
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import write_rows
 
@@ -16,6 +16,4 @@ def main(config: Path, device: Path, table: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.config), Path(job.input.device), Path(job.output.table))
+    run(main, snakemake)

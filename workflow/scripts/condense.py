@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import save
 from fingerpad.tissue.condensation import condense_section
@@ -15,6 +15,4 @@ def main(config: Path, device: Path, mesh: Path, condensed: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.config), Path(job.input.device), Path(job.input.mesh), Path(job.output.condensed))
+    run(main, snakemake)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import save
 from fingerpad.tissue.actuator_body import condense_body
@@ -14,6 +14,4 @@ def main(config: Path, device: Path, body: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.config), Path(job.input.device), Path(job.output.body))
+    run(main, snakemake)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.store import write_table
@@ -24,13 +24,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.scores),
-            Path(job.input.ratings),
-            Path(job.input.order),
-            Path(job.input.published),
-            job.params.conditions,
-            Path(job.output.correlations),
-        )
+    run(main, snakemake)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.ensemble.alternatives import named_alternative, read_ensemble, write_scenes
 from fingerpad.ensemble.members import member_scores
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
@@ -15,10 +15,10 @@ def main(
     config: Path,
     devices: list[Path],
     ensemble: Path,
-    schemas: Path,
+    schemas: list[Path],
     member: str,
     half_cycle: str,
-    kinematics: str,
+    kinematics: Kinematics,
     scenes: Path,
     scores: Path,
 ) -> None:
@@ -26,21 +26,9 @@ def main(
     alternative = named_alternative(read_ensemble(ensemble), member)
     documents = {path.stem: read_yaml(path) for path in devices}
     own_config, own_devices = write_scenes(scenes, read_yaml(config), documents, alternative, half_cycle)
-    found = [check_device(path, schemas, own_config) for path in own_devices]
-    write_rows(scores, member_scores(found, Kinematics(kinematics), alternative, half_cycle))
+    found = [check_device(path, schemas[0].parent, own_config) for path in own_devices]
+    write_rows(scores, member_scores(found, kinematics, alternative, half_cycle))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            Path(job.input.ensemble),
-            Path(job.input.schemas[0]).parent,
-            job.wildcards.member,
-            job.wildcards.half_cycle,
-            job.wildcards.kinematics,
-            Path(job.output.scenes),
-            Path(job.output.scores),
-        )
+    run(main, snakemake)

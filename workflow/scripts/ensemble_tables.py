@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.ensemble.members import ensemble_tables
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.store import write_table
 
@@ -35,15 +35,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            [Path(path) for path in job.input.members],
-            Path(job.input.scores),
-            Path(job.input.ratings),
-            Path(job.input.order),
-            Path(job.input.published),
-            job.params.conditions,
-            Path(job.output.claims),
-            Path(job.output.correlations),
-        )
+    run(main, snakemake)

@@ -7,7 +7,7 @@ from fingerpad.fields.states import deformed_states, linear_states
 from fingerpad.fields.vtu import field_meshes, write_path
 from fingerpad.finite.deformed_solution import pressed_finger
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -17,7 +17,7 @@ from fingerpad.tissue.mesh import load_section
 
 
 def main(
-    kinematics: str,
+    kinematics: Kinematics,
     config: Path,
     device: Path,
     mesh: Path,
@@ -25,7 +25,7 @@ def main(
     pressed: Path | None,
     solution: Path,
     condition: str,
-    interface: str,
+    interface: Interface,
     vtu: Path,
     pvd: Path,
     states: Path,
@@ -34,10 +34,10 @@ def main(
 
     pressed: with finite kinematics the pressed finger, from where the stimulus is solved, as forces are not enough.
     """
-    scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
+    scene, section = load_scene(config, device, kinematics), load_section(mesh)
     moved = scene.device.condition(condition)
     if pressed:
-        finger = pressed_finger(scene, section, load_body(body), load(pressed, Pressed), Interface(interface))
+        finger = pressed_finger(scene, section, load_body(body), load(pressed, Pressed), interface)
         found = deformed_states(scene, finger, moved)
     else:
         found = linear_states(scene, section, load(solution, Solution))
@@ -45,19 +45,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            job.wildcards.kinematics,
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.mesh),
-            Path(job.input.body) if job.input.body else None,
-            Path(job.input.pressed) if job.input.pressed else None,
-            Path(job.input.solution),
-            job.wildcards.condition,
-            job.wildcards.interface,
-            Path(job.output.vtu),
-            Path(job.output.pvd),
-            Path(job.output.states),
-        )
+    run(main, snakemake)

@@ -9,7 +9,7 @@ from fingerpad.fields.recovery import recover_displacement
 from fingerpad.fields.states import deformed_states, states_fields
 from fingerpad.finite.deformed_solution import pressed_finger
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -19,7 +19,7 @@ from fingerpad.tissue.mesh import load_section
 
 
 def main(
-    kinematics: str,
+    kinematics: Kinematics,
     config: Path,
     device: Path,
     mesh: Path,
@@ -32,7 +32,7 @@ def main(
 
     pressed: with finite kinematics the pressed finger, from where every stimulus is solved, as forces are not enough.
     """
-    scene, section = load_scene(config, device, Kinematics(kinematics)), load_section(mesh)
+    scene, section = load_scene(config, device, kinematics), load_section(mesh)
     solved = [load(path, Solution) for path in solutions]
     if pressed:
         finger = pressed_finger(scene, section, load_body(body), load(pressed, Pressed), Interface.SHEAR)
@@ -46,15 +46,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            job.wildcards.kinematics,
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.mesh),
-            Path(job.input.body) if job.input.body else None,
-            Path(job.input.pressed) if job.input.pressed else None,
-            [Path(path) for path in job.input.solutions],
-            Path(job.output.fields),
-        )
+    run(main, snakemake)

@@ -6,16 +6,14 @@ import pandas as pd
 
 from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.style import save
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.tissue_law import Kinematics
 
 
-def main(table: Path, kinematics: Kinematics, stem: Path) -> None:
+def main(table: Path, kinematics: Kinematics, png: Path) -> None:
     """Read the table, draw, write PNG and PDF."""
-    save(accuracy_figure(pd.read_csv(table), kinematics), stem)
+    save(accuracy_figure(pd.read_csv(table), kinematics), png)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.table), Kinematics(job.params.kinematics), Path(job.output.png).with_suffix(""))
+    run(main, snakemake)

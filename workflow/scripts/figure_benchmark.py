@@ -6,21 +6,13 @@ import pandas as pd
 
 from fingerpad.figures.benchmark import benchmark_figure
 from fingerpad.figures.style import save
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 
 
-def main(case: str, ladder: Path, sizes: Path, fits: Path, stem: Path) -> None:
+def main(case: str, ladder: Path, sizes: Path, fits: Path, png: Path) -> None:
     """Read the tables, draw what is about that condition, write PNG and PDF."""
-    save(benchmark_figure(case, pd.read_csv(ladder), pd.read_csv(sizes), pd.read_csv(fits)), stem)
+    save(benchmark_figure(case, pd.read_csv(ladder), pd.read_csv(sizes), pd.read_csv(fits)), png)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            job.params.case,
-            Path(job.input.ladder),
-            Path(job.input.sizes),
-            Path(job.input.fits),
-            Path(job.output.png).with_suffix(""),
-        )
+    run(main, snakemake)

@@ -6,20 +6,13 @@ import pandas as pd
 
 from fingerpad.figures.kinematics import kinematics_figure
 from fingerpad.figures.style import save
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 
 
-def main(scores: Path, curves: Path, titles: dict[str, str], stem: Path) -> None:
+def main(scores: Path, curves: Path, titles: dict[str, str], png: Path) -> None:
     """Read the tables, draw, write PNG and PDF. titles: of the devices by name."""
-    save(kinematics_figure(pd.read_csv(scores), pd.read_csv(curves), titles), stem)
+    save(kinematics_figure(pd.read_csv(scores), pd.read_csv(curves), titles), png)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.scores),
-            Path(job.input.curves),
-            job.params.titles,
-            Path(job.output.png).with_suffix(""),
-        )
+    run(main, snakemake)

@@ -6,23 +6,17 @@ from fingerpad.contact.solution import Solution
 from fingerpad.fields.section_fields import Fields
 from fingerpad.figures.maps import strain_map_figure
 from fingerpad.figures.style import save
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load
 
 
 def main(
-    kinematics: str,
-    config: Path,
-    device: Path,
-    fields: Path,
-    solutions: list[Path],
-    dispersion: str,
-    stem: Path,
+    kinematics: Kinematics, config: Path, device: Path, fields: Path, solutions: list[Path], dispersion: str, png: Path
 ) -> None:
     """Read fields and solutions (in the order of the distinct conditions), draw, write PNG and PDF."""
-    scene = load_scene(config, device, Kinematics(kinematics))
+    scene = load_scene(config, device, kinematics)
     names = [condition.name for condition in scene.device.distinct_conditions]
     save(
         strain_map_figure(
@@ -31,19 +25,9 @@ def main(
             load(fields, Fields),
             {name: load(path, Solution) for name, path in zip(names, solutions, strict=True)},
         ),
-        stem,
+        png,
     )
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            job.wildcards.kinematics,
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.fields),
-            [Path(path) for path in job.input.solutions],
-            job.wildcards.dispersion,
-            Path(job.output.png).with_suffix(""),
-        )
+    run(main, snakemake)

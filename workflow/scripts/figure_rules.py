@@ -4,16 +4,14 @@ from pathlib import Path
 
 from fingerpad.figures.rules import rules_figure
 from fingerpad.figures.style import save
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.store import read_rows
 
 
-def main(graph: Path, stem: Path) -> None:
+def main(graph: Path, png: Path) -> None:
     """Read the edges, draw, write PNG and PDF."""
-    save(rules_figure([(row["rule"], row["feeds"]) for row in read_rows(graph)]), stem)
+    save(rules_figure([(row["rule"], row["feeds"]) for row in read_rows(graph)]), png)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.graph), Path(job.output.png).with_suffix(""))
+    run(main, snakemake)

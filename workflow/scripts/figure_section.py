@@ -4,23 +4,16 @@ from pathlib import Path
 
 from fingerpad.figures.section import section_figure
 from fingerpad.figures.style import save
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.tissue.mesh import load_section
 
 
-def main(config: Path, devices: list[Path], mesh: Path, stem: Path) -> None:
+def main(config: Path, devices: list[Path], mesh: Path, png: Path) -> None:
     """Read the scenes and one device's mesh, draw, write PNG and PDF."""
     scenes = [load_scene(config, path) for path in devices]
-    save(section_figure(scenes[0].model, load_section(mesh), [scene.device for scene in scenes]), stem)
+    save(section_figure(scenes[0].model, load_section(mesh), [scene.device for scene in scenes]), png)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            Path(job.input.mesh),
-            Path(job.output.png).with_suffix(""),
-        )
+    run(main, snakemake)

@@ -8,7 +8,7 @@ from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
 from fingerpad.figures.workflow import workflow_figure
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -18,7 +18,7 @@ from fingerpad.tissue.compliance import CondensedSection
 
 
 def main(
-    config: Path, device: Path, condensed: Path, solution: Path, filtered: list[Path], scores: Path, stem: Path
+    config: Path, device: Path, condensed: Path, solution: Path, filtered: list[Path], scores: Path, png: Path
 ) -> None:
     """Read one device's read-outs (in the order of its conditions) and its scores, draw, write PNG and PDF."""
     scene = load_scene(config, device)
@@ -28,18 +28,8 @@ def main(
     entry = DeviceReadouts(scene.device, readouts, faces)
     table = rows_with(pd.read_csv(scores), Kinematics.SMALL)
     own = table[(table["device"] == scene.device.name) & (table["interface"] == Interface.SHEAR)]
-    save(workflow_figure(scene, entry, own), stem)
+    save(workflow_figure(scene, entry, own), png)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.condensed),
-            Path(job.input.solution),
-            [Path(path) for path in job.input.filtered],
-            Path(job.input.scores),
-            Path(job.output.png).with_suffix(""),
-        )
+    run(main, snakemake)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.readouts.gabor import filtered_readouts
 from fingerpad.readouts.strain import Resampling
 from fingerpad.scene.scenefile import load_scene
@@ -17,12 +17,4 @@ def main(config: Path, device: Path, resampling: Path, solution: Path, filtered:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.resampling),
-            Path(job.input.solution),
-            Path(job.output.filtered),
-        )
+    run(main, snakemake)

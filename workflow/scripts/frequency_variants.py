@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.prediction.scoring import Condensed
 from fingerpad.readouts.strain import Resampling
 from fingerpad.scene.scenefile import load_scene
@@ -30,15 +30,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.mesh),
-            Path(job.input.condensed),
-            Path(job.input.body) if job.input.body else None,
-            Path(job.input.resampling),
-            job.params.frequency,
-            Path(job.output.table),
-        )
+    run(main, snakemake)

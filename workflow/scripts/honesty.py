@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.readouts.accuracy import true_errors
 from fingerpad.store import read_rows, write_rows
 
@@ -13,6 +13,4 @@ def main(scores: Path, references: list[Path], table: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.scores), [Path(path) for path in job.input.references], Path(job.output.table))
+    run(main, snakemake)

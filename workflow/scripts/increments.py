@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.benchmark.increments import increment_rows
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import read_rows, write_rows
 
@@ -17,12 +17,4 @@ def main(config: Path, devices: list[Path], scores: Path, multiples: list[int], 
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            Path(job.input.scores),
-            job.params.multiples,
-            Path(job.output.table),
-        )
+    run(main, snakemake)

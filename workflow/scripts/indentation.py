@@ -5,7 +5,7 @@ from pathlib import Path
 from fingerpad.contact.force_curve import curve_rows, small_strain_curve
 from fingerpad.contact.problem import contact_problem
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
@@ -32,13 +32,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            [Path(path) for path in job.input.condensed],
-            [Path(path) for path in job.input.bodies],
-            [Path(path) for path in job.input.pressed],
-            Path(job.output.table),
-        )
+    run(main, snakemake)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.prediction.edges import edge_intervals, save_edges
 from fingerpad.readouts.resampling import resampling_to_grid
 from fingerpad.scene.scenefile import load_scene
@@ -12,9 +12,9 @@ from fingerpad.tissue.mesh import mesh_section, save_section
 from fingerpad.tissue.receptors import arc_length, receptor_strain
 
 
-def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, resampling: Path) -> None:
+def main(config: Path, device: Path, kinematics: Kinematics, edges: Path, mesh: Path, resampling: Path) -> None:
     """Read the scene, find its edges, mesh its section, write both, and what resamples the receptors' read-outs."""
-    scene = load_scene(config, device, Kinematics(kinematics))
+    scene = load_scene(config, device, kinematics)
     intervals = edge_intervals(scene)
     save_edges(edges, intervals)
     section = mesh_section(scene, intervals)
@@ -24,13 +24,4 @@ def main(config: Path, device: Path, kinematics: str, edges: Path, mesh: Path, r
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            job.wildcards.kinematics,
-            Path(job.output.edges),
-            Path(job.output.mesh),
-            Path(job.output.resampling),
-        )
+    run(main, snakemake)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fingerpad.files import write_text
 from fingerpad.imports import without
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which notebooks here have none of; it takes seconds
     import nbformat
@@ -26,11 +26,11 @@ TEMPLATE = """\
 """
 
 
-def main(notebook: Path, scenes: Path, page: Path) -> None:
-    """Read the notebook, run all of its cells here, write the page; a failing cell fails the job. scenes: the folder of
-    the scene files, as SCENES in the notebook's environment.
+def main(notebook: Path, config: Path, page: Path) -> None:
+    """Read the notebook, run all of its cells here, write the page; a failing cell fails the job. The
+    folder of the scene files is SCENES in the notebook's environment.
     """
-    os.environ["SCENES"] = str(scenes.resolve())
+    os.environ["SCENES"] = str(config.parent.resolve())
     document = nbformat.read(notebook, as_version=4)
     folder = {"metadata": {"path": str(Path.cwd())}}
     # a page has no kernel, so widgets on it could not move: their state is left out, and what would be loaded for it
@@ -45,8 +45,7 @@ def main(notebook: Path, scenes: Path, page: Path) -> None:
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
     # jobs run beside each other, and IPython keeps a database there
-    with tempfile.TemporaryDirectory() as folder, logged(job.log):
+    with tempfile.TemporaryDirectory() as folder:
         os.environ["IPYTHONDIR"] = folder
-        main(Path(job.input.notebook), Path(job.input.config).parent, Path(job.output.page))
+        run(main, snakemake)

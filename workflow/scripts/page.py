@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.files import write_text
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.pages.accuracy import accuracy_values
 from fingerpad.pages.claims import claims_values
 from fingerpad.pages.filling import filled
@@ -26,19 +26,15 @@ VALUES = {
 }
 
 
-def main(name: str, template: Path, tables: dict[str, Path], page: Path) -> None:
+def main(page: str, template: Path, names: list[str], tables: list[Path], written: Path) -> None:
     """Read template and tables, some of which may be empty, write the page."""
-    read = {table: pd.read_csv(path) if path.stat().st_size else pd.DataFrame() for table, path in tables.items()}
-    values = VALUES[name](read)
-    write_text(page, filled(template.read_text(encoding="utf-8"), values))
+    read = {
+        name: pd.read_csv(path) if path.stat().st_size else pd.DataFrame()
+        for name, path in zip(names, tables, strict=True)
+    }
+    values = VALUES[page](read)
+    write_text(written, filled(template.read_text(encoding="utf-8"), values))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            job.wildcards.page,
-            Path(job.input.template),
-            dict(zip(job.params.names, map(Path, job.input.tables), strict=True)),
-            Path(job.output.page),
-        )
+    run(main, snakemake)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.finite.pressing import press
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -12,20 +12,11 @@ from fingerpad.tissue.compliance import load_body
 from fingerpad.tissue.mesh import load_section
 
 
-def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: str, pressed: Path) -> None:
+def main(config: Path, device: Path, mesh: Path, body: Path | None, interface: Interface, pressed: Path) -> None:
     """Read scene and mesh, raise the actuators, write the state that they reach."""
     scene = load_scene(config, device, Kinematics.FINITE)
-    save(pressed, press(scene, load_section(mesh), load_body(body), Interface(interface)))
+    save(pressed, press(scene, load_section(mesh), load_body(body), interface))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.mesh),
-            Path(job.input.body) if job.input.body else None,
-            job.wildcards.interface,
-            Path(job.output.pressed),
-        )
+    run(main, snakemake)

@@ -1,10 +1,9 @@
 """Score all solved conditions under other read-outs, and compare with the scores as configured."""
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.prediction.other_readouts import agreement, on_both_sides, readout_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
@@ -15,23 +14,25 @@ from fingerpad.tissue.mesh import load_section
 
 def main(
     config: Path,
-    devices: Sequence[Path],
-    meshes: Sequence[Path],
-    condensed: Sequence[Path],
-    solutions: Mapping[tuple[str, ...], Path],
+    devices: list[Path],
+    meshes: list[Path],
+    condensed: list[Path],
+    cases: list[tuple[str, ...]],
+    solutions: list[Path],
     table: Path,
     compared: Path,
 ) -> None:
-    """Read devices, their meshes and maps, and solutions (by kinematics, device, condition and interface); condense for
-    the other side; write a row per score and a row per comparison.
+    """Read devices, their meshes and maps, and solutions; condense for the other side; write a row per score and a row
+    per comparison. cases: kinematics, device, condition and interface of every solution.
     """
+    solution = dict(zip(cases, solutions, strict=True))
     rows, compared_rows = [], []
     for path, mesh, stored in zip(devices, meshes, condensed, strict=True):
         scene = load_scene(config, path)
         sections = on_both_sides(scene, load(stored, CondensedSection), load_section(mesh))
         solved: dict[tuple[str, Interface], Solution] = {
             (condition.name, interface): load(
-                solutions[scene.kinematics, scene.device.name, condition.name, interface], Solution
+                solution[scene.kinematics, scene.device.name, condition.name, interface], Solution
             )
             for condition in scene.device.conditions
             for interface in scene.device.interfaces()
@@ -44,14 +45,4 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            [Path(path) for path in job.input.meshes],
-            [Path(path) for path in job.input.condensed],
-            dict(zip(job.params.cases, map(Path, job.input.solutions), strict=True)),
-            Path(job.output.table),
-            Path(job.output.agreement),
-        )
+    run(main, snakemake)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.scoring import rows_at
 from fingerpad.readouts.accuracy import REFINEMENT
@@ -22,11 +22,4 @@ def main(config: Path, device: Path, kinematics: Kinematics, scores: Path) -> No
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Kinematics(job.wildcards.kinematics),
-            Path(job.output.scores),
-        )
+    run(main, snakemake)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.files import write_text
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.report.captions import Results, rules_words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -18,6 +18,7 @@ def main(
     scores: Path,
     correlations: Path,
     claims: Path,
+    recordings: list[Path],
     data: list[Path],
     figures: list[Path],
     graph: Path,
@@ -41,27 +42,10 @@ def main(
             {path.stem: quantities(read_yaml(path)) for path in devices},
             pictures_of(figures, results),
             Picture("rules", rules_words(read_rows(graph)), data_uri(rules)),
-            provenance(pyproject, commit, [config, *devices, *data, scores, correlations, claims]),
+            provenance(pyproject, commit, [config, *devices, *recordings, *data, scores, correlations, claims]),
         ),
     )
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            Path(job.input.scores),
-            Path(job.input.correlations),
-            Path(job.input.claims),
-            [Path(path) for path in (*job.input.recordings, *job.input.data)],
-            [Path(path) for path in job.input.figures],
-            Path(job.input.graph),
-            Path(job.input.rules),
-            Path(job.input.template),
-            Path(job.input.pyproject),
-            job.params.commit,
-            job.params.example,
-            Path(job.output.page),
-        )
+    run(main, snakemake)

@@ -6,20 +6,18 @@ import tempfile
 from pathlib import Path
 
 from fingerpad.digraph import read_dot
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.store import write_rows
 
 
-def main(snakefile: Path, scenes: Path, table: Path) -> None:
+def main(snakefile: Path, config: Path, graph: Path) -> None:
     """Ask for the graph of rules in an empty folder, where no other run can be in the way; write its edges."""
     command = [sys.executable, "-m", "snakemake", "report", "--rulegraph", "dot", "--snakefile", str(snakefile)]
     with tempfile.TemporaryDirectory() as folder:
-        given = ["--directory", folder, "--cores", "1", "--config", f"scenes={scenes.resolve()}"]
+        given = ["--directory", folder, "--cores", "1", "--config", f"scenes={config.parent.resolve()}"]
         dot = subprocess.run([*command, *given], check=True, stdout=subprocess.PIPE, text=True).stdout
-    write_rows(table, [{"rule": start, "feeds": stop} for start, stop in read_dot(dot)])
+    write_rows(graph, [{"rule": start, "feeds": stop} for start, stop in read_dot(dot)])
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(Path(job.input.snakefile), Path(job.input.config).parent, Path(job.output.graph))
+    run(main, snakemake)

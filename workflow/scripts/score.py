@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.contact.solution import Solution
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.prediction.caveats import noted_rows
 from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
@@ -17,27 +17,16 @@ def main(
     device: Path,
     solution: Path,
     filtered: Path,
-    kinematics: str,
+    kinematics: Kinematics,
     condition: str,
-    interface: str,
+    interface: Interface,
     score: Path,
 ) -> None:
     """Read solution and filtered read-outs, integrate these, write one row per read-out."""
-    scene = load_scene(config, device, Kinematics(kinematics))
+    scene = load_scene(config, device, kinematics)
     tried, solved, read = scene.device.condition(condition), load(solution, Solution), load(filtered, FilteredReadouts)
-    write_rows(score, noted_rows(scene, tried, Interface(interface), solved, read))
+    write_rows(score, noted_rows(scene, tried, interface, solved, read))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.solution),
-            Path(job.input.filtered),
-            job.wildcards.kinematics,
-            job.wildcards.condition,
-            job.wildcards.interface,
-            Path(job.output.score),
-        )
+    run(main, snakemake)

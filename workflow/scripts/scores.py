@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.readouts.accuracy import with_errors
 from fingerpad.readouts.roughness import unpredicted_rows
 from fingerpad.scene.scenefile import load_scene
@@ -26,12 +26,4 @@ def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Pat
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            [Path(path) for path in job.input.scores],
-            [Path(path) for path in job.input.checks],
-            Path(job.output.scores),
-        )
+    run(main, snakemake)

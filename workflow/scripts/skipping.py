@@ -5,7 +5,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from fingerpad.benchmark.skipping import always_rows, skip_rows
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
@@ -32,15 +32,6 @@ def main(
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
     # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with logged(job.log), threadpool_limits(1):
-        main(
-            Path(job.input.config),
-            [Path(path) for path in job.input.devices],
-            [Path(path) for path in job.input.finite],
-            Path(job.input.scores),
-            job.params.repeats,
-            Path(job.output.switches),
-            Path(job.output.always),
-        )
+    with threadpool_limits(1):
+        run(main, snakemake)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from fingerpad.contact.linear_solution import solve_condition
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.store import load, save
@@ -11,13 +11,7 @@ from fingerpad.tissue.compliance import CondensedSection, load_body
 
 
 def main(
-    config: Path,
-    device: Path,
-    condensed: Path,
-    body: Path | None,
-    condition: str,
-    interface: str,
-    solution: Path,
+    config: Path, device: Path, condensed: Path, body: Path | None, condition: str, interface: Interface, solution: Path
 ) -> None:
     """Read scene and compliance, follow the condition's path, write the certified solution."""
     scene = load_scene(config, device)
@@ -28,20 +22,10 @@ def main(
             load(condensed, CondensedSection),
             load_body(body),
             scene.device.condition(condition),
-            Interface(interface),
+            interface,
         ),
     )
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.condensed),
-            Path(job.input.body) if job.input.body else None,
-            job.wildcards.condition,
-            job.wildcards.interface,
-            Path(job.output.solution),
-        )
+    run(main, snakemake)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.finite.deformed_solution import pressed_finger, stimulate_deformed
 from fingerpad.finite.pressing import Pressed
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
@@ -20,25 +20,14 @@ def main(
     body: Path | None,
     pressed: Path,
     condition: str,
-    interface: str,
+    interface: Interface,
     solution: Path,
 ) -> None:
     """Read scene, mesh and pressed finger, follow the condition's stimulus, write the certified solution."""
     scene = load_scene(config, device, Kinematics.FINITE)
-    finger = pressed_finger(scene, load_section(mesh), load_body(body), load(pressed, Pressed), Interface(interface))
+    finger = pressed_finger(scene, load_section(mesh), load_body(body), load(pressed, Pressed), interface)
     save(solution, stimulate_deformed(scene, finger, scene.device.condition(condition)))
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(
-            Path(job.input.config),
-            Path(job.input.device),
-            Path(job.input.mesh),
-            Path(job.input.body) if job.input.body else None,
-            Path(job.input.pressed),
-            job.wildcards.condition,
-            job.wildcards.interface,
-            Path(job.output.solution),
-        )
+    run(main, snakemake)

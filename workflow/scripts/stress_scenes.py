@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import write_rows
 from fingerpad.stress.outcomes import deformed_outcomes, outcomes
@@ -11,12 +11,10 @@ from fingerpad.stress.outcomes import deformed_outcomes, outcomes
 SOLVE = {Kinematics.SMALL: outcomes, Kinematics.FINITE: deformed_outcomes}
 
 
-def main(kinematics: str, first: int, stop: int, scenes: Path) -> None:
+def main(kinematics: Kinematics, first: int, stop: int, scenes: Path) -> None:
     """Solve the scenes from first to before stop, write one row per scene."""
-    write_rows(scenes, [asdict(outcome) for outcome in SOLVE[Kinematics(kinematics)](range(first, stop))])
+    write_rows(scenes, [asdict(outcome) for outcome in SOLVE[kinematics](range(first, stop))])
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main(job.wildcards.kinematics, job.params.first, job.params.stop, Path(job.output.scenes))
+    run(main, snakemake)

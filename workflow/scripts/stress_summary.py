@@ -2,22 +2,20 @@
 
 from pathlib import Path
 
-from fingerpad.jobs import logged
+from fingerpad.jobs import run
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
 from fingerpad.stress.outcomes import summary
 
 
-def main(scenes: dict[str, list[Path]], table: Path) -> None:
+def main(small: list[Path], finite: list[Path], table: Path) -> None:
     """Read the outcomes by kinematics, write shares of solutions and of each named error."""
     rows = []
-    for kinematics, paths in scenes.items():
+    for kinematics, paths in ((Kinematics.SMALL, small), (Kinematics.FINITE, finite)):
         found = summary([row for path in paths for row in read_rows(path)])
         rows += [{"kinematics": kinematics, **row} for row in found]
     write_rows(table, rows)
 
 
 if __name__ == "__main__":
-    job = snakemake  # noqa: F821
-    with logged(job.log):
-        main({each: [Path(path) for path in job.input[each]] for each in Kinematics}, Path(job.output.summary))
+    run(main, snakemake)

@@ -148,10 +148,10 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width * MM, height * MM), layout="constrained")
 
 
-def save(figure: Figure, stem: Path) -> None:
-    """Write stem.png and stem.pdf, laid out once, the same in both."""
-    for suffix in ("png", "pdf"):
-        save_as(figure, stem.with_name(f"{stem.name}.{suffix}"))
+def save(figure: Figure, png: Path) -> None:
+    """Write a figure as PNG, and as PDF beside it, laid out once, the same in both."""
+    for path in (png, png.with_suffix(".pdf")):
+        save_as(figure, path)
 
 
 def save_as(figure: Figure, path: Path) -> None:
