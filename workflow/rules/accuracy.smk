@@ -1,6 +1,6 @@
 # How far the library is off closed forms: contact, partial slip, layers, near incompressibility, orders of convergence.
 # And how far scores are off a reference of 20 times the unknowns, and whether their stated errors are honest.
-# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (two hours of one core, 23 GB and more).
+# Not part of `all`: ask for them with `snakemake accuracy` and `snakemake honesty` (two hours of one core and more, 16 GB).
 # REQUIRED INPUTS: scene files, results/scores.csv.
 # OUTPUTS: results/accuracy/closed_forms.csv, results/figures/accuracy_closed_forms{_finite}.{png,pdf},
 # results/accuracy/{increments,scores}.csv, results/{kinematics}/{device}/reference.csv
@@ -45,7 +45,7 @@ rule reference:
     conda:
         ENVIRONMENT
     resources:
-        mem_mb=lambda wildcards: 24000 if wildcards.kinematics == Kinematics.FINITE else 5000,  # measured: more than 22500, 4440
+        mem_mb=lambda wildcards: 20000 if wildcards.kinematics == Kinematics.FINITE else 5000,  # measured: 15500 until it was stopped, 4440
         runtime=480,
     params:
         code=code("reference.py"),
