@@ -8,8 +8,8 @@ import re
 import runpy
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from typing import NoReturn
-from unittest.mock import MagicMock
 
 import nbformat
 import pytest
@@ -43,9 +43,11 @@ def test_every_job_has_a_folder_of_its_own_for_ipython(monkeypatch: pytest.Monke
     monkeypatch.setenv("IPYTHONDIR", "")
     monkeypatch.setenv("SCENES", "")  # both are set for the rest of the process
     monkeypatch.setattr(nbformat, "read", stop)
+    files = {"notebook": "one.ipynb", "config": "config/config.yaml", "page": "one.html"}
+    job = SimpleNamespace(input=files, output={}, params={}, wildcards={}, threads=1, log=[])
     for _ in range(2):
         with pytest.raises(InterruptedError):
-            runpy.run_path("workflow/scripts/notebook.py", {"snakemake": MagicMock()}, "__main__")
+            runpy.run_path("workflow/scripts/notebook.py", {"snakemake": job}, "__main__")
     assert len(set(folders)) == 2
     assert not any(folder.exists() for folder in folders)
 

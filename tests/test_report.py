@@ -499,7 +499,7 @@ def test_every_edge_leads_down_and_no_boxes_overlap() -> None:
 def test_boxes_of_the_runs_rules_stand_apart_and_hold_their_names(tmp_path: Path) -> None:
     """Of the graph as it is: a further rule makes columns narrower, until its names no longer fit."""
     script = runpy.run_path(str(ROOT / "workflow/scripts/rule_graph.py"))
-    script["main"](ROOT / "Snakefile", ROOT / "config", tmp_path / "graph.csv")
+    script["main"](ROOT / "Snakefile", ROOT / "config" / "config.yaml", tmp_path / "graph.csv")
     edges = [(row["rule"], row["feeds"]) for row in read_rows(tmp_path / "graph.csv")]
     figure = rules_figure(edges)
     figure.draw_without_rendering()
