@@ -17,7 +17,7 @@ EMPTY_SCRIPT = '''"""An empty job: it makes its outputs and does nothing."""
 
 from pathlib import Path
 
-for path in snakemake.output:  # noqa: F821
+for path in snakemake.output:
     Path(path).touch()
 '''
 
