@@ -20,8 +20,10 @@ from fingerpad.scene.tissue_law import Kinematics
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
 RULES = SCRIPTS.parent / "rules"
 NAMED = ("input", "output", "params")
-SOLVING = ("closed_forms", "ensemble_member", "fields", "increments", "readouts", "reference")
-ALONE = ("benchmark_growth", "benchmark_ladder", "benchmark_steps", "calculix", "skipping")  # take all cores
+SOLVING = (
+    *("benchmark_growth", "benchmark_ladder", "benchmark_steps", "calculix", "skipping"),  # take all cores
+    *("closed_forms", "ensemble_member", "fields", "increments", "readouts", "reference"),
+)
 
 
 def job_of(folder: Path, **named: dict[str, Any]) -> Job:
@@ -160,10 +162,7 @@ def said(script: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 
 
 @pytest.mark.parametrize("script", SOLVING)
-def test_jobs_that_solve_end_at_an_expected_error(script: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert said(script, tmp_path, monkeypatch) == "threads: [2]"
-
-
-@pytest.mark.parametrize("script", ALONE)
-def test_jobs_that_take_all_cores_compute_on_one(script: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_jobs_that_solve_compute_on_one_thread_and_end_at_an_expected_error(
+    script: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert said(script, tmp_path, monkeypatch) == "threads: [1]"

@@ -12,6 +12,8 @@ from pathlib import Path
 from types import UnionType
 from typing import Any, Protocol, get_args, get_origin
 
+from threadpoolctl import threadpool_limits
+
 from .errors import FingerpadError
 
 
@@ -28,12 +30,12 @@ class Job(Protocol):
 
 def run(main: Callable[..., None], job: Job) -> None:
     """Call a script's main function with what its job has under the names of the parameters, and say in the job's logs
-    why it fails.
+    why it fails. Matrix libraries take one thread, whatever the job has: results depend on their number.
 
     Ends with status 1: at a FingerpadError with its message alone, there and on standard error; at any other error with
     the traceback.
     """
-    with _logged(job.log):
+    with _logged(job.log), threadpool_limits(1):
         main(**_given(main, job))
 
 

@@ -3,8 +3,6 @@
 from pathlib import Path
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
 from fingerpad.calculix.program import SKIPPED, installed
@@ -55,6 +53,4 @@ def main(
 
 
 if __name__ == "__main__":
-    # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with threadpool_limits(1):
-        run(main, snakemake)
+    run(main, snakemake)

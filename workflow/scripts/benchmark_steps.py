@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-from threadpoolctl import threadpool_limits
-
 from fingerpad.benchmark.steps import step_rows
 from fingerpad.jobs import run
 from fingerpad.scene.scenefile import load_scene
@@ -19,6 +17,4 @@ def main(config: Path, devices: list[Path], finite: list[Path], repeats: dict[st
 
 
 if __name__ == "__main__":
-    # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with threadpool_limits(1):
-        run(main, snakemake)
+    run(main, snakemake)

@@ -3,8 +3,6 @@
 from pathlib import Path
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
 from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.jobs import run
@@ -25,6 +23,4 @@ def main(
 
 
 if __name__ == "__main__":
-    # the rule takes all cores to be alone on the machine, and results are those of one thread
-    with threadpool_limits(1):
-        run(main, snakemake)
+    run(main, snakemake)

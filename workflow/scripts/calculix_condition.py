@@ -3,8 +3,6 @@
 from pathlib import Path
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 from fingerpad.calculix.order_check import order_rows
 from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.jobs import run
@@ -25,6 +23,4 @@ def main(
 
 
 if __name__ == "__main__":
-    # results are those of one thread, as the deck's
-    with threadpool_limits(1):
-        run(main, snakemake)
+    run(main, snakemake)
