@@ -6,8 +6,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 from ..errors import UnsolvedError
 from ..readouts.roughness import score_rows
 from ..scene.contact_law import Interface
@@ -25,14 +23,13 @@ def friction_rows(scene: Scene) -> Iterator[dict[str, Any]]:
     """The columns COLUMNS of the score table of a scene with each of FRICTIONS as `friction`, on one mesh; conditions
     that cannot be solved are left out. Raises MeshError, CondensationError.
     """
-    with threadpool_limits(1):  # as `forecast`
-        condensed = prepared(scene, edge_intervals(scene))
-        for friction in FRICTIONS:
-            law = replace(scene.model.contact, friction=friction)
-            variant = scene.with_model(contact=law)
-            for solved in solve_scene(variant, condensed, [Interface.SHEAR]):
-                if isinstance(solved.solution, UnsolvedError):
-                    continue
-                read = read_out(variant, condensed, solved.solution)
-                for row in score_rows(variant, solved.condition, solved.interface, read):
-                    yield {column: row[column] for column in COLUMNS} | {"friction": friction}
+    condensed = prepared(scene, edge_intervals(scene))
+    for friction in FRICTIONS:
+        law = replace(scene.model.contact, friction=friction)
+        variant = scene.with_model(contact=law)
+        for solved in solve_scene(variant, condensed, [Interface.SHEAR]):
+            if isinstance(solved.solution, UnsolvedError):
+                continue
+            read = read_out(variant, condensed, solved.solution)
+            for row in score_rows(variant, solved.condition, solved.interface, read):
+                yield {column: row[column] for column in COLUMNS} | {"friction": friction}
