@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from fingerpad.contact.path import advance
 from fingerpad.errors import ContactError, CrossingError, DepthError, InvertedError, ReachError, SnapError
 from fingerpad.finite.deformation import Elements, internal_force
 from fingerpad.finite.deformed import deformed_state, solver_on
-from fingerpad.finite.deformed_path import STEPS_BACK, move
+from fingerpad.finite.deformed_path import HALVINGS, STEPS_BACK, DeformedTissue, Equilibrium, move
 from fingerpad.finite.deformed_solution import (
     PressedFinger,
     certified_equilibria,
@@ -97,6 +98,33 @@ def test_corrections_that_stay_in_inverted_tissue_are_made_again_with_new_tangen
     monkeypatch.setattr(fingerpad.finite.deformed_path, "internal_force", refusing(InvertedError))
     reached, _ = move(finger.tissue, finger.problem, finger.start, finger.start.state.actuator + RISEN, 4)
     assert reached.tangents > 0
+
+
+@pytest.mark.parametrize("halvings", range(1, HALVINGS + 1))
+def test_moves_with_a_correction_that_overshoots_are_made_in_parts(
+    finger: PressedFinger, monkeypatch: pytest.MonkeyPatch, halvings: int
+) -> None:
+    """As many as are wanted; they end where the whole move does."""
+    way = 0.02 * np.array([[0.0, 1.0], [0.0, 1.0], [0.0, -1.0], [0.0, -1.0]])
+    target = finger.start.state.actuator + way
+    plain, _ = move(finger.tissue, finger.problem, finger.start, target, 4)
+    settled, made = fingerpad.finite.deformed_path._corrected, list[float]()
+
+    def overshooting(tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, *others: Any) -> Equilibrium:
+        part = np.abs(others[0] - start.state.actuator).max() / np.abs(way).max()
+        if part > 1.01 / 2**halvings:
+            raise InvertedError("refused")
+        reached = settled(tissue, problem, start, *others)
+        made.append(part)
+        return reached
+
+    monkeypatch.setattr(fingerpad.finite.deformed_path, "_corrected", overshooting)
+    monkeypatch.setattr(fingerpad.finite.deformed_path, "_followed_newly", refusing(ContactError))
+    reached, _ = move(finger.tissue, finger.problem, finger.start, target, 4)
+    assert made == pytest.approx([1.0 / 2**halvings] * 2**halvings)
+    # corrections of a move end within 1e-3 of it
+    whole = np.abs(plain.displacement - finger.start.displacement).max()
+    assert np.abs(reached.displacement - plain.displacement).max() < 1e-3 * whole
 
 
 def refusing(kind: type[ContactError]) -> Callable[..., None]:

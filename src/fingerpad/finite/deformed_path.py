@@ -8,14 +8,14 @@ of the way from u_0, where K is exact, and evenly from elsewhere; without fricti
 end is found again. So the tissue is in equilibrium wherever a move ends.
 
 Any K leads there, the slower the farther u is from u_0. Where a move that begins elsewhere does not settle soon, the
-tissue is linearised anew where it begins, and the moves that follow run on that. Corrections are accelerated in the
-norm of the energy that K gives them: without friction a pressed finger can all but sway freely, and in the norm of
+tissue is linearised anew where it begins, and the moves that follow run on that. One in which a correction overshoots,
+into tissue turned inside out or contact that does not converge, is made in two halves. Corrections are accelerated in
+the norm of the energy that K gives them: without friction a pressed finger can all but sway freely, and in the norm of
 displacements what sways would hide the rest.
 """
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -27,7 +27,7 @@ from ..contact.formulation import ContactProblem, ContactState
 from ..contact.increment import solve_increment
 from ..contact.patch import Patch
 from ..contact.path import advance, drifting_to, stands
-from ..errors import CondensationError, ContactError, InvertedError
+from ..errors import CondensationError, ContactError, ConvergenceError, InvertedError
 from ..tissue.factors import Factors, factorise
 from .deformation import internal_force, tangent_stiffness
 from .deformed import (
@@ -45,6 +45,8 @@ MAX_CORRECTIONS = 100  # of one move [1] before new tangents are made on the way
 # The same [1] of a move that begins elsewhere than where tissue was linearised, before it is linearised there; source:
 # fewest seconds of 5, 10, 20 (measured displacements that press and slip)
 FEW_CORRECTIONS = 10
+# Halvings [1] of a move with a correction that overshoots; source: one suffices on meshes of 0.18 times the sizes
+HALVINGS = 2
 STEPS_BACK = 6  # halvings [1] of a correction that turns tissue inside out; source: two suffice on 4 times finer mesh
 SETTLED = 1e-3  # change of displacement in a correction over that of the move [1]; source: scores hold to 8e-4
 
@@ -112,28 +114,39 @@ def move(
     target: FloatArray,
     increments: int,
     patience: int = FEW_CORRECTIONS,
+    halvings: int = HALVINGS,
 ) -> tuple[Equilibrium, DeformedTissue]:
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm]. Where that leads, and the tissue that
     the next move should begin with.
 
     problem: condensed about the pre-indented state. Where corrections do not settle, or not within `patience` of them
-    if tissue was linearised elsewhere, the move is made again on tissue linearised where it begins, and then with new
-    tangents on the way. Raises what `path.advance` raises.
+    if tissue was linearised elsewhere, the move is made again on tissue linearised where it begins; then, where a
+    correction overshot, in two halves, each of which may be halved again so often; and then with new tangents on the
+    way. Raises what `path.advance` raises.
     """
     if stands(start.state.actuator, target):
         return start, tissue
     begins_there = np.array_equal(start.displacement, tissue.displacement)
-    with suppress(_UnsettledError):
+    failure: Exception
+    try:
         most = MAX_CORRECTIONS if begins_there else patience
         reached = _corrected(tissue, problem, start, target, increments, most)
         return _resting(tissue, problem, reached), tissue
+    except (_UnsettledError, ContactError) as error:
+        failure = error
     tangent = None
     if not begins_there:
-        with suppress(_UnsettledError, CondensationError, InvertedError):
+        try:
             tissue, tangent = _linearised_there(tissue, start.displacement)
             start = replace(start, tangents=start.tangents + 1)
             reached = _corrected(tissue, problem, start, target, increments, MAX_CORRECTIONS)
             return _resting(tissue, problem, reached), tissue
+        except (_UnsettledError, ContactError, CondensationError) as error:
+            failure = error
+    if isinstance(failure, (ConvergenceError, InvertedError)) and halvings > 0:
+        half, fewer = (start.state.actuator + target) / 2.0, -(-increments // 2)
+        middle, tissue = move(tissue, problem, start, half, fewer, patience, halvings - 1)
+        return move(tissue, problem, middle, target, fewer, patience, halvings - 1)
     return _followed_newly(tissue, problem, start, target, increments, tangent), tissue
 
 
@@ -157,7 +170,9 @@ class _UnsettledError(Exception):
 def _corrected(
     tissue: DeformedTissue, problem: ContactProblem, start: Equilibrium, target: FloatArray, increments: int, most: int
 ) -> Equilibrium:
-    """`move` on the tissue's tangent alone, with so many corrections at most. Raises _UnsettledError."""
+    """`move` on the tissue's tangent alone, with so many corrections at most. Raises _UnsettledError, InvertedError or
+    ConvergenceError where a correction overshoots, or another ContactError.
+    """
     part, free = tissue.part, tissue.part.elements.free
     problem = replace(problem, compliance=tissue.compliance)
     begins_there = np.array_equal(start.displacement, tissue.displacement)
@@ -170,23 +185,20 @@ def _corrected(
     patch: Patch | None = None
     patches: dict[float, Patch] = {}
     for correction in range(most):
-        try:
-            if begins_there and correction == 0:
-                held, back = tissue.held, tissue.back
-            else:
-                displacement, held = _not_inverted(part, before, displacement)
-                back = -tissue.factors.solve(held)
-            before = displacement
-            last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
-            first = last if first is None else first
-            if state is None or problem.friction > 0.0:
-                drifting = drifting_to(last, start.state.actuator, target, power, patches)
-                state, patch = advance(replace(problem, free=first), start.state, target, increments, patch, drifting)
-            else:
-                there = replace(problem, free=last)
-                state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
-        except ContactError as error:  # an overshoot: tissue turned far inside out, or contact without a solution
-            raise _UnsettledError from error
+        if begins_there and correction == 0:
+            held, back = tissue.held, tissue.back
+        else:
+            displacement, held = _not_inverted(part, before, displacement)
+            back = -tissue.factors.solve(held)
+        before = displacement
+        last = (part.loads.T @ (displacement[free] + back)).reshape(-1, 2)
+        first = last if first is None else first
+        if state is None or problem.friction > 0.0:
+            drifting = drifting_to(last, start.state.actuator, target, power, patches)
+            state, patch = advance(replace(problem, free=first), start.state, target, increments, patch, drifting)
+        else:
+            there = replace(problem, free=last)
+            state, patch = advance(there, state, target, 1, patch, solve_increment, drifting=True)
         pushed = part.loads @ state.force.ravel()
         step = back + tissue.factors.solve(pushed)
         reached = displacement[free] + step
