@@ -45,7 +45,7 @@ rule reference:
     conda:
         ENVIRONMENT
     resources:
-        mem_mb=lambda wildcards: 20000 if wildcards.kinematics == Kinematics.FINITE else 5000,  # measured: 15500 until it was stopped, 4440
+        mem_mb=lambda wildcards: 12000 if wildcards.kinematics == Kinematics.FINITE else 5000,  # measured: 10010, 4440
         runtime=480,
     params:
         code=code("reference.py"),
