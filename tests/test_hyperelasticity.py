@@ -173,6 +173,22 @@ def test_inverted_gradients_are_found() -> None:
     assert is_upright(gradients()).all()
 
 
+def test_gradients_too_flat_for_rounding_are_inverted() -> None:
+    """Their determinants are positive, but not all their logarithmic strains can be had; those of all others can."""
+    rng = np.random.default_rng(1)
+    first, ratio = 10.0 ** rng.uniform(-0.5, 6.0, 4000), 10.0 ** rng.uniform(-12.0, -3.0, 4000)
+    turned, placed = (np.array([[np.cos(t), -np.sin(t)], [np.sin(t), np.cos(t)]]) for t in rng.uniform(0, 7, (2, 4000)))
+    stretched = turned * np.stack([first, first * ratio])
+    flat = np.einsum("ijn,kjn->ikn", stretched, placed) - np.eye(2)[:, :, None]
+    found = is_upright(flat)
+    assert found[ratio > 1e-6].all()
+    assert not found[ratio < 1e-8].any()
+    with np.errstate(all="raise"):
+        assert np.isfinite(logarithmic_strain(flat[..., found])).all()
+        with pytest.raises(FloatingPointError):
+            logarithmic_strain(flat)
+
+
 def test_simple_shear_has_its_closed_forms() -> None:
     """Kirchhoff shear stress under x = X + g Y, in the invariants of each law: the energies are those that are meant.
 

@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 
 from ..arrays import FloatArray
 
+# Least ratio [1] of stretches. Source: squares of stretches are differences of numbers as large as that of the larger
+# one, of which 1e-14 is some fifty roundings
+FLAT = 1e-7
+
 
 @dataclass(frozen=True)
 class Principal:
@@ -50,6 +54,9 @@ def logarithmic_strain(gradient: FloatArray) -> FloatArray:
 
 
 def is_upright(gradient: FloatArray) -> NDArray[np.bool_]:
-    """Where (...) the determinant of the deformation gradient I + H is positive, of gradients (2, 2, ...)."""
+    """Where (...) the determinant of F = I + H is positive, of gradients H (2, 2, ...), by so much that the smaller
+    stretch does not drown in rounding: det F > FLAT (1 + tr F^T F).
+    """
     (a, b), (c, d) = gradient
-    return np.asarray((1.0 + a) * (1.0 + d) - b * c > 0.0)
+    first, last = 1.0 + a, 1.0 + d
+    return np.asarray(first * last - b * c > FLAT * (1.0 + first * first + b * b + c * c + last * last))
