@@ -121,8 +121,8 @@ def move(
 
     problem: condensed about the pre-indented state. Where corrections do not settle, or not within `patience` of them
     if tissue was linearised elsewhere, the move is made again on tissue linearised where it begins; then, where a
-    correction overshot, in two halves, each of which may be halved again so often; and then with new tangents on the
-    way. Raises what `path.advance` raises.
+    correction overshot, in two halves, `halvings` times over at most; and then with new tangents on the way. Raises
+    what `path.advance` raises.
     """
     if stands(start.state.actuator, target):
         return start, tissue
