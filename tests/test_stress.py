@@ -52,6 +52,8 @@ from fingerpad.tissue.reach import contact_tractions
 
 GROUPS = range(8)
 COMING_BACK = [679, 7484, 7727]  # soft actuators at whose edges skin lies anew when they come back; a second in all
+MUCH_ROUNDED = [3755, 3774]  # moduli 58,000-fold apart; a second in all
+WEDGED = 603  # pins that abut, soft ones; a second
 RECORDED = {  # outcomes of the 200
     SOLVED: 156,
     "MeshError": 19,
@@ -107,6 +109,20 @@ def test_every_deformed_scene_ends_so_too() -> None:
 def test_skin_lies_on_soft_edges_that_come_back() -> None:
     """Gaps and overlaps that follow once faces give way where the skin has gone count: these solutions were refused."""
     assert [row.outcome for row in outcomes(COMING_BACK)] == [SOLVED] * len(COMING_BACK)
+
+
+def test_forces_are_solved_as_far_as_rounding_lets_them() -> None:
+    """Where stiff layers lie on soft ones, many nodes' rounded displacements add up in a force: no state was found
+    whose forces had settled to the tolerance, as rounding was taken for that of one node.
+    """
+    assert [row.outcome for row in outcomes(MUCH_ROUNDED)] == [SOLVED] * len(MUCH_ROUNDED)
+
+
+def test_skin_between_two_actuators_is_named() -> None:
+    """Given to either of two pins that abut, a node of the skin overlaps the other: no increment is small enough."""
+    (row,) = outcomes([WEDGED])
+    assert row.outcome == "ReachError"
+    assert "skin touches the actuators at x = -0.1418 and 0.1418 mm at once" in row.message
 
 
 def test_a_mesh_that_no_actuator_reaches_is_passed_over() -> None:

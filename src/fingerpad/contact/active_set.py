@@ -48,13 +48,17 @@ SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 class NotConvergedError(Exception):
     """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign.
-    inverted: where tissue was turned inside out, if it was. snaps: whether tissue was unstable on the way.
+    wedged: which actuators skin touches at once, if it does. inverted: where tissue was turned inside out, if it was.
+    snaps: whether tissue was unstable on the way.
     """
 
-    def __init__(self, residual: float, turned: bool = False, inverted: str = "", snaps: bool = False) -> None:
-        super().__init__(residual, turned, inverted, snaps)
+    def __init__(
+        self, residual: float, turned: bool = False, wedged: str = "", inverted: str = "", snaps: bool = False
+    ) -> None:
+        super().__init__(residual, turned, wedged, inverted, snaps)
         self.residual = residual
         self.turned = turned
+        self.wedged = wedged
         self.inverted = inverted
         self.snaps = snaps
 
@@ -75,9 +79,9 @@ class PatchProblem:
 
     @cached_property
     def force_floor(self) -> float:
-        """Force [N/mm] whose tolerance is what the rounding of coordinates and displacements leaves of K u."""
+        """Force [N/mm] whose tolerance is what the rounding of coordinates and displacements may leave of K u."""
         digit = ROUNDING * (largest_of(self.origin) + self.gap_scale)
-        return digit * self.patch.stiffest / self.problem.tolerance
+        return digit * self.patch.stiffness_norm / self.problem.tolerance
 
 
 @dataclass(frozen=True)

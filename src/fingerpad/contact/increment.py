@@ -79,7 +79,8 @@ def solve_increment(
     """The state with the actuators at `actuator` (n_actuators, 2) [mm], and the patch it was found with.
 
     patch: one from earlier on this path, which serves if contact can still lie within it. Where skin slides from one
-    actuator to the next, the increment is solved again with skin that the next one has. Raises NotConvergedError.
+    actuator to the next, the increment is solved again with skin that the next one has. Raises NotConvergedError, also
+    where skin belongs to both: given to either it overlaps the other.
     """
     problem, start = given_anew(problem, start)
     for _ in range(HANDED_OVER):
@@ -88,7 +89,16 @@ def solve_increment(
         if np.array_equal(given, reached.given):
             return reached, patch
         problem, start = given_to(problem, start, given)
-    raise NotConvergedError(float("inf"))
+    wandering = reached.given != given
+    raise NotConvergedError(
+        float("inf"), wedged=_located(problem, np.union1d(reached.given[wandering], given[wandering]))
+    )
+
+
+def _located(problem: ContactProblem, actuators: np.ndarray) -> str:
+    """Where some actuators (k,) are, in few words."""
+    places = [f"{problem.row.positions[actuator]:.4g}" for actuator in actuators]
+    return f"x = {', '.join(places[:-1])} and {places[-1]} mm"
 
 
 def _solved_as_given(

@@ -21,14 +21,14 @@ ELIMINATED = 30  # rows [1] of half a matrix below which it is not halved; sourc
 @dataclass(frozen=True)
 class Patch:
     """Contact nodes (b,) by ascending index, and the forces (2b, 2b) [N/mm per mm] that unit displacements of skin and
-    faces between them take: one displacement a row, ordered x0, x1, ..., y0, y1, ... stiffest: largest on the diagonal.
-    given: (n,) index of the actuator whose face each node touches, and place: (n,) where [mm], if deformable, with the
-    actuators at `actuator` (n_actuators, 2) [mm].
+    faces between them take: one displacement a row, ordered x0, x1, ..., y0, y1, ... stiffness_norm: the largest force
+    that displacements of one in any directions take. given: (n,) index of the actuator whose face each node touches,
+    and place: (n,) where [mm], if deformable, with the actuators at `actuator` (n_actuators, 2) [mm].
     """
 
     nodes: np.ndarray
     response: FloatArray
-    stiffest: float
+    stiffness_norm: float
     given: np.ndarray
     place: FloatArray
     actuator: FloatArray
@@ -46,8 +46,8 @@ def patch_of(
     response = _inverse(compliance)
     if not _answers(response, compliance):
         response = np.asarray(np.linalg.inv(compliance).T, dtype=float)
-    stiffest = float(np.abs(np.diag(response)).max())
-    return Patch(nodes, response, stiffest, problem.actuator_of, place, actuator)
+    stiffness_norm = float(np.abs(response).sum(axis=0).max())
+    return Patch(nodes, response, stiffness_norm, problem.actuator_of, place, actuator)
 
 
 def nodes_of(problem: ContactProblem, needed: np.ndarray, ahead: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Protocol, TypeVar
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import ContactError, ConvergenceError, InvertedError, SnapError, UniquenessError
+from ..errors import ContactError, ConvergenceError, InvertedError, ReachError, SnapError, UniquenessError
 from .active_set import NotConvergedError
 from .formulation import ContactProblem, ContactState
 from .increment import solve_increment
@@ -53,7 +53,8 @@ def follow(problem: ContactProblem, state: ContactState, target: FloatArray, inc
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
 
     Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
-    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see `active_set`).
+    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see `active_set`);
+    ReachError if skin touches two actuators at once.
     """
     return advance(problem, state, target, increments, None, solve_increment)[0]
 
@@ -97,7 +98,7 @@ def advance(
             if step < smallest or cuts > CRAWL * problem.max_cuts:
                 kind, advice = _named(failure)
                 halved = f" halved {round(-np.log2(goal - done))} times" if step < smallest else f", {cuts} halvings"
-                missed = failure.residual > problem.tolerance
+                missed = problem.tolerance < failure.residual < np.inf
                 residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
                 raise kind(
                     f"contact did not converge {done / increments:.1%} of the way from {_located(start[moved])} to"
@@ -160,6 +161,12 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
         return SnapError, "the tissue has no stable state nearby and would snap; try less indentation, less movement"
     if failure.inverted:
         return InvertedError, f"{failure.inverted}; try less indentation, less movement"
+    if failure.wedged:
+        return (
+            ReachError,
+            f"skin touches the actuators at {failure.wedged} at once, which contact does not know; try less indentation,"
+            " less movement, wider gaps",
+        )
     if failure.turned:
         return (
             UniquenessError,

@@ -180,7 +180,9 @@ def solve_deformed_increment(
     except CondensationError as error:
         raise NotConvergedError(float("inf"), snaps=unstable) from error
     except NotConvergedError as failure:
-        raise NotConvergedError(failure.residual, failure.turned, snaps=failure.snaps or unstable) from failure
+        raise NotConvergedError(
+            failure.residual, failure.turned, failure.wedged, snaps=failure.snaps or unstable
+        ) from failure
     raise NotConvergedError(changes[-1] / LOOSER, snaps=unstable)  # as it compares with the tolerance of contact
 
 
