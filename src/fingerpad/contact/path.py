@@ -164,8 +164,8 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     if failure.wedged:
         return (
             ReachError,
-            f"skin touches the actuators at {failure.wedged} at once, which contact does not know; try less indentation,"
-            " less movement, wider gaps",
+            f"skin touches the actuators at {failure.wedged} at once, which contact does not know; try less"
+            " indentation, less movement, wider gaps",
         )
     if failure.turned:
         return (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from itertools import groupby
 
@@ -123,21 +123,28 @@ def _deformed_outcome(scene: Scene, number: int) -> DeformedOutcome:
 
 
 def coarse_section(scene: Scene) -> SectionMesh:
-    """The section of a scene on a mesh that is coarsened until it has few unknowns, or as far as elements allow and
-    actuators reach some.
+    """The section of a scene with finite kinematics. Raises MeshError if no mesh can be had."""
+    return _coarsened(scene, scene, MOST_DEFORMED_CONTACT, MOST_DEFORMED_UNKNOWNS)
+
+
+def _coarsened(scene: Scene, covering: Scene, most_contact: int, most_unknowns: float) -> SectionMesh:
+    """The section of a scene on a mesh that is coarsened until it has no more unknowns, nor nodes that may come into
+    contact with the row of the covering scene; or as far as elements allow and each actuator of that row has a node.
 
     Raises MeshError if no mesh can be had.
     """
-    edges, section, failure = nominal_edges(scene.device.actuators), None, MeshError()
+    edges, row, section, failure = nominal_edges(scene.device.actuators), covering.device.actuators, None, MeshError()
     for coarsening in COARSENINGS:
         try:
             coarser = mesh_section(scene.coarsened(coarsening), edges)
-            few = contact_tractions(coarser, scene).weight.size <= MOST_DEFORMED_CONTACT
+            nodes = contact_tractions(coarser, covering).position
         except MeshError as error:
             failure = error
             continue
+        if section and np.unique(row.nearest(nodes[:, 0])).size < len(row.positions):
+            break
         section = coarser
-        if few and section.unknowns <= MOST_DEFORMED_UNKNOWNS:
+        if nodes.shape[0] <= most_contact and section.unknowns <= most_unknowns:
             break
     if section is None:
         raise failure
@@ -153,21 +160,13 @@ def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:
 
 
 def condensed_group(number: int) -> CondensedSection:
-    """The finger of a group, condensed to all skin that its scenes may touch, on a mesh that is coarsened until no more
-    than MOST_CONTACT nodes may come into contact, or as far as it may be. Raises MeshError, CondensationError.
-    """
+    """The finger of a group, condensed to all skin that its scenes may touch. Raises MeshError, CondensationError."""
     scene = random_group(number)
     row, (farthest,) = scene.device.actuators, scene.device.conditions
     whole = ActuatorRow((0.0,), row.positions[-1] - row.positions[0] + row.width, 0.0)
     stroke = replace(farthest, normal=farthest.normal[:, :1], tangential=farthest.tangential[:, :1])
     covering = Scene(scene.model, replace(scene.device, actuators=whole, conditions=(stroke,)))
-    for coarsening in COARSENINGS:
-        coarser = scene.coarsened(coarsening)
-        with suppress(MeshError):
-            section = mesh_section(coarser, nominal_edges(row))
-            if contact_tractions(section, covering).weight.size <= MOST_CONTACT:
-                return condense_section(section, covering)
-    return condense_section(mesh_section(coarser, nominal_edges(row)), covering)
+    return condense_section(_coarsened(scene, covering, MOST_CONTACT, np.inf), covering)
 
 
 def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:

@@ -44,9 +44,11 @@ FILLED = (0.3, 1.0)  # width of an actuator over pitch [1]; 1 is touching
 BODY = (0.02, 0.5)  # thickness of a deformable actuator over its width [1]
 BODY_ELEMENTS = 8  # of a deformable actuator along its smallest division [1]
 BODIED = 0.3  # share of rows that are deformable [1]
-ELEMENTS = (12, 30)  # of skin along the row [1]
+ELEMENTS = (12, 30)  # of skin along the row, and at least [1]
+ELEMENTS_AN_ACTUATOR = 2.0  # of it that each has [1], as an actuator without a node of its own has no contact
 RECEPTOR_ELEMENTS, LARGEST_ELEMENTS = 30.0, 10.0  # along the finger's width [1]
 CLOSENESS = 1e-3  # smallest element on the skin over the largest [1], for one actuator; times their number squared
+ROUNDED_ELEMENTS = 100  # most on all rounded edges of a row [1]
 FRICTION = (0.01, 10.0)  # [1], beside 0
 FRICTIONLESS = 0.1  # share of scenes without friction [1]
 DEEP = (1e-3, 1.0)  # pre-indentation to a depth, over the pad's thickness [1]
@@ -86,7 +88,8 @@ def random_scene(number: int) -> Scene:
     inner = group.device.actuators
     span = inner.positions[-1] - inner.positions[0] + inner.width
     # half of the rows are what the mesh was made for
-    row = _row(rng, span) if rng.random() < 0.5 else _finished(rng, inner)
+    served = span / (ELEMENTS_AN_ACTUATOR * group.model.numerics.face_size)
+    row = _row(rng, span, served) if rng.random() < 0.5 else _finished(rng, inner)
     friction = 0.0 if rng.random() < FRICTIONLESS else _decades(rng, FRICTION)
     law = _law(rng, friction, group, span)
     numerics = replace(
@@ -148,7 +151,7 @@ def random_group(number: int) -> Scene:
 def _group(rng: np.random.Generator, number: int) -> Scene:
     """A scene drawn for a group. Raises SceneError if there is no such finger."""
     finger = _finger(rng)
-    row = _row(rng, finger.width * _decades(rng, SPAN))
+    row = _row(rng, finger.width * _decades(rng, SPAN), ACTUATORS[1])
     numerics = _numerics(rng, row, finger.width)
     above = finger.pad[int(rng.integers(len(finger.pad) - 1))].name
     model = Model(
@@ -200,9 +203,10 @@ def _finger(rng: np.random.Generator) -> Finger:
 
 def _numerics(rng: np.random.Generator, row: ActuatorRow, width: float) -> Numerics:
     """Sizes for a row under a finger of that width [mm], and as few increments as there can be."""
-    span = row.positions[-1] - row.positions[0] + row.width
-    spacing = span / _whole(rng, ELEMENTS)
-    at_edges = spacing * _decades(rng, (min(CLOSENESS * len(row.positions) ** 2, 1.0), 1.0))
+    span, count = row.positions[-1] - row.positions[0] + row.width, len(row.positions)
+    spacing = span / max(_whole(rng, ELEMENTS), ELEMENTS_AN_ACTUATOR * count)
+    at_edges = spacing * _decades(rng, (min(CLOSENESS * count**2, 1.0), 1.0))
+    at_edges = max(at_edges, 2.0 * count * row.edge_radius / ROUNDED_ELEMENTS)
     return Numerics(
         edge_size=at_edges,
         edge_zone=spacing * CLOSENESS,
@@ -224,9 +228,9 @@ def _layer(rng: np.random.Generator, name: str, thickness: tuple[float, float]) 
     return Layer(name, _decades(rng, thickness), Material(_decades(rng, MODULUS), poisson))
 
 
-def _row(rng: np.random.Generator, span: float) -> ActuatorRow:
-    """A row of equal actuators over the span [mm]."""
-    most = int(np.clip(span / PITCH, *ACTUATORS))
+def _row(rng: np.random.Generator, span: float, served: float) -> ActuatorRow:
+    """A row of equal actuators over the span [mm], no more than the mesh has nodes for: `served` [1]."""
+    most = int(np.clip(min(span / PITCH, served), *ACTUATORS))
     count = min(int(_decades(rng, (ACTUATORS[0], ACTUATORS[1] + 1.0))), most)
     filled = FILLED[1] if rng.random() < LIMIT_SHARE else rng.uniform(*FILLED)
     pitch = span / (count - 1 + filled)
