@@ -104,12 +104,14 @@ def random_scene(number: int) -> Scene:
 
 
 def _law(rng: np.random.Generator, friction: float, group: Scene, span: float) -> ContactLaw:
-    """That friction, and an end of pre-indentation for a row of that span [mm]."""
+    """That friction, with what else contact is told, for a row of that span [mm]."""
     pad = group.model.finger.pad
     softest = min(layer.material.modulus for layer in pad)
     return replace(
         group.model.contact,
         friction=friction,
+        friction_from=FrictionFrom(rng.choice(list(FrictionFrom))),
+        turning_normal=TurningNormal(rng.choice(list(TurningNormal))),
         criterion=Criterion(rng.choice(list(Criterion))),
         depth=group.model.finger.pad_thickness * _decades(rng, DEEP),
         force=softest * span * _decades(rng, PRESSED),
