@@ -10,7 +10,7 @@ import pytest
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
-from fingerpad.contact.active_set import NotConvergedError
+from fingerpad.contact.active_set import NotConvergedError, PatchProblem
 from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import (
@@ -270,10 +270,10 @@ def test_a_depth_is_gone_to_its_end(depth: float) -> None:
     assert state.actuator[0, 1] - touch == pytest.approx(depth, rel=1e-6)  # the least step is a nanometre
 
 
-def missed_by_a_patch(compliance: FloatArray) -> float:
-    """By how much the stiffness of a patch of all nodes misses unit displacements under a compliance (2n, 2n)."""
+def even_skin(compliance: FloatArray) -> ContactProblem:
+    """A flat actuator of 1 mm under as many nodes, evenly apart, as a compliance (2n, 2n) has."""
     x = np.linspace(0.0, 1.0, compliance.shape[0] // 2)
-    problem = ContactProblem(
+    return ContactProblem(
         position=np.array([x, np.zeros(x.size)]).T,
         compliance=compliance,
         row=ActuatorRow((0.5,), 1.0, 0.0),
@@ -282,10 +282,38 @@ def missed_by_a_patch(compliance: FloatArray) -> float:
         tolerance=1e-9,
         max_cuts=10,
     )
-    order = np.concatenate([2 * np.arange(x.size), 2 * np.arange(x.size) + 1])
-    response = patch_of(problem, np.arange(x.size), x, None, np.zeros((1, 2))).response
+
+
+def patch_of_all(problem: ContactProblem) -> Patch:
+    """The patch of all nodes of a problem."""
+    x = problem.position[:, 0]
+    return patch_of(problem, np.arange(x.size), x, None, np.zeros((1, 2)))
+
+
+def missed_by_a_patch(compliance: FloatArray) -> float:
+    """By how much the stiffness of a patch of all nodes misses unit displacements under a compliance (2n, 2n)."""
+    count = compliance.shape[0] // 2
+    order = np.concatenate([2 * np.arange(count), 2 * np.arange(count) + 1])
+    response = patch_of_all(even_skin(compliance)).response
     unit = compliance[np.ix_(order, order)] @ response.T  # which has one displacement a row
-    return float(np.abs(unit - np.eye(2 * x.size)).max())
+    return float(np.abs(unit - np.eye(2 * count)).max())
+
+
+def test_what_rounding_leaves_of_forces_is_no_residual() -> None:
+    """Displacements of all nodes that are off by their last digit, in the directions that count most for a force,
+    change it by the tolerance of the smallest force that is asked for, and no more: were it less, scenes of stiff
+    layers on soft ones would never settle.
+    """
+    x = np.linspace(0.0, 1.0, 40)
+    problem = even_skin(np.kron(np.exp(-np.abs(x[:, None] - x) / 0.3), np.eye(2)))
+    patch = patch_of_all(problem)
+    scale = 1.0  # mm
+    increment = PatchProblem(problem, patch, np.zeros((2, x.size)), np.zeros(2 * x.size), scale)
+    changes = [
+        np.abs(np.finfo(float).eps * scale * np.sign(patch.response[:, force]) @ patch.response).max()
+        for force in range(2 * x.size)
+    ]
+    assert max(changes) == pytest.approx(increment.force_floor * problem.tolerance, rel=1e-9)
 
 
 @pytest.mark.parametrize("reach", [0.05, 0.3])

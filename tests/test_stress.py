@@ -51,20 +51,17 @@ from fingerpad.tissue.mesh import mesh_section, nominal_edges
 from fingerpad.tissue.reach import contact_tractions
 
 GROUPS = range(8)
-COMING_BACK = [679, 7484, 7727]  # soft actuators at whose edges skin lies anew when they come back; a second in all
-MUCH_ROUNDED = [3755, 3774]  # moduli 58,000-fold apart; a second in all
-WEDGED = 603  # pins that abut, soft ones; a second
+COMING_BACK = [1631, 2588, 7494]  # soft actuators at whose edges skin lies anew when they come back; a second in all
+WEDGED = [232, 6048]  # skin between two pins, and in the middle of halves that mirror; a second in all
 RECORDED = {  # outcomes of the 200
-    SOLVED: 156,
-    "MeshError": 19,
-    "UniquenessError": 15,
-    "CriterionError": 4,
+    SOLVED: 168,
+    "UniquenessError": 22,
+    "CriterionError": 5,
     "ReachError": 4,
     "ConvergenceError": 1,
-    "DepthError": 1,
 }
 DIFFERENT = 2  # of them [1]; source: a mended solver moved 45 of 10,000, which is one of 200
-DEFORMED = [3, 6, 9, 29, 40, 48]  # a second each
+DEFORMED = [3, 6, 7, 9, 15, 40]  # a second each
 SCENES = [GROUP * group + member for group in GROUPS for member in range(25)]  # 200
 PROPERTIES = settings(
     max_examples=30, deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
@@ -96,8 +93,7 @@ def test_every_scene_ends_in_a_solution_or_a_named_error() -> None:
 
 
 def test_every_deformed_scene_ends_so_too() -> None:
-    """Some of those of `snakemake stress` with finite kinematics: none moves, all move, skin leaves its nodes, a state
-    is not unique."""
+    """Some of those of `snakemake stress` with finite kinematics: skin leaves its nodes, a state is not unique."""
     found_deformed = list(deformed_outcomes(DEFORMED))
     assert [row.number for row in found_deformed] == DEFORMED
     assert {row.kinematics for row in found_deformed} == {"finite"}
@@ -111,18 +107,14 @@ def test_skin_lies_on_soft_edges_that_come_back() -> None:
     assert [row.outcome for row in outcomes(COMING_BACK)] == [SOLVED] * len(COMING_BACK)
 
 
-def test_forces_are_solved_as_far_as_rounding_lets_them() -> None:
-    """Where stiff layers lie on soft ones, many nodes' rounded displacements add up in a force: no state was found
-    whose forces had settled to the tolerance, as rounding was taken for that of one node.
-    """
-    assert [row.outcome for row in outcomes(MUCH_ROUNDED)] == [SOLVED] * len(MUCH_ROUNDED)
-
-
 def test_skin_between_two_actuators_is_named() -> None:
-    """Given to either of two pins that abut, a node of the skin overlaps the other: no increment is small enough."""
-    (row,) = outcomes([WEDGED])
-    assert row.outcome == "ReachError"
-    assert "skin touches the actuators at x = -0.1418 and 0.1418 mm at once" in row.message
+    """Given to either of two pins, a node of the skin overlaps the other: no increment is small enough. In the middle
+    of a row that mirrors, where halves hold each other, it bears forces along x that the whole row cannot.
+    """
+    found_between = list(outcomes(WEDGED))
+    assert [row.outcome for row in found_between] == ["ReachError"] * len(WEDGED)
+    assert all("mm at once, which contact does not know" in row.message for row in found_between)
+    assert "x = -0.6071 and 0.6071 mm" in found_between[1].message
 
 
 def test_a_mesh_that_no_actuator_reaches_is_passed_over() -> None:

@@ -29,7 +29,7 @@ from .active_set import (
 )
 from .faces import displacement, face_displacement, touch
 from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, resolved, unloaded
-from .ownership import given_anew, given_to, handed_over
+from .ownership import given_anew, given_to, handed_over, touches_several
 from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
 
@@ -90,15 +90,8 @@ def solve_increment(
             return reached, patch
         problem, start = given_to(problem, start, given)
     wandering = reached.given != given
-    raise NotConvergedError(
-        float("inf"), wedged=_located(problem, np.union1d(reached.given[wandering], given[wandering]))
-    )
-
-
-def _located(problem: ContactProblem, actuators: np.ndarray) -> str:
-    """Where some actuators (k,) are, in few words."""
-    places = [f"{problem.row.positions[actuator]:.4g}" for actuator in actuators]
-    return f"x = {', '.join(places[:-1])} and {places[-1]} mm"
+    between = np.union1d(reached.given[wandering], given[wandering])
+    raise NotConvergedError(float("inf"), wedged=touches_several(np.take(problem.row.positions, between).tolist()))
 
 
 def _solved_as_given(

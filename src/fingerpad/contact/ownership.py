@@ -5,6 +5,7 @@ A node is given to another actuator as it goes sideways. Actuators stay in order
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,17 @@ import numpy as np
 from ..scene.device import nearest
 from .formulation import OPEN, ContactProblem, ContactState, centres
 from .profile import profile
+
+
+def touches_several(places: Sequence[float]) -> str:
+    """What to say where skin touches actuators that rest at several places [mm] at once: between two that are close it
+    lies against both, and a node can be given to one alone.
+    """
+    first, last = ", ".join(f"{place:.4g}" for place in places[:-1]), f"{places[-1]:.4g}"
+    return (
+        f"skin touches the actuators at x = {first} and {last} mm at once, which contact does not know; try less"
+        " indentation, less movement, wider gaps"
+    )
 
 
 def given_as(problem: ContactProblem, state: ContactState) -> ContactProblem:

@@ -162,11 +162,7 @@ def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
     if failure.inverted:
         return InvertedError, f"{failure.inverted}; try less indentation, less movement"
     if failure.wedged:
-        return (
-            ReachError,
-            f"skin touches the actuators at {failure.wedged} at once, which contact does not know; try less"
-            " indentation, less movement, wider gaps",
-        )
+        return ReachError, failure.wedged
     if failure.turned:
         return (
             UniquenessError,

@@ -13,8 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..errors import ReachError
 from ..tissue.compliance import MIRROR, CondensedBody
 from .formulation import ContactProblem, ContactState, Status
+from .ownership import touches_several
 
 ALIKE = 1e-10  # of the largest compliance [1]; source: rounding of a condensation leaves 1e-12
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])
@@ -70,10 +72,16 @@ def half_of(problem: ContactProblem) -> ContactProblem:
 def unfolded(state: ContactState, problem: ContactProblem) -> ContactState:
     """The whole state of the half's, which `half_of` made a problem of. On the way a node in the middle counted with
     the half's force, so that `largest_force` may be smaller: dissipation is held to that.
+
+    Raises ReachError if skin in the middle lies against the actuators on either side, which keep each other's force
+    along x: the whole has no such state.
     """
     force, trend = state.force.copy(), state.trend.copy()
     node = int(problem.position[0, 0] == 0.0)  # how many there are in the middle, which both halves share
     actuator = int(problem.row.positions[0] == 0.0)
+    if np.any(np.abs(force[:node, 0]) > problem.tolerance * state.largest_force):
+        beside = problem.row.positions[state.given[0]]
+        raise ReachError(f"{touches_several([-beside, beside])} or a finer mesh at the edges (numerics.edge_size)")
     right = state.given + len(problem.row.positions) - actuator
     last = 2 * len(problem.row.positions) - actuator - 1
     for halved in (force, trend):
