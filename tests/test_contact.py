@@ -14,6 +14,7 @@ from fingerpad.contact.active_set import NotConvergedError, PatchProblem
 from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import (
+    MAX_ITERATIONS,
     ContactProblem,
     ContactState,
     Status,
@@ -25,7 +26,7 @@ from fingerpad.contact.increment import solve_increment
 from fingerpad.contact.indentation import SHALLOW, raise_until
 from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import Patch, patch_of
-from fingerpad.contact.path import advance, follow
+from fingerpad.contact.path import LAST_ITERATIONS, advance, follow
 from fingerpad.contact.profile import profile
 from fingerpad.errors import ContactError, ConvergenceError, DepthError
 from fingerpad.scene.contact_law import ContactLaw, Criterion, FrictionFrom, TurningNormal
@@ -167,6 +168,24 @@ def test_halvings_of_earlier_increments_are_not_counted() -> None:
 
     with pytest.raises(ConvergenceError, match=r"75.0% of the way .* increment 4/4 halved 8 times"):
         advance(problem, rest(problem, 0.0), np.array([[0.0, 1.0]]), 4, None, solve)
+
+
+def test_an_increment_with_which_a_path_would_end_may_take_more_iterations() -> None:
+    """Halves first, as they take fewer; the last of them, and those that follow as short, have as many as it takes."""
+    problem, allowed = replace(touched(0.1, 1.0, 0.5), max_cuts=2), list[tuple[float, int]]()
+
+    def solve(
+        problem: ContactProblem, state: ContactState, actuator: FloatArray, carried: None
+    ) -> tuple[ContactState, None]:
+        allowed.append((float(actuator[0, 1]), problem.most_iterations))
+        if problem.most_iterations == MAX_ITERATIONS:
+            raise NotConvergedError(1.0)
+        return replace(state, actuator=actuator), None
+
+    reached, _ = advance(problem, rest(problem, 0.0), lift(problem, 0.0, 1.0), 1, None, solve)
+    assert reached.actuator == pytest.approx(lift(problem, 0.0, 1.0))
+    assert allowed[:3] == [(1.0, MAX_ITERATIONS), (0.5, MAX_ITERATIONS), (0.25, LAST_ITERATIONS)]
+    assert reached.cuts == sum(most == MAX_ITERATIONS for _, most in allowed)
 
 
 @pytest.mark.parametrize("count", range(1, 31))

@@ -30,7 +30,6 @@ from .formulation import OPEN, ContactProblem, ContactState, Status, resolved
 from .patch import Patch
 from .profile import bend, profile
 
-MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: usual count is 2-6 (measured)
 # Iterations [1] in which all nodes change state at once though no fewer ask for it, and then the worst of each actuator
 # alone; source: fewest seconds of 3, 6, 12 (strokes of 0.02 to 0.6 mm, measured)
 PATIENCE = 12
@@ -173,7 +172,7 @@ def settle(
     """Trial and states that agree.
 
     guess, status: places [mm] and states (b,) to begin with. reference: (n,) [mm]. Raises NotConvergedError after
-    MAX_ITERATIONS, those `done` before included.
+    problem.most_iterations, those `done` before included.
     """
     problem, nodes = increment.problem, increment.patch.nodes
     states = _states(problem, status)
@@ -182,7 +181,7 @@ def settle(
     released = np.zeros(nodes.size, dtype=bool)
     residual, turned, searched = float("inf"), False, False
     patience = _Patience(nodes.size + 1)
-    for iteration in range(MAX_ITERATIONS - done):
+    for iteration in range(problem.most_iterations - done):
         step = _newton_step(increment, trial, states)
         if step is None:
             break

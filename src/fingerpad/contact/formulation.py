@@ -40,6 +40,7 @@ class Status(IntEnum):
     SLIP_BACKWARD = 3
 
 
+MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: usual count is 2-6 (measured)
 OPEN = int(Status.OPEN)  # which arrays are compared with faster
 # Power [1] of the skin's height over a face that grows evenly from the front of contact on, since skin leaves the face
 # as distance to the power 3/2; source: Hertz (Johnson 1985, Contact Mechanics, section 4.2)
@@ -57,7 +58,8 @@ class ContactProblem:
     of tissue linearised about a deformed state; None is zero. turning: whether the normal turns on rounded edges.
     given: index (n,) of the actuator that each node is given to, and of no other; None is the one nearest to
     undeformed skin. It changes along a path, with `ContactState.given`.
-    images: how many like it there are [1]: two where it is one half of a row that mirrors.
+    images: how many like it there are [1]: two where it is one half of a row that mirrors. most_iterations: of Newton
+    within one increment before it is halved [1].
     """
 
     position: FloatArray
@@ -72,6 +74,7 @@ class ContactProblem:
     turning: bool = False
     given: np.ndarray | None = None
     images: int = 1
+    most_iterations: int = MAX_ITERATIONS
 
     @cached_property
     def actuator_of(self) -> np.ndarray:

@@ -13,7 +13,6 @@ import numpy as np
 from ..arrays import FloatArray
 from .acceleration import accelerated
 from .active_set import (
-    MAX_ITERATIONS,
     SLIP_SIGN,
     SMALLEST,
     STICK,
@@ -111,7 +110,7 @@ def _solved_as_given(
     iterations, searched, residual, bias = 0, False, float("inf"), None
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
-    while iterations < MAX_ITERATIONS:
+    while iterations < problem.most_iterations:
         if patch is None or not holds(patch, needed):
             try:
                 patch = patch_of(problem, nodes_of(problem, needed, ahead), expected, there, actuator)

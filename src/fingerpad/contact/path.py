@@ -37,6 +37,9 @@ CROSSED = 2.0
 # Times as many halvings [1] in a straight line as one increment may have; a path that needs more is lost. source:
 # chosen, as a bound on time
 CRAWL = 2
+# Iterations [1] of an increment with which the path ends if it fails, in place of MAX_ITERATIONS; source: of 106 random
+# scenes that did not converge 5 are solved so, and in 39 states turn out to be turned (half a second each, measured)
+LAST_ITERATIONS = 600
 
 
 class SolveIncrement(Protocol[State, Carried]):
@@ -53,8 +56,8 @@ def follow(problem: ContactProblem, state: ContactState, target: FloatArray, inc
     """Move the actuators in a straight line to `target` (n_actuators, 2) [mm] in equal increments, cut where needed.
 
     Raises ConvergenceError if an increment does not converge after problem.max_cuts halvings, or the whole line takes
-    CRAWL times as many; UniquenessError if states that were tried on the last one are turned (see `active_set`);
-    ReachError if skin touches two actuators at once.
+    CRAWL times as many, the last of them with LAST_ITERATIONS; UniquenessError if states that were tried on the last
+    one are turned (see `active_set`); ReachError if skin touches two actuators at once.
     """
     return advance(problem, state, target, increments, None, solve_increment)[0]
 
@@ -84,18 +87,20 @@ def advance(
     length, moved = float(ways.max()), int(ways.argmax())
     smallest = 2.0 ** (0 if standing else -problem.max_cuts)  # where nothing moves, half of it is as hard
     cuts, longest = 0, step
+    patient = replace(problem, most_iterations=LAST_ITERATIONS)
     while done < increments:
         goal = increments if done + step > increments - smallest / 2.0 else done + step
+        last = goal - done < 2.0 * smallest or cuts >= CRAWL * problem.max_cuts
         try:
             place = target if goal == increments else start + goal / increments * (target - start)
-            state, carried = solve(problem, state, place, carried)
+            state, carried = solve(patient if last and not standing else problem, state, place, carried)
             done = goal
             step = min(2.0 * step, longest)
         except NotConvergedError as failure:
             step = (goal - done) / 2.0
             cuts += 1
             state = replace(state, cuts=state.cuts + 1)
-            if step < smallest or cuts > CRAWL * problem.max_cuts:
+            if last:
                 kind, advice = _named(failure)
                 halved = f" halved {round(-np.log2(goal - done))} times" if step < smallest else f", {cuts} halvings"
                 missed = problem.tolerance < failure.residual < np.inf
