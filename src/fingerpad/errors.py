@@ -86,7 +86,7 @@ class InertiaError(ContactError):
 
 
 class ReachError(ContactError):
-    """Contact reaches beyond the skin that was considered, or skin touches several actuators at once."""
+    """Contact reaches beyond the skin that was considered, or skin touches two actuators at once."""
 
 
 class ProcessError(FingerpadError):

@@ -47,7 +47,7 @@ SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
 
 class NotConvergedError(Exception):
     """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign.
-    wedged: what to say if skin touches several actuators at once. inverted: where tissue was turned inside out, if it
+    wedged: what to say if skin touches two actuators at once. inverted: where tissue was turned inside out, if it
     was. snaps: whether tissue was unstable on the way.
     """
 

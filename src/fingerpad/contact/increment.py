@@ -28,7 +28,7 @@ from .active_set import (
 )
 from .faces import displacement, face_displacement, touch
 from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, resolved, unloaded
-from .ownership import given_anew, given_to, handed_over, touches_several
+from .ownership import given_anew, given_to, handed_over, touches_both
 from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
 
@@ -88,9 +88,8 @@ def solve_increment(
         if np.array_equal(given, reached.given):
             return reached, patch
         problem, start = given_to(problem, start, given)
-    wandering = reached.given != given
-    between = np.union1d(reached.given[wandering], given[wandering])
-    raise NotConvergedError(float("inf"), wedged=touches_several(np.take(problem.row.positions, between).tolist()))
+    node, positions = np.flatnonzero(reached.given != given)[0], problem.row.positions
+    raise NotConvergedError(float("inf"), wedged=touches_both(positions[reached.given[node]], positions[given[node]]))
 
 
 def _solved_as_given(

@@ -5,7 +5,6 @@ A node is given to another actuator as it goes sideways. Actuators stay in order
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,14 +14,14 @@ from .formulation import OPEN, ContactProblem, ContactState, centres
 from .profile import profile
 
 
-def touches_several(places: Sequence[float]) -> str:
-    """What to say where skin touches actuators that rest at several places [mm] at once: between two that are close it
+def touches_both(one: float, other: float) -> str:
+    """What to say where skin touches two actuators at once, which rest at these places [mm]: where they are close it
     lies against both, and a node can be given to one alone.
     """
-    first, last = ", ".join(f"{place:.4g}" for place in places[:-1]), f"{places[-1]:.4g}"
+    left, right = sorted([one, other])
     return (
-        f"skin touches the actuators at x = {first} and {last} mm at once, which contact does not know; try less"
-        " indentation, less movement, wider gaps"
+        f"skin touches the actuators at x = {left:.4g} and {right:.4g} mm at once, which contact does not know; try"
+        " less indentation, less movement, wider gaps"
     )
 
 

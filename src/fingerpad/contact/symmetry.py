@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import ReachError
 from ..tissue.compliance import MIRROR, CondensedBody
 from .formulation import ContactProblem, ContactState, Status
-from .ownership import touches_several
+from .ownership import touches_both
 
 ALIKE = 1e-10  # of the largest compliance [1]; source: rounding of a condensation leaves 1e-12
 MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Status.SLIP_FORWARD])
@@ -81,7 +81,7 @@ def unfolded(state: ContactState, problem: ContactProblem) -> ContactState:
     actuator = int(problem.row.positions[0] == 0.0)
     if np.any(np.abs(force[:node, 0]) > problem.tolerance * state.largest_force):
         beside = problem.row.positions[state.given[0]]
-        raise ReachError(f"{touches_several([-beside, beside])} or a finer mesh at the edges (numerics.edge_size)")
+        raise ReachError(f"{touches_both(-beside, beside)} or a finer mesh at the edges (numerics.edge_size)")
     right = state.given + len(problem.row.positions) - actuator
     last = 2 * len(problem.row.positions) - actuator - 1
     for halved in (force, trend):
