@@ -93,7 +93,7 @@ def test_every_scene_ends_in_a_solution_or_a_named_error() -> None:
 
 
 def test_every_deformed_scene_ends_so_too() -> None:
-    """Some of those of `snakemake stress` with finite kinematics: skin leaves its nodes, a state is not unique."""
+    """Some of those of `snakemake stress` with finite kinematics: skin lies between two pins, a state is not unique."""
     found_deformed = list(deformed_outcomes(DEFORMED))
     assert [row.number for row in found_deformed] == DEFORMED
     assert {row.kinematics for row in found_deformed} == {"finite"}
