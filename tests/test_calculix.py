@@ -17,6 +17,7 @@ from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.both_sides import BothSides
+from fingerpad.calculix.case import Case, Rubbing, case_of
 from fingerpad.calculix.contact_model import ContactModel
 from fingerpad.calculix.crosscheck import (
     Outcome,
@@ -99,6 +100,18 @@ def test_of_a_move_and_its_rest_the_rest_is_read(tmp_path: Path) -> None:
     assert found.force[:, 0, 1].tolist() == [2.0, 4.0]
 
 
+def test_a_case_takes_no_word_or_setting_that_it_does_not_know() -> None:
+    """Which would be solved for hours as another case."""
+    known = {"kinematics": "small", "indentation": "full", "indentation_increments": 8}
+    known |= {"coarsening": 4.0, "fingerpad_coarsening": 4.0}
+    assert case_of(known | {"edges": "sharp", "law": "green"}).law is Law.GREEN
+    for wrong in ({"edges": "shrp"}, {"friction": "touch"}, {"kinematics": "large"}, {"law": "linear"}):
+        with pytest.raises(ValueError, match="is not a valid"):
+            case_of(known | wrong)
+    with pytest.raises(TypeError, match="coarsness"):
+        case_of(known | {"coarsness": 2.0})
+
+
 def test_a_missing_step_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(CalculixError, match="1 tables of RECEPTOR_NODES, expected 2"):
         read_printed(printed(tmp_path, [1.0]), 1, 2, replace(SETTINGS, rest_increments=0))
@@ -143,9 +156,10 @@ def test_orders_have_the_scores_of_both_programs(monkeypatch: pytest.MonkeyPatch
     def lost(contact: ContactModel) -> Outcome:
         raise ContactError(f"{contact} is lost")
 
+    case = Case(Kinematics.SMALL, 1.0, 8, 1.0, 1.0)
     found = [BothSides(outcome, lambda contact: outcome, 9, 1.0), BothSides(outcome, lost, 9, 1.0)]
     monkeypatch.setattr("fingerpad.calculix.order_check.both_sides", lambda *given: found.pop(0))
-    both, one = (order_rows(scene("device2"), "alternate_180", {"kinematics": "small"}, Path(), 1.0) for _ in range(2))
+    both, one = (order_rows(scene("device2"), "alternate_180", case, Path(), 1.0) for _ in range(2))
     assert [(row["readout"], row["fingerpad"], row["calculix"], row["note"]) for row in both] == [
         (readout, "0.12346", "0.12346", "") for readout in Readout
     ]
@@ -166,7 +180,7 @@ def finite(a_scene: Scene, law: Law) -> Scene:
 
 
 @dataclass(frozen=True)
-class Case:
+class Decked:
     """A scene on a coarse mesh, and the deck that it is written as."""
 
     scene: Scene
@@ -182,19 +196,19 @@ class Case:
         return input_deck(self.scene, self.section, self.condition, self.settings)
 
 
-def small_case() -> Case:
+def small_case() -> Decked:
     """Nodes are 0.1 mm apart on faces 1 mm wide."""
     small = on_deck(sharpened(scene("device2")), 4.0)
     small = small.with_model(numerics=replace(small.model.numerics, growth=0.8, nail_size=2.0, largest_size=2.0))
-    return Case(small, mesh_device(small), SETTINGS)
+    return Decked(small, mesh_device(small), SETTINGS)
 
 
-def large_case() -> Case:
+def large_case() -> Decked:
     """Nodes are half as far apart, strains are large."""
     large = finite(on_deck(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
     sizes = {"growth": 1.2, "receptor_size": 0.6, "nail_size": 3.0, "largest_size": 3.0}
     large = large.with_model(numerics=replace(large.model.numerics, **sizes))
-    return Case(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, indentation=0.8))
+    return Decked(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, indentation=0.8))
 
 
 CASES = {"small": small_case, "finite": large_case}
@@ -376,11 +390,8 @@ def test_differences_are_those_of_their_own_time(time: int, when: str, changed: 
     ("friction", "indenting", "acting"), [("never", 0.0, 0.0), ("stimulus", 0.0, 0.6), ("always", 0.6, 0.6)]
 )
 def test_friction_acts_from_when_on_a_case_says(friction: str, indenting: float, acting: float) -> None:
-    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
-    case = {key: getattr(SETTINGS, key) for key in keys}
     base = scene("device2")
     base = base.with_model(contact=replace(base.model.contact, friction=0.6))
-    _, settings = prepared(
-        base, case | {"kinematics": "small", "indentation": 1.0, "edges": "rounded", "friction": friction}
-    )
+    case = Case(Kinematics.SMALL, 1.0, 8, 1.0, 1.0, friction=Rubbing(friction))
+    _, settings = prepared(base, case)
     assert (settings.friction_indenting, settings.friction_acting) == (indenting, acting)

@@ -5,21 +5,14 @@
 # REQUIRED INPUTS: scene files. OUTPUTS: results/accuracy/{calculix,calculix_orders}.csv, results/calculix/{case}/ (decks and
 # results), results/calculix_orders/{kinematics}/{device}/{condition}.csv and a folder of its deck
 
-# indentation [mm], penalties [MPa/mm] and numbers of increments; source: four times stiffer penalties did not converge, and
-# softer ones, finer meshes and more increments are cases of their own below (docs/calculix.md)
+# settings of `fingerpad.calculix.case.Case`, which has the others: indentation [mm]; source: finer meshes, softer penalties and
+# more increments are cases of their own below (docs/calculix.md)
 CALCULIX_CASE = {
     "kinematics": "small",
-    "law": "linear",
     "indentation": "full",
-    "edges": "rounded",
-    "friction": "stimulus",
+    "indentation_increments": 8,
     "coarsening": 4.0,
     "fingerpad_coarsening": 4.0,
-    "indentation_increments": 8,
-    "stimulus_increments": 4,
-    "rest_increments": 3,
-    "pressure_slope": 500.0,
-    "stick_slope": 100.0,
 }
 CALCULIX_FINER = {"coarsening": 2.0, "fingerpad_coarsening": 2.0}
 # rubbing, fingerpad's own change of strain moves by a tenth from meshes of these sizes to half of them

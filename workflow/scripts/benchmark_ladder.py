@@ -5,6 +5,7 @@ from typing import Any
 
 from fingerpad.benchmark.calculix_ladder import calculix_ladder
 from fingerpad.benchmark.ladder import first_order_ladder, own_ladder, plain_ladder, reference_rows
+from fingerpad.calculix.case import case_of
 from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.errors import CalculixError
 from fingerpad.jobs import run
@@ -46,7 +47,7 @@ def main(
             print(f"CalculiX {SKIPPED}")
             continue
         try:
-            rows += calculix_ladder(scene, asked, climbed["calculix"], cases[each], folder, limit)
+            rows += calculix_ladder(scene, asked, climbed["calculix"], case_of(cases[each]), folder, limit)
         except CalculixError as error:
             print(f"CalculiX's ladder is left out: {error}")
     write_rows(table, alike(rows))

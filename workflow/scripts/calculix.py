@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from fingerpad.calculix.case import case_of
 from fingerpad.calculix.crosscheck_table import crosscheck_rows
 from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.jobs import run
@@ -19,7 +20,8 @@ def main(
         print(SKIPPED)
         write_rows(table, [{"note": SKIPPED}])
         return
-    write_rows(table, crosscheck_rows(load_scene(config, device), condition, cases, decks, limit))
+    scene, found = load_scene(config, device), {name: case_of(each) for name, each in cases.items()}
+    write_rows(table, crosscheck_rows(scene, condition, found, decks, limit))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from fingerpad.calculix.case import case_of
 from fingerpad.calculix.order_check import order_rows
 from fingerpad.calculix.program import SKIPPED, installed
 from fingerpad.jobs import run
@@ -19,7 +20,7 @@ def main(
         print(SKIPPED)
         write_rows(scores, [])
         return
-    write_rows(scores, order_rows(load_scene(config, device), condition, case, deck, limit))
+    write_rows(scores, order_rows(load_scene(config, device), condition, case_of(case), deck, limit))
 
 
 if __name__ == "__main__":

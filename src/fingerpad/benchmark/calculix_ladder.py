@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ..calculix.case import Case
 from ..calculix.crosscheck import calculix_outcome, differences, on_deck, prepared
 from ..prediction.edges import mesh_device
 from ..scene.device import Condition
@@ -15,12 +16,12 @@ from .ladders import CALCULIX_LADDER
 
 
 def calculix_ladder(
-    scene: Scene, condition: Condition, factors: Sequence[float], case: Mapping[str, Any], folder: Path, limit: float
+    scene: Scene, condition: Condition, factors: Sequence[float], case: Case, folder: Path, limit: float
 ) -> list[dict[str, Any]]:
     """A row for each coarsening of the skin's mesh but the finest, from coarse to fine: seconds of CalculiX, and errors
     of its scores against its own on the finest mesh. A further condition costs it as much as the first.
 
-    case: settings as in `crosscheck.prepared`. Raises what that raises, CalculixError if a deck fails or takes longer
+    Raises what `crosscheck.prepared` raises, CalculixError if a deck fails or takes longer
     than limit [s], and MeshError if a rung has no mesh.
     """
     fine, settings = prepared(scene, case)
@@ -36,7 +37,7 @@ def calculix_ladder(
         apart = differences(outcome, finest)
         rows.append(
             {
-                "kinematics": case["kinematics"],
+                "kinematics": str(case.kinematics),
                 "solver": CALCULIX_LADDER,
                 "coarsening": factor,
                 "unknowns": section.unknowns,

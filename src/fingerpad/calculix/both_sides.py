@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ..prediction.edges import mesh_device
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.actuator_body import body_of
 from ..tissue.condensation import condense_section
+from .case import Case
 from .contact_model import ContactModel
 from .crosscheck import Outcome, calculix_outcome, fingerpad_outcome, on_deck, prepared
 from .deformed_crosscheck import deformed_outcome
@@ -30,15 +30,14 @@ class BothSides:
     seconds: float
 
 
-def both_sides(scene: Scene, condition: str, case: Mapping[str, Any], folder: Path, limit: float) -> BothSides:
+def both_sides(scene: Scene, condition: str, case: Case, folder: Path, limit: float) -> BothSides:
     """Solve a condition with CalculiX in a folder, each side on a mesh of its own.
 
-    case: settings as in `crosscheck.prepared`, with `coarsening` of the deck's mesh and `fingerpad_coarsening` of
-    fingerpad's. limit: seconds the deck may take. Raises what `prepared` raises, CalculixError if CalculiX does not
+    limit: seconds the deck may take. Raises what `prepared` raises, CalculixError if CalculiX does not
     solve it, and SceneError, MeshError or CondensationError if either side cannot be set up.
     """
     fine, settings = prepared(scene, case)
-    deck, own = on_deck(fine, case["coarsening"]), on_deck(fine, case["fingerpad_coarsening"])
+    deck, own = on_deck(fine, case.coarsening), on_deck(fine, case.fingerpad_coarsening)
     deck_section, section, body = mesh_device(deck), mesh_device(own), body_of(own)
     stimulus = scene.device.condition(condition)
     found, seconds = calculix_outcome(deck, deck_section, stimulus, settings, folder, limit)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -36,6 +35,7 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.elasticity import mesh_dofs, strain_of_gradient
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import arc_length, receptor_gradient
+from .case import Case, Edges, Rubbing
 from .contact_model import ContactModel
 from .deck import DeckSettings, input_deck
 from .depth import indented_height
@@ -83,27 +83,32 @@ def sharpened(scene: Scene) -> Scene:
     return replace(scene, device=replace(scene.device, actuators=actuators))
 
 
-def prepared(scene: Scene, case: Mapping[str, Any]) -> tuple[Scene, DeckSettings]:
+def prepared(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:
     """The case's scene with the shipped mesh, and the settings of its deck.
 
-    case: `kinematics`, and with finite ones the tissue's `law`; `indentation`, a height [mm], or full: as deep as
-    fingerpad indents; `edges` (rounded or sharp), `friction` (never, stimulus or always), and the deck's slopes and
-    increments. Raises SceneError as `DeckSettings`; to indent fully, what `mesh_device` and `indented_height` raise.
+    Raises SceneError as `DeckSettings`; to indent fully, what `mesh_device` and `indented_height` raise.
     """
-    scene = sharpened(scene) if case["edges"] == "sharp" else scene
-    scene = scene.with_kinematics(Kinematics(case["kinematics"]))
+    scene = sharpened(scene) if case.edges is Edges.SHARP else scene
+    scene = scene.with_kinematics(case.kinematics)
     law = replace(scene.model.contact, friction_from=FrictionFrom.TOUCH)  # here the case says from when on
     scene, friction = scene.with_model(contact=law), law.friction
-    acting = 0.0 if case["friction"] == "never" else friction
-    indenting = friction if case["friction"] == "always" else 0.0
-    if scene.kinematics is Kinematics.FINITE:
-        tissue = replace(scene.model.tissue, law=Law(case["law"]))
-        scene = scene.with_model(tissue=tissue)
-    depth = case["indentation"]
+    acting = 0.0 if case.friction is Rubbing.NEVER else friction
+    indenting = friction if case.friction is Rubbing.ALWAYS else 0.0
+    if case.law is not None:
+        scene = scene.with_model(tissue=replace(scene.model.tissue, law=case.law))
+    depth = case.indentation
     if depth == "full":
         depth = indented_height(scene, mesh_device(scene), Interface.SHEAR if indenting else Interface.FRICTIONLESS)
-    keys = ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments", "rest_increments")
-    return scene, DeckSettings(depth, indenting, acting, **{key: case[key] for key in keys})
+    return scene, DeckSettings(
+        indentation=depth,
+        friction_indenting=indenting,
+        friction_acting=acting,
+        pressure_slope=case.pressure_slope,
+        stick_slope=case.stick_slope,
+        indentation_increments=case.indentation_increments,
+        stimulus_increments=case.stimulus_increments,
+        rest_increments=case.rest_increments,
+    )
 
 
 def calculix_outcome(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +10,16 @@ from ..readouts.roughness import SCORE_UNIT
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from .both_sides import both_sides
+from .case import Case
 from .contact_model import ContactModel
 
 DIGITS = 5  # significant digits of a score [1]
 
 
-def order_rows(
-    scene: Scene, condition: str, case: Mapping[str, Any], folder: Path, limit: float
-) -> list[dict[str, Any]]:
+def order_rows(scene: Scene, condition: str, case: Case, folder: Path, limit: float) -> list[dict[str, Any]]:
     """Rows of one condition, a row a read-out: its scores [mm2] by both programs, on the same path with friction.
 
-    case, folder, limit: as `both_sides` takes them. Where CalculiX finds no solution there is a note in place of both
+    folder, limit: as `both_sides` takes them. Where CalculiX finds no solution there is a note in place of both
     scores, and where fingerpad does not in place of its own. Raises what `both_sides` raises but for CalculixError and
     ContactError.
     """
@@ -34,7 +32,7 @@ def order_rows(
     except (CalculixError, ContactError) as error:
         note = str(error)
     cost = {"unknowns": sides.unknowns if sides else "", "calculix_s": sides.seconds if sides else ""}
-    where = {"kinematics": case["kinematics"], "device": scene.device.name, "condition": condition}
+    where = {"kinematics": str(case.kinematics), "device": scene.device.name, "condition": condition}
     return [
         where
         | {"readout": str(each), "fingerpad": _shown(own.get(each)), "calculix": _shown(calculix.get(each))}

@@ -28,7 +28,6 @@ from ..contact.path import SolveIncrement, advance
 from ..errors import ContactError
 from ..scene.device import ActuatorRow
 
-MAX_ITERATIONS = 60  # of Newton within one increment before it is halved [1]; source: as `active_set`'s
 MAX_HALVINGS = 8  # of a Newton step [1]; source: chosen, as what needs more is halved as an increment
 TOLERANCE = 1e-10  # mm of residual displacement; source: 1e-6 of the smallest penetration that matters
 
@@ -119,7 +118,7 @@ def _increment(
     position = start.position
     force, tangent, origin = _forces(problem.row, weight, law, position, start.origin)
     residual = (position - unloaded).ravel() - problem.compliance @ force.ravel()
-    for _ in range(MAX_ITERATIONS):
+    for _ in range(problem.most_iterations):
         moved = np.einsum("anc,ncd->and", by_node, tangent).reshape(2 * count, 2 * count)
         try:
             step = np.linalg.solve(np.eye(2 * count) - moved, -residual).reshape(count, 2)

@@ -9,6 +9,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
+from ..calculix.case import PRESSURE_SLOPE, REST_INCREMENTS, STICK_SLOPE, STIMULUS_INCREMENTS
 from ..calculix.deck import DeckSettings, input_deck, kinematics_told
 from ..calculix.depth import indented_height
 from ..files import write_text
@@ -18,12 +19,7 @@ from .options import add_case_options, add_scene_options, checked_case, writable
 
 DECK = ".inp"
 STEPS = 2  # of the progress: mesh, pre-indentation
-# MPa/mm of pressure over penetration, of shear over elastic slip; source: CalculiX did not settle on ones four times as
-# stiff (measured)
-PRESSURE_SLOPE, STICK_SLOPE = 500.0, 100.0
-# Increments [1] of pre-indentation, of each time of the stimulus, and at rest after it; source: chosen; the cases in
-# workflow/rules/calculix.smk say what others do
-INDENTING, ACTING, RESTING = 20, 4, 3
+INDENTATION_INCREMENTS = 20  # [1]; source: chosen; the cases in workflow/rules/calculix.smk say what others do
 DESCRIPTION = """\
 Write one condition of a device as an input deck in Abaqus keywords, which CalculiX runs unchanged. Pre-indentation goes
 as deep as fingerpad's own. With finite kinematics, what is printed says for which of the two programs a law is meant.
@@ -50,9 +46,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     ):
         parser.add_argument(flag, type=float, default=default, metavar="NUMBER", help=f"{what} (default: %(default)g)")
     for flag, increments, what in (
-        ("--indentation-increments", INDENTING, "of pre-indentation"),
-        ("--stimulus-increments", ACTING, "of each time of the stimulus"),
-        ("--rest-increments", RESTING, "at rest after each of them"),
+        ("--indentation-increments", INDENTATION_INCREMENTS, "of pre-indentation"),
+        ("--stimulus-increments", STIMULUS_INCREMENTS, "of each time of the stimulus"),
+        ("--rest-increments", REST_INCREMENTS, "at rest after each of them"),
     ):
         parser.add_argument(
             flag, type=int, default=increments, metavar="N", help=f"increments {what} (default: %(default)d)"
