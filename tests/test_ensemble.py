@@ -25,7 +25,7 @@ from fingerpad.ensemble.alternatives import (
     write_scenes,
 )
 from fingerpad.ensemble.members import ensemble_tables, member_scores
-from fingerpad.ensemble.robustness import changed, orders_held, reasons, varied_values
+from fingerpad.ensemble.robustness import absent_keys, changed, orders_held, reasons, varied_values
 from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.pages.robustness import robustness_values
@@ -120,8 +120,12 @@ def test_the_second_half_cycle_turns_every_displacement_round(tmp_path: Path) ->
     [
         ({"finger": []}, "found the key finger; allowed: model, devices"),
         ({"model": [{"key": "contact.friction", "values": [1.0]}]}, r"model\[0\]: found .*; allowed: the keys key"),
-        ({"model": [{"key": "a", "values": 1.0, "source": "s"}]}, "allowed: a list"),
-        ({"model": [{"key": "a", "times": ["x"], "source": "s"}]}, "allowed: a list, of numbers under times"),
+        ({"model": [{"key": "a", "values": 1.0, "source": "s"}]}, "allowed: a list of one or more"),
+        (
+            {"model": [{"key": "a", "times": ["x"], "source": "s"}]},
+            "allowed: a list of one or more, numbers under times",
+        ),
+        ({"devices": [{"key": "a", "values": [], "source": "s"}]}, r"found \[\]; allowed: a list of one or more"),
         (
             {"model": [{"key": key, "values": [9.0], "source": "s"} for key in ("a.b", "a_b")]},
             r"found a\.b 9\.0 and a_b 9\.0, which share a file name",
@@ -158,7 +162,7 @@ def test_devices_without_half_cycles_have_no_ensemble() -> None:
 
 
 @pytest.fixture(scope="module")
-def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
+def tables() -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     """Scores as the paper says; with less friction Device 2's strain falls, and in the second half-cycle Device 3's
     strain is as good as level: its errors, as large a share of the scores as those of 1 to 3, are 0.07 and more."""
     usual, less = make_scores(), make_scores({("device2", "shear", "strain"): [3, 2, 1]})
@@ -177,9 +181,9 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame]:
     )
 
 
-def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]) -> None:
     """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
-    claims, correlations = tables
+    claims, correlations, _ = tables
     assert len(claims) == 4 * 20
     verdict = claims.set_index(["half_cycle", "varied", "claim"])["holds"]
     turned = verdict[verdict != "yes"].to_dict()
@@ -193,8 +197,10 @@ def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFram
     assert set(correlations["varied"]) == {AS_CONFIGURED, FRICTION.name}
 
 
-def test_page_counts_members_and_names_what_turns_a_statement(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
-    values = robustness_values(dict(zip(("claims", "correlations"), tables, strict=True)))
+def test_page_counts_members_and_names_what_turns_a_statement(
+    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
+) -> None:
+    values = robustness_values(dict(zip(("claims", "correlations", "scores"), tables, strict=True)))
     assert values["members"] == 2
     row = next(
         line for line in str(values["statements"]).splitlines() if "Device 2: the strain correlates well" in line
@@ -209,13 +215,39 @@ def test_page_counts_members_and_names_what_turns_a_statement(tables: tuple[pd.D
     assert "| small | device3 | change_of_strain | 0.959, rising | 1, rising | 1, rising | 2 of 2 |" in counted
 
 
-def test_figure_of_devices_that_the_paper_does_not_know_says_so(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+def test_page_has_scores_of_both_halves_and_names_what_has_no_solution(
+    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
+) -> None:
+    claims, correlations, scores = tables
+    values = robustness_values({"claims": claims, "correlations": correlations, "scores": scores})
+    assert values["unsolved"] == "None."
+    assert "| small | device1 | strain | 1.00 (`low_000`) | 1.00 (`low_000`) |" in str(values["halves"])
+    level = next(line for line in str(values["halves"]).splitlines() if "device3 | strain" in line)
+    assert level == f"| small | device3 | strain | {level_ratio(scores)} |"
+    lost = scores["varied"].eq(FRICTION.name) & scores["device"].eq("device2")
+    assert lost.any()
+    unsolved = scores.assign(score=scores["score"].mask(lost), note=scores["note"].mask(lost, "no prediction: too far"))
+    told = robustness_values({"claims": claims, "correlations": correlations, "scores": unsolved})
+    assert told["unsolved"] == "- `contact.friction 0.38`, small kinematics: too far"
+
+
+def level_ratio(scores: pd.DataFrame) -> str:
+    """The table's cells of Device 3's strain: what the second half-cycle makes of its least and most raised score."""
+    own = scores[(scores["device"] == "device3") & (scores["readout"] == "strain") & (scores["interface"] == "shear")]
+    own = own[own["varied"] == AS_CONFIGURED].set_index(["half_cycle", "condition"])["score"]
+    ratio = own[SECOND] / own[FIRST]
+    return " | ".join(f"{ratio[name]:.2f} (`{name}`)" for name in (ratio.idxmin(), ratio.idxmax()))
+
+
+def test_figure_of_devices_that_the_paper_does_not_know_says_so(
+    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
+) -> None:
     """Their table has its header alone."""
     (axes,) = ensemble_figure(tables[0][:0]).axes
     assert [text.get_text() for text in axes.texts] == ["no statement: these are about the paper's devices"]
 
 
-def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.DataFrame]) -> None:
+def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]) -> None:
     """But for those whose numbers do not change, as another device's do not."""
     figure = ensemble_figure(tables[0])
     figure.draw_without_rendering()
@@ -228,12 +260,27 @@ def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.Data
     assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == [AS_CONFIGURED, FRICTION.name]
 
 
+def test_figure_tells_what_has_no_solution_from_what_does_not_change(
+    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
+) -> None:
+    claims = tables[0]
+    lost = (claims["varied"] == FRICTION.name) & claims["claim"].str.startswith("Device 3")
+    assert lost.any()
+    figure = ensemble_figure(claims[~lost])
+    dashes = sum(len(line.get_xdata()) for line in figure.axes[0].lines if line.get_marker() == "_")
+    assert dashes == lost.sum()
+    assert "no solution" in [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "no solution" not in [text.get_text() for text in ensemble_figure(claims).legends[0].get_texts()]
+
+
 def test_a_device_varies_in_what_it_assumes_and_in_what_its_model_may_be() -> None:
     """What another device has, what is known and what is as it is already are no variants."""
     varied = varied_values(CONFIG, DEVICES["device2"], read_ensemble(SHIPPED))
     assert varied["finger.height times 0.9"] == {"finger.height": 11.7}
     assert varied["actuators.pitch times 0.8"] == {"actuators.pitch": 2.0}
     assert varied["stimulus.half_cycle second"] == {"stimulus.half_cycle": SECOND}
+    assert "stimulus.dispersions.low" in absent_keys(DEVICES["device2"], read_ensemble(SHIPPED))
+    assert "actuators.pitch" not in absent_keys(DEVICES["device2"], read_ensemble(SHIPPED))
     keys = {key for values in varied.values() for key in values}
     assert not keys & {"actuators.body.poisson", "stimulus.relative_to", "stimulus.dispersions.low"}
     known = with_value(DEVICES["device2"], "actuators.pitch", 2.5, "our data sheet")
@@ -335,7 +382,7 @@ def test_the_scenes_as_configured_have_their_own_errors() -> None:
         read_stated_order(ROOT / "data" / "stated_order.csv", known),
         read_published(ROOT / "data" / "published_r2.csv"),
     )
-    _, correlations = ensemble_tables(members, recorded, *literature)
+    _, correlations, _ = ensemble_tables(members, recorded, *literature)
     expected = correlation_table(recorded, *literature)
     both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
     assert len(both) == len(expected)

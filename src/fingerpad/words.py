@@ -13,6 +13,10 @@ LONGEST_LABEL = 16  # characters of a name at an axis
 
 READOUT_NAME = {Readout.STRAIN: "Strain", Readout.CHANGE_OF_STRAIN: "Change of strain"}
 KINEMATICS_NAME = {Kinematics.SMALL: "small strain", Kinematics.FINITE: "finite strain"}
+MODE_ENDING = {
+    Kinematics.SMALL: "",
+    Kinematics.FINITE: "_finite",
+}  # of names of figures that are drawn for all kinematics
 INTERFACE_NAME = {Interface.SHEAR: "with shear", Interface.FRICTIONLESS: "without shear"}
 SCORE_SCALE = {
     Readout.STRAIN: (1.0, ""),

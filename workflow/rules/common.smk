@@ -15,6 +15,7 @@ from fingerpad.scene.scenefile import build_model, plain_values, read_yaml, reco
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.device_names import known_devices
 from fingerpad.scene.validation import check_config, check_device
+from fingerpad.words import MODE_ENDING
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
@@ -75,7 +76,7 @@ DEVICES_WITH = {
     str(each): [name for name in DEVICES if each in SCENE[name].computed] for each in Kinematics
 }  # names of the devices that are predicted with those kinematics
 KINEMATICS = [each for each, names in DEVICES_WITH.items() if names]
-MODES = {"": "small", "_finite": "finite"}  # endings of figures that are drawn for all kinematics
+MODES = {ending: str(each) for each, ending in MODE_ENDING.items()}  # kinematics by the ending of figures' names
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
 

@@ -2,7 +2,7 @@
 # Not part of `all`: ask for it with `snakemake ensemble` (some ten minutes of one core with small kinematics, an hour with finite ones).
 # REQUIRED INPUTS: config/ensemble.yaml, results/scores.csv, data/.
 # OUTPUTS: results/ensemble/{kinematics}/{member}/{half_cycle}/ with scene files and scores,
-# results/ensemble_{claims,correlations}.csv, results/figures/ensemble*.{png,pdf}
+# results/ensemble_{claims,correlations,scores}.csv, results/figures/ensemble*.{png,pdf}
 
 from dataclasses import replace
 
@@ -68,6 +68,7 @@ rule ensemble_tables:
     output:
         claims="results/ensemble_claims.csv",
         correlations="results/ensemble_correlations.csv",
+        table="results/ensemble_scores.csv",
     log:
         "results/logs/ensemble_tables.log",
     conda:

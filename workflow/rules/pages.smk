@@ -22,6 +22,7 @@ PAGE_TABLES = {  # by page and by what it calls them
     "robustness": {
         "claims": "results/ensemble_claims.csv",
         "correlations": "results/ensemble_correlations.csv",
+        "scores": "results/ensemble_scores.csv",
     },
     "run-time": {
         "timings": "results/benchmark/timings.csv",

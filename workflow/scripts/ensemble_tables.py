@@ -1,4 +1,4 @@
-"""Which statements hold in every member of the ensemble over assumptions."""
+"""Scores of all members of the ensemble over assumptions, and which statements hold in them."""
 
 from pathlib import Path
 
@@ -19,6 +19,7 @@ def main(
     conditions: dict[str, list[str]],
     claims: Path,
     correlations: Path,
+    table: Path,
 ) -> None:
     """Read all members' scores and literature data, check the statements, write the tables. A member that varies no
     device with its kinematics has an empty file.
@@ -30,8 +31,8 @@ def main(
         read_stated_order(order, conditions),
         read_published(published),
     )
-    for table, path in zip(tables, (claims, correlations), strict=True):
-        write_table(path, table)
+    for found, path in zip(tables, (claims, correlations, table), strict=True):
+        write_table(path, found)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 from ..checkout import find_checkout, model_for
 from ..ensemble.alternatives import AS_CONFIGURED, Alternative, by_key, read_ensemble
-from ..ensemble.robustness import Order, changed, kept_keys, orders_held, reasons, varied_values
+from ..ensemble.robustness import Order, absent_keys, changed, kept_keys, orders_held, reasons, varied_values
 from ..errors import SceneError, UsageError
 from ..prediction.forecast import steps
 from ..prediction.orders import nothing_resolved, unordered
@@ -80,7 +80,8 @@ def run(options: argparse.Namespace) -> None:
             if options.csv:
                 bar.write(_csv_of(name, rows, header=False), end="")
     if not options.csv:
-        print("\n".join(_told(scene, configured, tables, refused, kept_keys(device, alternatives))))
+        kept, absent = kept_keys(device, alternatives), absent_keys(device, alternatives)
+        print("\n".join(_told(scene, configured, tables, refused, kept, absent)))
 
 
 def _csv_of(name: str, rows: Sequence[Mapping[str, Any]], header: bool) -> str:
@@ -126,9 +127,10 @@ def _told(
     tables: Mapping[str, Sequence[Mapping[str, Any]]],
     refused: Mapping[str, str],
     kept: Sequence[str],
+    absent: Sequence[str],
 ) -> Iterator[str]:
     """Lines that say what becomes of the orders, then what to know of the scores as configured, what was varied, and
-    what could not be or was kept.
+    what could not be, was kept or is not there.
     """
     idle = [name for name, rows in tables.items() if not changed(configured, rows)]
     members = {name: rows for name, rows in tables.items() if name not in idle}
@@ -152,6 +154,8 @@ def _told(
         yield f"without effect: {', '.join(idle)}"
     if kept:
         yield f"kept, as the file does not call them assumptions: {', '.join(kept)} (but see `predict --vary`)"
+    if absent:
+        yield f"not in the file: {', '.join(absent)}"
     for name, rows in members.items():
         yield from (f"{name}: {note}" for note in reasons(configured, rows))
     yield from (f"left out: {name}: {why}" for name, why in refused.items())

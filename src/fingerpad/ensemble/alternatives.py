@@ -111,8 +111,8 @@ def read_ensemble(path: Path) -> list[Alternative]:
             ):
                 raise SceneError(f"{where}: found {entry!r:.60}; allowed: the keys key, values or times, and source")
             choices = entry.get("values", entry.get("times"))
-            if not isinstance(choices, list) or ("times" in entry and not all(map(is_number, choices))):
-                raise SceneError(f"{where}: found {choices!r:.60}; allowed: a list, of numbers under times")
+            if not isinstance(choices, list) or not choices or ("times" in entry and not all(map(is_number, choices))):
+                raise SceneError(f"{where}: found {choices!r:.60}; allowed: a list of one or more, numbers under times")
             key, source = str(entry["key"]), str(entry["source"])
             for choice in choices:
                 value, times = (None, float(choice)) if "times" in entry else (choice, None)

@@ -34,8 +34,8 @@ def member_scores(
 
 def ensemble_tables(
     members: pd.DataFrame, configured: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Claims and correlations of every member, in the columns of their tables behind half_cycle and varied.
+) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
+    """Claims, correlations and scores of every member, in the columns of their tables behind MEMBER.
 
     members: rows of the score table of all members behind MEMBER; devices that a member leaves as they are have rows as
     configured alone. configured: the score table with errors, which members' scores have too, in proportion to the
@@ -58,7 +58,9 @@ def ensemble_tables(
             table = correlation_table(scores, ratings, order, published)
             for found, rows in ((claims, claims_table(scores, table)), (correlations, table)):
                 found.append(rows.assign(kinematics=kinematics, half_cycle=half_cycle, varied=varied))
-    return _first_columns(pd.concat(claims)), _first_columns(pd.concat(correlations))
+    tables = pd.concat(claims), pd.concat(correlations), scored[[*configured.columns, *MEMBER[1:]]]
+    first, second, third = map(_first_columns, tables)
+    return first, second, third
 
 
 def _first_columns(table: pd.DataFrame) -> pd.DataFrame:

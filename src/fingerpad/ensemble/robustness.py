@@ -77,6 +77,12 @@ def kept_keys(device: Document, alternatives: Sequence[Alternative]) -> list[str
     return [key for key in keys if key in own and not is_assumed(own[key])]
 
 
+def absent_keys(device: Document, alternatives: Sequence[Alternative]) -> list[str]:
+    """Keys of alternatives of device files that this one does not have: of other kinds of devices, or misspelt."""
+    own = dict(quantities_of(device))
+    return list(dict.fromkeys(each.key for each in alternatives if each.part == "devices" and each.key not in own))
+
+
 def changed(configured: Sequence[Row], varied: Sequence[Row]) -> bool:
     """Whether any score is another one, or gone, where an assumption is varied."""
     there = _scores(varied)

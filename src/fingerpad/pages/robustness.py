@@ -6,14 +6,15 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from ..ensemble.alternatives import AS_CONFIGURED, HALF_CYCLES, by_key
+from ..ensemble.alternatives import AS_CONFIGURED, FIRST, HALF_CYCLES, SECOND, by_key
 from ..ensemble.effect import with_effect
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
 from ..perception.wording import published_text, slope_name
-from ..readouts.roughness import KEY
+from ..readouts.roughness import KEY, NO_PREDICTION
 from ..scene.contact_law import Interface
 from ..scene.tissue_law import Kinematics
+from ..words import MODE_ENDING
 from .filling import table
 
 NOTHING = ""
@@ -21,13 +22,14 @@ SHOWN = {  # by a figure
     Kinematics.SMALL: "A mark for every statement, member and half-cycle, with small strain",
     Kinematics.FINITE: "The same with finite strain",
 }
-MODE = {Kinematics.SMALL: "", Kinematics.FINITE: "_finite"}  # endings of their names
 TOLD = ["claim", "kind"]
 
 
 def robustness_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
-    """What `workflow/pages/robustness.md` asks for. tables: claims and correlations, of `members.ensemble_tables`."""
-    claims, correlations = tables["claims"], tables["correlations"]
+    """What `workflow/pages/robustness.md` asks for. tables: claims, correlations and scores, of
+    `members.ensemble_tables`.
+    """
+    claims, correlations, scores = tables["claims"], tables["correlations"], tables["scores"]
     members = claims["varied"].nunique()
     kinematics = list(claims["kinematics"].unique())
     return {
@@ -38,7 +40,11 @@ def robustness_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
             for each in kinematics
         ),
         "correlations": table(_correlations(correlations)),
-        "figures": "\n\n".join(f"![{SHOWN[each]}](figures/ensemble{MODE[each]}.png)" for each in kinematics),
+        "halves": table(_halves(scores)),
+        "unsolved": _unsolved(scores),
+        "figures": "\n\n".join(
+            f"![{SHOWN[each]}](figures/ensemble{MODE_ENDING[Kinematics(each)]}.png)" for each in kinematics
+        ),
     }
 
 
@@ -83,3 +89,34 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
         rising = int((different["slope_sign"] > 0).sum())
         rows.append(row | {"published": published} | halves | {"rising in": f"{rising} of {len(different)}"})
     return pd.DataFrame(rows)
+
+
+def _halves(scores: pd.DataFrame) -> pd.DataFrame:
+    """Scores with shear in the second half-cycle over those in the first, as configured: a row for each kinematics,
+    device and read-out, with the conditions that have the least and the most.
+    """
+    is_shown = (scores["varied"] == AS_CONFIGURED) & (scores["interface"] == Interface.SHEAR) & (scores["score"] > 0.0)
+    wide = scores[is_shown].pivot_table("score", [*KEY, "condition"], "half_cycle", sort=False)
+    ratios = (wide[SECOND] / wide[FIRST]).dropna()
+    rows = []
+    for key, own in ratios.groupby(KEY, sort=False):
+        row = dict(zip(KEY, key, strict=True))
+        del row["interface"]
+        ends = {"least": own.idxmin(), "most": own.idxmax()}
+        rows.append(row | {name: f"{own[case]:.2f} (`{case[-1]}`)" for name, case in ends.items()})
+    return pd.DataFrame(rows)
+
+
+def _unsolved(scores: pd.DataFrame) -> str:
+    """Members in which what is predicted as configured has no solution, and why, as a list."""
+    usual = scores[(scores["varied"] == AS_CONFIGURED) & scores["score"].notna()]
+    case = [*KEY, "condition", "half_cycle"]
+    is_lost = scores["score"].isna() & pd.MultiIndex.from_frame(scores[case]).isin(
+        pd.MultiIndex.from_frame(usual[case])
+    )
+    lost = scores[is_lost].drop_duplicates(["kinematics", "varied", "device", "interface", "note"])
+    told = [
+        f"- `{row['varied']}`, {row['kinematics']} kinematics: {str(row['note']).removeprefix(f'{NO_PREDICTION}: ')}"
+        for row in lost.to_dict("records")
+    ]
+    return "\n".join(dict.fromkeys(told)) or "None."

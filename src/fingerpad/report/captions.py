@@ -23,6 +23,7 @@ from ..scene.tissue_law import Kinematics
 from ..words import (
     INTERFACE_NAME,
     KINEMATICS_NAME,
+    MODE_ENDING,
     READOUT_NAME,
     SCORE_SCALE,
     counted,
@@ -71,7 +72,7 @@ def words(stems: Collection[str], results: Results) -> dict[str, Words]:
     writers: dict[str, Callable[[], Words]] = {}
     for stem, write in _WRITERS.items():
         writers[stem] = partial(write, small)
-        writers[f"{stem}_finite"] = partial(_finite, write, finite)
+        writers[f"{stem}{MODE_ENDING[Kinematics.FINITE]}"] = partial(_finite, write, finite)
     writers["kinematics"] = partial(_kinematics, results)
     for scene in results.scenes:
         for dispersion in scene.device.by_dispersion:
