@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import errno
 import io
 import json
 import os
@@ -16,6 +17,7 @@ import sys
 import time
 from argparse import Namespace
 from dataclasses import replace
+from decimal import Decimal
 from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
@@ -232,6 +234,18 @@ def test_new_device_goes_with_the_model_of_the_one_it_comes_from(checkout: Path)
     model.write_text(model.read_text(encoding="utf-8") + "# own\n", encoding="utf-8")
     assert main(["new", "other", "--from", "own folder/devices/mine.yaml", "--scenes", "another"]) == 0
     assert (checkout / "another/config.yaml").read_bytes() == model.read_bytes()
+
+
+def test_a_disk_that_fills_up_leaves_no_half_of_a_model(checkout: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which the next call would take for a model of the user's own."""
+
+    def half(source: Path, target: Path) -> None:
+        target.write_bytes(source.read_bytes()[:100])
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(shutil, "copyfile", half)
+    assert main(["new", "mine", "--from", "device2", "--scenes", "own"]) == FAILED
+    assert list((checkout / "own").rglob("*.*")) == []
 
 
 def test_what_new_says_next_can_be_pasted(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -458,7 +472,7 @@ ROW = {
 
 def test_caveats_of_a_solution() -> None:
     solution = solved("device2", "alternate_090", Interface.SHEAR)
-    assert solution_caveats(scene("device2"), solution) == []
+    assert solution_caveats(scene("device2"), solution, Interface.SHEAR) == []
     worse = replace(
         solution,
         cuts=MANY_CUTS + 1,
@@ -467,7 +481,7 @@ def test_caveats_of_a_solution() -> None:
             solution.certificate, penetration_share=0.5, gap_share=0.3, tension_share=0.4, cone_share=0.6
         ),
     )
-    halved, searched, *near = solution_caveats(scene("device2"), worse)
+    halved, searched, *near = solution_caveats(scene("device2"), worse, Interface.SHEAR)
     assert f"halved {MANY_CUTS + 1} times" in halved
     assert str(MANY_SEARCHES + 1) in searched
     shares = {"penetration": 50, "gap in contact": 30, "tension": 40, "excess over the friction cone": 60}
@@ -515,12 +529,12 @@ def test_actuators_that_press_nothing_are_told_by_their_number() -> None:
     given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
     bears = np.array([0.0, 1.0, 1.0, 1.0])[:, None]
     idle = replace(solution, actuator_force=solution.actuator_force * bears)
-    assert solution_caveats(given, idle) == [
+    assert solution_caveats(given, idle, Interface.SHEAR) == [
         "actuators without force after pre-indentation, counted from the left: 1",
     ]
     left = solution.actuator_force.copy()
     left[-1, [1, 3]] = 0.0
-    (caveat,) = solution_caveats(given, replace(solution, actuator_force=left))
+    (caveat,) = solution_caveats(given, replace(solution, actuator_force=left), Interface.SHEAR)
     assert caveat.startswith("actuators that leave the skin, counted from the left: 2, 4 (")
 
 
@@ -528,11 +542,13 @@ def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
     """Finite strain is not."""
     given = scene("device2")
     deep = replace(solved("device2", "alternate_090", Interface.SHEAR), depth=4.34)
-    assert solution_caveats(given, deep) == ["actuators indent 87% of the pad: small strain is invalid"]
-    assert solution_caveats(given.with_kinematics(Kinematics.FINITE), deep) == []
+    assert solution_caveats(given, deep, Interface.SHEAR) == [
+        "actuators indent 87% of the pad: small strain is invalid"
+    ]
+    assert solution_caveats(given.with_kinematics(Kinematics.FINITE), deep, Interface.SHEAR) == []
     for share, doubted in ((0.49, False), (0.51, True)):  # of the pad; with a half mean strain is 0.5
         depth = share * given.model.finger.pad_thickness
-        assert bool(solution_caveats(given, replace(deep, depth=depth))) is doubted
+        assert bool(solution_caveats(given, replace(deep, depth=depth), Interface.SHEAR)) is doubted
 
 
 def test_a_face_of_few_elements_is_doubted() -> None:
@@ -541,7 +557,9 @@ def test_a_face_of_few_elements_is_doubted() -> None:
         given, device=replace(given.device, actuators=replace(given.device.actuators, width=0.03, edge_radius=0.0))
     )
     solution = solved("device2", "alternate_090", Interface.SHEAR)
-    assert solution_caveats(narrow, solution) == ["actuators are 2.0 elements wide: try a smaller numerics.edge_size"]
+    assert solution_caveats(narrow, solution, Interface.SHEAR) == [
+        "actuators are 2.0 elements wide: try a smaller numerics.edge_size"
+    ]
 
 
 def test_round_actuators_say_where_they_end() -> None:
@@ -549,10 +567,10 @@ def test_round_actuators_say_where_they_end() -> None:
     given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
     row = replace(given.device.actuators, edge_radius=given.device.actuators.width / 2.0)
     domes = replace(given, device=replace(given.device, actuators=row))
-    (caveat,) = solution_caveats(domes, solution)
+    (caveat,) = solution_caveats(domes, solution, Interface.SHEAR)
     assert caveat.startswith("round actuators have no flat face to cover: pre-indentation ends where contact reaches")
     law = replace(domes.model.contact, criterion=Criterion.FORCE)
-    assert solution_caveats(domes.with_model(contact=law), solution) == []
+    assert solution_caveats(domes.with_model(contact=law), solution, Interface.SHEAR) == []
 
 
 def test_a_row_that_touches_one_by_one_is_no_caveat() -> None:
@@ -560,23 +578,24 @@ def test_a_row_that_touches_one_by_one_is_no_caveat() -> None:
     given = scene("device2")
     touch = given.with_model(contact=replace(given.model.contact, criterion=Criterion.TOUCH))
     solution = solved("device2", "alternate_090", Interface.SHEAR)
-    assert not [each for each in solution_caveats(touch, solution) if "at first touch" in each]
+    assert not [each for each in solution_caveats(touch, solution, Interface.SHEAR) if "at first touch" in each]
     at_once = replace(solution, indentation=0.0)
-    assert [each for each in solution_caveats(touch, at_once) if "at first touch" in each]
+    assert [each for each in solution_caveats(touch, at_once, Interface.SHEAR) if "at first touch" in each]
 
 
 def test_no_friction_is_told_where_shear_is_asked_for() -> None:
     given = scene("device2").model.contact
     slippery = scene("device2").with_model(contact=replace(given, friction=0.0))
-    (told,) = scene_caveats(slippery)
+    (told,) = scene_caveats(slippery, Interface.SHEAR)
     assert told.startswith("contact.friction is 0: ")
+    assert scene_caveats(slippery, Interface.FRICTIONLESS) == []
 
 
 def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:
     given = scene("device2")
     gabor = replace(given.model.gabor, wavelength_change=0.1)
     fine = given.with_model(gabor=gabor)
-    (found,) = solution_caveats(fine, solved("device2", "alternate_090", Interface.SHEAR))
+    (found,) = solution_caveats(fine, solved("device2", "alternate_090", Interface.SHEAR), Interface.SHEAR)
     assert found == "the filter's wavelength is 1.7 receptor elements: try a smaller numerics.receptor_size"
 
 
@@ -692,7 +711,7 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
     for interface in Interface:
         solution = solve("device2", away, interface)
         assert not solution.pressure.any()
-        caveats = solution_caveats(scene("device2"), solution)
+        caveats = solution_caveats(scene("device2"), solution, Interface.SHEAR)
         assert not [caveat for caveat in caveats if "certificate" in caveat]
         left = "actuators that leave the skin, counted from the left: 1, 2, 3, 4 (positive normal points into it)"
         assert left in caveats
@@ -701,7 +720,9 @@ def test_a_device_that_lifts_off_is_near_no_limit() -> None:
 def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
     normal = np.array([[0.0, -3.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]])
     back = Condition("back", "test", 0.0, np.array([1.0, 2.0]), normal, np.zeros_like(normal))
-    strained, caveat = solution_caveats(scene("device2"), solve("device2", back, Interface.FRICTIONLESS))
+    strained, caveat = solution_caveats(
+        scene("device2"), solve("device2", back, Interface.FRICTIONLESS), Interface.FRICTIONLESS
+    )
     assert strained.endswith("too much for small strain: compare predict --kinematics finite")
     assert caveat.startswith("actuators that leave the skin, counted from the left: 2 (")
 
@@ -710,21 +731,26 @@ def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
     """Slippery pins that slide to and almost as far fro: the first stroke is read, on half the sizes the second."""
     tangential = np.outer([0.02, -0.01982], [1.0, -1.0, 1.0, -1.0])
     strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential)
-    (caveat,) = solution_caveats(scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS))
+    (caveat,) = solution_caveats(
+        scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS), Interface.FRICTIONLESS
+    )
     assert caveat.startswith("at another time strain changes by 9")
     there = replace(strokes, time=strokes.time[:1], normal=strokes.normal[:1], tangential=tangential[:1])
     alone = solve("device2", there, Interface.FRICTIONLESS)
-    assert solution_caveats(scene("device2"), alone) == []
+    assert solution_caveats(scene("device2"), alone, Interface.SHEAR) == []
     for rival, doubted in ((0.97, False), (0.99, True)):  # finer meshes move it by less than 0.01
         near = replace(alone, reading=replace(alone.reading, rival_peak=rival))
-        assert bool(solution_caveats(scene("device2"), near)) is doubted
+        assert bool(solution_caveats(scene("device2"), near, Interface.SHEAR)) is doubted
 
 
 def test_a_peak_that_mirrors_the_one_that_is_read_is_no_rival() -> None:
     """Two slippery pins to the right, and the other two almost as far to the left, which scores alike."""
     tangential = np.array([[0.02, 0.0, 0.02, 0.0], [0.0, -0.0199, 0.0, -0.0199]])
     strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential)
-    assert solution_caveats(scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS)) == []
+    assert (
+        solution_caveats(scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS), Interface.FRICTIONLESS)
+        == []
+    )
 
 
 def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
@@ -973,7 +999,8 @@ def test_robustness_says_which_assumptions_orders_hang_on(
     assumptions = checkout / "assumptions.yaml"
     assumptions.write_text(
         "model:\n- {key: contact.friction, values: [0.3, 0.9], source: 'assumption: dry and moist'}\n"
-        "devices:\n- {key: actuators.pitch, times: [0.1, 1.1], source: 'assumption: no, and wider'}\n",
+        "devices:\n- {key: actuators.pitch, times: [0.1, 1.1], source: 'assumption: no, and wider'}\n"
+        "- {key: actuators.ptich, times: [0.9], source: 'assumption: misspelt'}\n",
         encoding="utf-8",
     )
     command = ["robustness", "config/devices/device2.yaml", "--assumptions", str(assumptions)]
@@ -989,6 +1016,7 @@ def test_robustness_says_which_assumptions_orders_hang_on(
     assert "\nvaried: contact.friction 0.3; stimulus.half_cycle second\n" in said
     assert "\nwithout effect: contact.friction 0.9, actuators.pitch times 1.1, kinematics finite\n" in said
     assert "kept, as" not in said
+    assert "\nnot in the file: actuators.ptich\n" in said
     assert "\nstimulus.half_cycle second: no prediction: too far\n" in said
     assert "\nleft out: actuators.pitch times 0.1: config/devices/device2.yaml" in said
 
@@ -1086,9 +1114,18 @@ def test_values_of_numpy_are_those_of_files_and_no_list_is_refused() -> None:
     assert [type(each["contact.friction"]) for each in found] == [float, float]
     assert [scene.model.contact.friction for scene in (check_device(DEVICES / "device2.yaml", SCHEMAS, CONFIG, each)
                                                        for each in found)] == [0.3, 0.6]  # fmt: skip
-    for wrong in ([], 0.3, "touch", None):
-        with pytest.raises(UsageError, match=r"vary: contact\.criterion: found .*; allowed: a list of values"):
+    for wrong in ([], 0.3, "touch", None, [Decimal("0.3")], [{1: 2}]):
+        with pytest.raises(UsageError, match=r"vary: contact\.criterion: found .*; allowed: a list of numbers, texts"):
             variants({"contact.criterion": wrong})  # type: ignore[dict-item]
+
+
+def test_words_of_the_library_are_those_of_files_and_keys_are_texts() -> None:
+    (found,) = variants({"contact.criterion": [Criterion.TOUCH]})
+    assert found == {"contact.criterion": "touch"}
+    varied = check_device(DEVICES / "device2.yaml", SCHEMAS, CONFIG, found)
+    assert varied.model.contact.criterion is Criterion.TOUCH
+    with pytest.raises(UsageError, match=r"vary: found \{3: \[1\]\}; allowed: keys as text"):
+        variants({3: [1]})  # type: ignore[dict-item]
 
 
 def test_values_in_turn_are_those_of_edited_files(coarse: Path) -> None:
@@ -1275,16 +1312,16 @@ def test_what_shipped_devices_do_is_no_caveat() -> None:
     solution = solved("device2", "alternate_090", Interface.SHEAR)
     certificate = replace(solution.certificate, penetration_share=0.2, tension_share=0.19)
     usual = replace(solution, cuts=MANY_CUTS, searches=MANY_SEARCHES, certificate=certificate)
-    assert solution_caveats(scene("device2"), usual) == []
+    assert solution_caveats(scene("device2"), usual, Interface.SHEAR) == []
 
 
 def test_strained_receptors_are_doubted_with_small_strain_alone() -> None:
     given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
     strain = solution.reading.strain
     large = replace(solution, reading=replace(solution.reading, strain=strain * 0.25 / strain.max()))
-    (told,) = solution_caveats(given, large)
+    (told,) = solution_caveats(given, large, Interface.SHEAR)
     assert told.startswith("receptors are strained by up to 25%")
-    assert solution_caveats(given.with_kinematics(Kinematics.FINITE), large) == []
+    assert solution_caveats(given.with_kinematics(Kinematics.FINITE), large, Interface.SHEAR) == []
 
 
 def test_orders_without_a_prediction_in_some_or_all_variants() -> None:
@@ -1404,7 +1441,7 @@ def test_edges_that_finite_strain_cannot_tell_from_sharp_ones_are_a_caveat() -> 
         row = replace(given.device.actuators, edge_radius=radius)
         model = replace(given.model, contact=replace(given.model.contact, friction=friction))
         own = Scene(model, replace(given.device, actuators=row)).with_kinematics(kinematics)
-        return [caveat for caveat in scene_caveats(own) if "edges are sharper" in caveat]
+        return [caveat for caveat in scene_caveats(own, Interface.SHEAR) if "edges are sharper" in caveat]
 
     size = given.model.numerics.edge_size
     assert sharpness(0.0, Kinematics.FINITE, 0.6) == sharpness(0.9 * size, Kinematics.FINITE, 0.6)
@@ -1422,7 +1459,7 @@ def test_a_closed_output_is_no_error(checkout: Path, monkeypatch: pytest.MonkeyP
 def test_orders_of_scores_with_unknown_errors_are_told_to_be_open() -> None:
     unknown = [ROW | {"condition": name, "score": score, "score_error": None, "caveats": []}
                for name, score in (("a", 1.0), ("b", 9.0))]  # fmt: skip
-    told = list(varying._told(scene("device2"), unknown, {}, {}, []))
+    told = list(varying._told(scene("device2"), unknown, {}, {}, [], []))
     assert "no two scores with known errors differ by more than their errors" in told
     assert "\nshear, strain, not ordered, as errors are unknown: a, b" in told
 

@@ -398,7 +398,7 @@ def test_actuators_that_all_touch_at_once_are_pressed_no_further(increments: int
     solution = solve_condition(touching, found, None, still, Interface.SHEAR)
     assert np.all(solution.pressing[0] > 0.0)
     assert solution.indentation == pytest.approx(NEARLY, rel=1e-6)
-    assert any("ends at first touch" in caveat for caveat in solution_caveats(touching, solution))
+    assert any("ends at first touch" in caveat for caveat in solution_caveats(touching, solution, Interface.SHEAR))
 
 
 def test_a_criterion_that_is_met_just_within_the_limit_is_met() -> None:

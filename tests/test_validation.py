@@ -220,6 +220,11 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
         "readout.layer_above.value",
         ["found epidermis", "one of stratum_corneum, viable_epidermis, dermis", "did you mean viable_epidermis?"],
     ),
+    "unknown layer that relaxes": (
+        {"vibration.layers.value": ["dermis", "dermiss"]},
+        "vibration.layers.value[1]",
+        ["found dermiss", "one of stratum_corneum, viable_epidermis", "did you mean dermis?", "(a layer that relaxes)"],
+    ),
     "layer that reaches the bone": (
         {"readout.layer_above.value": "subcutaneous_tissue"},
         "readout.layer_above.value",
@@ -233,6 +238,7 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "bone wider than the finger": ({"finger.bone_width.value": 15.9}, "finger", ["bone_width 15.9 mm", "width 16 mm"]),
 }
 
+SOFT = {"thickness": quantity(1, "mm"), "poisson": quantity(0.4, "1")}
 DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     "misspelled section": (
         {"stimulus": DELETED, "stimuli": {}},
@@ -270,8 +276,13 @@ DEVICE_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
         "actuators.body.modulus",
         ["an unknown key", "the keys kind, source ("],
     ),
+    "deformable body without a source": (
+        {"actuators.body": {"kind": "deformable", "modulus": quantity(1, "MPa"), **SOFT}},
+        "actuators.body.source",
+        ["found nothing"],
+    ),
     "deformable body without a modulus": (
-        {"actuators.body": {"kind": "deformable", "thickness": quantity(1, "mm"), "poisson": quantity(0.4, "1")}},
+        {"actuators.body": {"kind": "deformable", "source": "our data sheet", **SOFT}},
         "actuators.body.modulus",
         ["found nothing", "(Young's modulus)"],
     ),

@@ -459,6 +459,57 @@ def test_pressed_finger_that_equals_the_old_one_hides_no_edited_increments(long:
     assert solution in long.snakemake("-n", solution).outputs
 
 
+@pytest.mark.parametrize(
+    ("name", "old", "new", "made", "follows"),
+    [
+        pytest.param(
+            CONFIG,
+            "friction: {value: 0.6",
+            "friction: {value: 0.0",
+            "results/small/device2/alternate_180/frictionless/solution.npz",
+            "results/small/device2/alternate_180/frictionless/score.csv",
+            id="friction",
+        ),
+        pytest.param(
+            DEVICE,
+            "playback: {value: snapshot",
+            "playback: {value: cycle",
+            "results/small/device2/alternate_180/shear/solution.npz",
+            "results/small/device2/alternate_180/shear/score.csv",
+            id="times",
+        ),
+        pytest.param(
+            CONFIG,
+            "name: nail_bed",
+            "name: matrix",
+            "results/small/device2/mesh.npz",
+            "results/figures/section.png",
+            id="layer",
+        ),
+    ],
+)
+def test_what_equals_the_old_hides_nothing_of_what_is_said_of_it(
+    long: Project, name: str, old: str, new: str, made: str, follows: str
+) -> None:
+    """What a score's note warns of, and what the section's figure names: none of it is in the arrays."""
+    long.edit(name, lambda text: text.replace(old, new))
+    run = long.snakemake("--touch", made)  # as if the run of everything had been interrupted here
+    assert run.status == 0, run.text
+    assert made not in long.snakemake("-n", made).outputs
+    assert follows in long.snakemake("-n", follows).outputs
+
+
+def test_kinematics_of_one_phased_device_rerun_their_phases(long: Project) -> None:
+    """Though another one is still predicted with both."""
+    other = long.folder / DEVICE.replace("device2", "device9")
+    shutil.copy(long.folder / DEVICE, other)
+    assert long.snakemake("--touch", "--forceall", "results/phases.csv").status == 0
+    assert NOTHING in long.snakemake("-n", "results/phases.csv").text
+    small = 'kinematics: {value: small, unit: "1", source: "assumption: strokes are small"}\n'
+    other.write_text(small + other.read_text(encoding="utf-8"), encoding="utf-8")
+    assert "phases" in rules(long.snakemake("-n", "results/phases.csv"))
+
+
 def test_graph_of_rules_follows_kinematics_and_custom_rules(long: Project) -> None:
     graph = "results/rule_graph.csv"
     custom = long.folder / "workflow/rules/custom/none.smk"

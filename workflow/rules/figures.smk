@@ -169,7 +169,11 @@ rule figure_section:
         ENVIRONMENT
     params:
         code=code("figure_section.py"),
-        scene=support.fingerprint(SCENE[DEVICES[0]].model.readout, [SCENE[name].device for name in DEVICES]),
+        scene=support.fingerprint(
+            SCENE[DEVICES[0]].model.finger,
+            SCENE[DEVICES[0]].model.readout,
+            [SCENE[name].device for name in DEVICES],
+        ),
     script:
         "../scripts/figure_section.py"
 

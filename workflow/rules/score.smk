@@ -24,10 +24,12 @@ rule score:
             scene_of(w).model.readout.span_margin,
             scene_of(w).model.numerics,
             scene_of(w).model.finger.pad_thickness,
+            scene_of(w).model.contact.friction,
             scene_of(w).model.contact.criterion,
             scene_of(w).model.gabor,
             condition_of(w).dispersion,
             condition_of(w).phase_deg,
+            condition_of(w).prescribed,
         ),
     script:
         "../scripts/score.py"

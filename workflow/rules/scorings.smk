@@ -63,7 +63,7 @@ rule phases:
         runtime=20,
     params:
         code=code("phases.py"),
-        scenes=[scored(name, each) for each in KINEMATICS for name in PHASED],
+        scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each] if name in PHASED],
         written=as_written(PHASED),
     script:
         "../scripts/phases.py"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ..checkout import find_checkout, model_for
 from ..errors import UsageError
-from ..files import write_text
+from ..files import replacing, write_text
 from ..scene.device_names import require_device, require_new_name
 from ..scene.scenefile import recordings
 from ..scene.template import device_text
@@ -67,7 +67,8 @@ def run(options: argparse.Namespace) -> None:
         copies[model] = own
     for path, copy in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, copy)
+        with replacing(copy) as part:
+            shutil.copyfile(path, part)
     target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
     shown, how = os.path.relpath(target), _elsewhere(scenes) if options.scenes else []

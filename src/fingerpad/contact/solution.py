@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..readouts.strain import Reading, read_receptors
+from ..scene.device import ActuatorRow, Condition
 from ..tissue.compliance import CondensedSection
 from .certificate import Certificate
 from .depth import depth
@@ -72,6 +73,11 @@ class Solution:
         pressing = self.contact[1 + self.reading.time, :, 1]
         slides = (self.status == Status.SLIP_FORWARD) | (self.status == Status.SLIP_BACKWARD)
         return float(pressing[slides].sum() / total) if (total := pressing.sum()) > 0.0 else math.nan
+
+    def skin_x(self, row: ActuatorRow, condition: Condition) -> FloatArray:
+        """Where the skin nodes are (n,) [mm] along the row at the time that is read, of a row and its condition."""
+        centre = np.asarray(row.positions) + condition.tangential[self.reading.time]
+        return np.asarray(centre[self.actuator] + self.place)
 
 
 def solution(

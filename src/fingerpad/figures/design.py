@@ -182,8 +182,7 @@ def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Where the skin in contact now is [mm], pressure and shear there [kPa]; a gap of NaN between pins."""
     solution, row = answer.solution, answer.scene.device.actuators
     (condition,) = answer.scene.device.conditions
-    centre = np.asarray(row.positions) + condition.tangential[solution.reading.time]
-    x = centre[solution.actuator] + solution.place
+    x = solution.skin_x(row, condition)
     touched = np.flatnonzero(solution.pressure > 0.0)
     found = np.stack([x, KILO * solution.pressure, KILO * solution.shear])[:, touched]
     return tuple(np.insert(found, np.flatnonzero(np.diff(solution.actuator[touched])) + 1, np.nan, axis=1))

@@ -297,7 +297,7 @@ def _draw_surroundings(axes: Axes, row: ActuatorRow, column: _Column, window: Wi
 def _draw_tractions(axes: Axes, row: ActuatorRow, column: _Column) -> None:
     """Pressure and shear of the nodes in contact, one line per actuator."""
     solution = column.solution
-    centre = np.asarray(row.positions) + column.condition.tangential[solution.reading.time]
+    x = solution.skin_x(row, column.condition)
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     axes.tick_params(labelbottom=True)
     pressure, shear = KILO * solution.pressure, KILO * solution.shear
@@ -307,9 +307,8 @@ def _draw_tractions(axes: Axes, row: ActuatorRow, column: _Column) -> None:
         if touched.size == 0:
             continue
         shown = own[(own >= touched[0] - 1) & (own <= touched[-1] + 1)]  # from and to a node without contact
-        x = centre[number] + solution.place[shown]
-        axes.plot(x, pressure[shown], color=BLUE)
-        axes.plot(x, shear[shown], color=VERMILLION, linestyle=DASHED)
+        axes.plot(x[shown], pressure[shown], color=BLUE)
+        axes.plot(x[shown], shear[shown], color=VERMILLION, linestyle=DASHED)
 
 
 def _traction_limits(solutions: Mapping[str, Solution]) -> tuple[float, float]:

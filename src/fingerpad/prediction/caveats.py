@@ -109,12 +109,12 @@ def skin_rises(scene: Scene) -> FloatArray:
     return finger.skin_height(centre + row.half_face) - finger.skin_height(nearest)
 
 
-def scene_caveats(scene: Scene) -> list[str]:
-    """No friction, actuators without a face to cover or too narrow for the mesh, edges too sharp for finite strain, and
-    a filter too fine for the mesh.
+def scene_caveats(scene: Scene, interface: Interface) -> list[str]:
+    """No friction where it is asked for, actuators without a face to cover or too narrow for the mesh, edges too sharp
+    for finite strain with friction, and a filter too fine for the mesh.
     """
     found = []
-    if scene.model.contact.friction == 0.0:
+    if interface is Interface.SHEAR and scene.model.contact.friction == 0.0:
         found.append("contact.friction is 0: the interface called shear has no friction here either")
     if scene.lacks_faces:
         found.append(
@@ -127,7 +127,7 @@ def scene_caveats(scene: Scene) -> list[str]:
     if elements < FEW:
         found.append(f"actuators are {elements:.1f} elements wide: try a smaller numerics.edge_size")
     is_sharp = scene.kinematics is Kinematics.FINITE and row.edge_radius < SHARP * size
-    if is_sharp and scene.model.contact.friction > 0.0:
+    if is_sharp and scene.model.contact.coefficient(interface) > 0.0:
         found.append(
             "edges are sharper than the mesh there can tell, so with friction scores may be far too high, or paths end:"
             f" compare predict --vary actuators.edge_radius={size:g}"
@@ -164,13 +164,13 @@ def pressing_caveats(pressing: FloatArray) -> list[str]:
     return found
 
 
-def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
+def solution_caveats(scene: Scene, solution: Solution, interface: Interface) -> list[str]:
     """Those of the scene, of the state that is read and of what presses; no pre-indentation to speak of, a peak that
     another time comes near to, many increments that were cut or did not settle at once, and figures of the certificate
     near their limits.
     """
     certificate = solution.certificate
-    found = state_caveats(scene, solution.depth, solution.reading.strain) + scene_caveats(scene)
+    found = state_caveats(scene, solution.depth, solution.reading.strain) + scene_caveats(scene, interface)
     if scene.model.contact.criterion is Criterion.TOUCH and solution.indentation <= BARELY:
         found.append(f"all actuators touch at once, so that pre-indentation ends at first touch: {PRESS_AS_ASKED}")
     found += pressing_caveats(solution.pressing)
@@ -193,16 +193,16 @@ def solution_caveats(scene: Scene, solution: Solution) -> list[str]:
     return found
 
 
-def caveats_of(scene: Scene, condition: Condition, solution: Solution) -> list[str]:
+def caveats_of(scene: Scene, condition: Condition, solution: Solution, interface: Interface) -> list[str]:
     """Those of a stimulus and of its solution, a sentence each."""
-    return stimulus_caveats(condition) + solution_caveats(scene, solution)
+    return stimulus_caveats(condition) + solution_caveats(scene, solution, interface)
 
 
 def noted_rows(
     scene: Scene, condition: Condition, interface: Interface, solution: Solution, read: FilteredReadouts
 ) -> list[dict[str, Any]]:
     """Rows of the score table for a solution and its filtered read-outs, with caveats as their note."""
-    return score_rows(scene, condition, interface, read, "; ".join(caveats_of(scene, condition, solution)))
+    return score_rows(scene, condition, interface, read, "; ".join(caveats_of(scene, condition, solution, interface)))
 
 
 def numbers_of(which: np.ndarray) -> str:

@@ -65,7 +65,7 @@ def _rows(scene: Scene, solved: Solved, coarser: Mapping[Case, Solved]) -> Itera
         yield where | nothing | {"note": note, "caveats": [note]}
         return
     errors, note = _errors(found, coarser.get(solved.case))
-    caveats = caveats_of(scene, condition, found) + ([note] if note else [])
+    caveats = caveats_of(scene, condition, found, solved.interface) + ([note] if note else [])
     for number, time in enumerate(condition.times):
         at = {"time_s": float(time), "is_read": number == 1 + found.reading.time}
         for actuator, x in enumerate(scene.device.actuators.positions):

@@ -54,7 +54,7 @@ def _caveats(
     if case not in read:
         return [row["note"]]
     unknown = [check["note"] for check in checks if check["note"] and case_of(check) == case_of(row)]
-    return caveats_of(scene, scene.device.condition(case[0]), read[case].solution) + unknown
+    return caveats_of(scene, scene.device.condition(case[0]), read[case].solution, case[1]) + unknown
 
 
 def _contact(scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution]) -> dict[str, float | None]:

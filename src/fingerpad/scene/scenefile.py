@@ -262,9 +262,11 @@ def _named_files(node: Any) -> Iterator[str]:
 
 
 def plain_values(node: Any) -> Any:
-    """A document, or a part of one, with every quantity replaced by its value."""
+    """A document, or a part of one, with every quantity replaced by its value, and without the source of a kind."""
+    if isinstance(node, dict) and "value" in node:
+        return node["value"]
     if isinstance(node, dict):
-        return node["value"] if "value" in node else {key: plain_values(child) for key, child in node.items()}
+        return {key: plain_values(child) for key, child in node.items() if key != "source" or isinstance(child, dict)}
     if isinstance(node, list):
         return [plain_values(child) for child in node]
     return node

@@ -96,11 +96,10 @@ def _section(quantity: Quantity) -> str:
 
 
 def _walked(key: str, node: Any) -> Iterator[Quantity]:
-    """Quantities below a node: a mapping with a source is one, whose value may be its kind."""
+    """Quantities below a node: a mapping with a source is one, and where its value is a kind it may hold others."""
     if isinstance(node, Mapping):
         if "source" in node:
             yield _quantity(key, node)
-            return
         for name, child in node.items():
             yield from _walked(f"{key}.{name}" if key else name, child)
     elif isinstance(node, list):

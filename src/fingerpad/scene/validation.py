@@ -134,7 +134,7 @@ def _located(path: object, schema: Schema, key: str) -> Iterator[None]:
 
 
 def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
-    """Layers that share a name, and receptors under a layer that there is not."""
+    """Layers that share a name, and receptors under a layer, or a layer that relaxes, that there is not."""
     finger, above = config["finger"], config["readout"]["layer_above"]["value"]
     names = {f"finger.{side}[{i}].name": la["name"] for side in ("pad", "dorsal") for i, la in enumerate(finger[side])}
     for key, name in names.items():
@@ -144,6 +144,11 @@ def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
     if above not in inner:
         allowed, about = f"one of {', '.join(inner)}", "the pad layer above the receptor line, so not the last one"
         yield problem(2, "readout.layer_above.value", above, allowed, meant=closest(above, inner), about=about)
+    every, relaxing = list(names.values()), config["vibration"]["layers"]["value"]
+    for number, name in enumerate(relaxing):
+        if name not in every:
+            key, allowed = f"vibration.layers.value[{number}]", f"one of {', '.join(every)}"
+            yield problem(2, key, name, allowed, meant=closest(name, every), about="a layer that relaxes")
 
 
 def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -> Iterator[Problem]:

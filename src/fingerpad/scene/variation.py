@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from enum import Enum
 from itertools import product
 from pathlib import Path
 from types import MappingProxyType
@@ -23,19 +24,19 @@ OPTION = "kinematics"  # is a column of the score table, and not read from files
 def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     """Every combination of the values of some keys, the last key's changing first; equal values count once.
 
-    Without keys there is one combination, of nothing. Raises UsageError if that is no mapping, if what stands at a key
-    is no list of values, and if the key is `kinematics`.
+    Without keys there is one combination, of nothing. Raises UsageError if that is no mapping of texts, if what stands
+    at a key is no list of values that a scene file may hold, and if the key is `kinematics`.
 
     >>> variants({"contact.friction": [0.3, 0.6, 0.6], "actuators.pitch": [2.0]})
     [{'contact.friction': 0.3, 'actuators.pitch': 2.0}, {'contact.friction': 0.6, 'actuators.pitch': 2.0}]
     """
-    if not isinstance(vary, Mapping):
-        raise UsageError(f"vary: found {vary!r}; allowed: keys with a list of values for each")
+    if not isinstance(vary, Mapping) or not all(isinstance(key, str) for key in vary):
+        raise UsageError(f"vary: found {vary!r}; allowed: keys as text, with a list of values for each")
     chosen: list[list[Any]] = []
     for key, values in vary.items():
         plain = _plain(values)
-        if not isinstance(plain, list) or not plain:
-            raise UsageError(f"vary: {key}: found {values!r}; allowed: a list of values")
+        if not isinstance(plain, list) or not plain or not _is_plain(plain):
+            raise UsageError(f"vary: {key}: found {values!r}; allowed: a list of numbers, texts, or lists of these")
         if key == OPTION:
             raise UsageError(f"vary: found {key}; allowed: other keys, as kinematics are an option of their own")
         chosen.append([value for number, value in enumerate(plain) if value not in plain[:number]])
@@ -43,9 +44,18 @@ def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
 
 
 def _plain(value: Any) -> Any:
-    """A value as a scene file may hold it: arrays and tuples as lists, numpy's numbers as Python's."""
-    plain = value.tolist() if hasattr(value, "tolist") else value
+    """A value as a scene file may hold it: arrays and tuples as lists, numpy's numbers as Python's, words as texts."""
+    plain = value.tolist() if hasattr(value, "tolist") else value.value if isinstance(value, Enum) else value
     return [_plain(each) for each in plain] if isinstance(plain, list | tuple) else plain
+
+
+def _is_plain(value: Any) -> bool:
+    """Whether a scene file may hold a value; what it may be is for its schema to say."""
+    if isinstance(value, list):
+        return all(map(_is_plain, value))
+    if isinstance(value, dict):
+        return all(isinstance(key, str) and _is_plain(each) for key, each in value.items())
+    return value is None or isinstance(value, bool | int | float | str)
 
 
 def quantities_of(node: Any, key: str = "") -> Iterator[tuple[str, Document]]:

@@ -98,7 +98,7 @@ def frequency_rows(
                 found[stimulus, frequency] = (
                     Outcome({}, None, [f"{NO_PREDICTION}: {indented}"])
                     if isinstance(indented, UnsolvedError)
-                    else _outcome(scene, condensed, creep, indented, cycle, at)
+                    else _outcome(scene, condensed, creep, indented, interface, cycle, at)
                 )
             rows += [_row(scene, cycle, frequency, interface, each, found[stimulus, frequency]) for each in Readout]
             step()
@@ -110,6 +110,7 @@ def _outcome(
     condensed: Condensed,
     creep: Creep,
     indented: Indented,
+    interface: Interface,
     cycle: Cycle,
     at: Vibrating | None,
 ) -> Outcome:
@@ -127,7 +128,7 @@ def _outcome(
             _require_no_inertia(scene, frequency, effect)
         deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
         pressing = actuator_forces(indented.problem, [indented.state, *vibration.states])[:, :, 1]
-        told = [*state_caveats(scene, deepest, read), *scene_caveats(scene), *pressing_caveats(pressing)]
+        told = [*state_caveats(scene, deepest, read), *scene_caveats(scene, interface), *pressing_caveats(pressing)]
         return Outcome(_vibration_scores(scene, condensed, vibration), effect, told)
     except ContactError as error:
         return Outcome({}, effect, [f"{NO_PREDICTION}: {error}"])
