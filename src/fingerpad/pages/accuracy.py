@@ -117,8 +117,7 @@ def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
     shown = compared[["case", "against", *CALCULIX_COLUMNS]].copy()
     for column in CALCULIX_COLUMNS:
         shown[column] = percent(shown[column].astype(float))
-    lost = dict.fromkeys(f"- `{row.case}` is left out: {row.note}" for row in known[~is_compared].itertuples())
-    told = "\n\n".join([table(shown), *(["\n".join(lost)] if lost else [])])
+    told = "\n\n".join([table(shown), *_left_out(known[~is_compared])])
     finest = shown[shown["case"] == FINEST].set_index("against")
     if not {ContactModel.OWN, ContactModel.TURNING} <= {*finest.index}:
         return {"calculix_verdict": f"CalculiX did not converge in the case `{FINEST}`.", "calculix": told}
@@ -129,6 +128,16 @@ def _of_calculix(calculix: pd.DataFrame) -> dict[str, object]:
         f" strain with a fixed normal, fingerpad differs by {_differences(finest.loc[ContactModel.OWN])}."
     )
     return {"calculix_verdict": f"{_of_rubbing(compared)}\n\n{verdict}", "calculix": told}
+
+
+def _left_out(rows: pd.DataFrame) -> list[str]:
+    """A list of what has no numbers, and why, in which cases; nothing if there are none."""
+    grouped = rows.fillna({"against": ""}).groupby(["against", "note"], sort=False)["case"].unique()
+    lines = [
+        f"- {against or 'CalculiX'}, {', '.join(f'`{case}`' for case in cases)}: {note}"
+        for (against, note), cases in grouped.items()
+    ]
+    return ["Not in the table:", "\n".join(lines)] if lines else []
 
 
 def of_orders(orders: pd.DataFrame) -> dict[str, object]:
