@@ -227,7 +227,7 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     assert open_.replace("\n", " ").count("ing (open)") == open_.count("R² = ") > 0
     other = correlation_figure(SCORES, RATINGS, correlations.assign(range_open=1), TITLES, Kinematics.SMALL)
     said = words(other).replace("\n", " ")
-    assert "behind a range: with some of its ratings" in said
+    assert "behind a range, only with some of the ratings in it" in said
     assert said.count(", open") == said.count("range ") - 1 > 0  # but for one in the caption
 
 
@@ -287,7 +287,7 @@ def test_captions_explain_what_is_there_alone(correlations: pd.DataFrame) -> Non
             correlation_figure(SCORES, RATINGS, given, TITLES, Kinematics.SMALL),
             ablation_figure(SCORES, given, TITLES, Kinematics.SMALL, False),
         ):
-            assert ("open:" in words(figure)) is is_open
+            assert ("Open:" in words(figure)) is is_open
     assert "range:" in words(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL))
     unordered = correlation_table(SCORES, RATINGS, ORDER[:0], PUBLISHED)
     assert "range:" not in words(correlation_figure(SCORES, RATINGS, unordered, TITLES, Kinematics.SMALL))

@@ -13,7 +13,7 @@ from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import Readout
 from ..vibration.speed import SLOWLY
-from ..words import INTERFACE_NAME, SCORE_SCALE, score_label
+from ..words import INTERFACE_NAME, SCORE_SCALE, counted, score_label
 from .style import (
     GREY,
     WIDE,
@@ -34,9 +34,9 @@ ROW_HEIGHT, LEGEND_HEIGHT = 48.0, 22.0  # mm
 HEADROOM = 0.1  # above the highest point, of the axis [1]
 BELOW = 2.0  # slow cycles are drawn at this part of the lowest frequency [1]
 CAPTION = (
-    "Small strain, viscoelastic. Slow: tissue is always relaxed. Change of strain at phase zero from the cycle's mean."
-    " No discretisation error is estimated. Marks on the axis: frequencies asked for; where a point is missing there is"
-    " no prediction, and a note in frequency.csv says why."
+    "{counted}. Small strain, viscoelastic. Slow: tissue is always relaxed. Change of strain at phase zero from the"
+    " cycle's mean. No discretisation error is estimated. Marks on the axis: frequencies asked for; where a point is"
+    " missing there is no prediction, and a note in frequency.csv says why."
 )
 
 
@@ -59,11 +59,13 @@ def frequency_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
         row[0].set_ylabel(score_label(Readout.CHANGE_OF_STRAIN, str(own["unit"].iloc[0]), in_two_lines=True))
         row[0].margins(y=HEADROOM)
         row[0].set_ylim(bottom=0.0)
-    for axes in grid[-1]:
-        axes.set_xlabel("Frequency (Hz)")
+    for column in grid.T:
+        shown = [axes for axes in column if axes.lines]
+        (shown or column)[-1].set_xlabel("Frequency (Hz)")
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text)
-    legend_below(figure, styles.legend, CAPTION, styles.spreads)
+    caption = CAPTION.format(counted=counted([cycle for device in devices for cycle in device.cycles]))
+    legend_below(figure, styles.legend, caption, styles.spreads)
     return figure
 
 

@@ -15,7 +15,7 @@ from ..readouts.roughness import SCORE_UNIT
 from ..scene.device import Device
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
-from ..words import KINEMATICS_NAME, SCORE_SCALE, score_label
+from ..words import KINEMATICS_NAME, SCORE_SCALE, counted, score_label
 from .style import (
     BLACK,
     MARKERS,
@@ -41,9 +41,9 @@ from .style import (
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 26.0  # mm
 TICKS = 45.0  # deg
 CAPTION = (
-    "With shear. Vertical bars: estimated discretisation errors; where none is seen it is smaller than the mark. Grey"
-    " lines: phases in the device's file. The mesh is made for all phases together, so that scores at these differ from"
-    " scores.csv within their errors. A score orders the conditions of one device."
+    "{counted}, with shear. Vertical bars: estimated discretisation errors; where none is seen it is smaller than the"
+    " mark. Grey lines: phases in the device's file. The mesh is made for all phases together, so that scores at these"
+    " differ from scores.csv within their errors. A score orders the conditions of one device."
 )
 MISSING = " Where a point is missing there is no prediction."
 
@@ -76,7 +76,9 @@ def phases_figure(devices: Sequence[Device], table: pd.DataFrame) -> Figure:
     for axes, text in zip(grid.flat, ascii_uppercase, strict=False):
         letter(axes, text)
     missing = MISSING if change["score"].isna().any() else ""
-    legend_below(figure, styles.spreads, CAPTION + unknown_errors(change) + missing)
+    tried = change[["device", "dispersion", "phase_deg"]].drop_duplicates()
+    caption = CAPTION.format(counted=counted(tried.index))
+    legend_below(figure, styles.spreads, caption + unknown_errors(change) + missing)
     return figure
 
 

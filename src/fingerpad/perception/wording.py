@@ -14,7 +14,7 @@ SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
 TAU = ("kendall_tau", "tau_lowest", "tau_highest")
 SMALLEST_P = 0.001  # below it p is given as a bound
 # behind `slope_name` and `range_text`, in captions
-OPEN_SLOPE = "open: errors of scores could reverse the slope; behind a range: with some of its ratings."
+OPEN_SLOPE = "Open: errors of scores could reverse the slope; behind a range, only with some of the ratings in it."
 
 
 def has_p(p: object, kind: object) -> bool:
