@@ -81,14 +81,7 @@ def run(options: argparse.Namespace) -> None:
     picture = picture_of(options)
     key = _drawn_key(options.devices, varied) if picture else ""
     is_text = not (options.json or options.csv)
-    devices = [
-        [
-            checked_scene(device, options, values).with_asked(options.conditions).with_kinematics(kinematics)
-            for values in varied
-        ]
-        for device in options.devices
-    ]
-    require_effect(varied, [scene for own in devices for scene in own])
+    devices = _scenes(options, kinematics, varied)
     rows: list[dict[str, Any]] = []
     predictions: list[list[dict[str, Any]]] = []
     total = sum(steps(scene, error) for own in devices for scene in own)
@@ -124,6 +117,23 @@ def run(options: argparse.Namespace) -> None:
         _draw(picture, key, unit, [values[key] for values in varied], devices[0], predictions)
         if is_text:
             print(f"drawn: {picture}")
+
+
+def _scenes(
+    options: argparse.Namespace, kinematics: Kinematics, varied: Sequence[Mapping[str, Any]]
+) -> list[list[Scene]]:
+    """The scenes of each device, one for each of the values that are varied. Raises SceneError, and UsageError where a
+    value has no effect.
+    """
+    devices = [
+        [
+            checked_scene(device, options, values).with_asked(options.conditions).with_kinematics(kinematics)
+            for values in varied
+        ]
+        for device in options.devices
+    ]
+    require_effect(varied, [scene for own in devices for scene in own])
+    return devices
 
 
 def _draw(

@@ -101,21 +101,15 @@ def _solved_as_given(
     outset = _outset(problem, start, actuator, origin, gap_scale)
     start, status, reference, guess = outset.start, outset.status, outset.reference, outset.guess
     needed, ahead = outset.needed, outset.ahead
-    expected = guess
-    if patch is not None and problem.body is not None:  # it serves where skin touches the faces as it did
-        again = np.array_equal(patch.actuator, actuator) and np.array_equal(patch.given, problem.actuator_of)
-        patch, expected = (patch, patch.place) if again else (None, guess)
+    patch = _serving(problem, actuator, patch)
+    expected = guess if patch is None or problem.body is None else patch.place
     there = touch(problem, expected)
     iterations, searched, residual, bias = 0, False, float("inf"), None
     steps: list[FloatArray] = []
     ends: list[FloatArray] = []
     while iterations < problem.most_iterations:
         if patch is None or not holds(patch, needed):
-            try:
-                patch = patch_of(problem, nodes_of(problem, needed, ahead), expected, there, actuator)
-                bias = None
-            except np.linalg.LinAlgError:
-                raise NotConvergedError(float("inf")) from None
+            patch, bias = _remade(problem, actuator, needed, ahead, expected, there), None
         nodes = patch.nodes
         bias = np.zeros(2 * nodes.size) if bias is None else bias
         increment = PatchProblem(problem, patch, origin[nodes].T, bias, gap_scale)
@@ -144,6 +138,31 @@ def _solved_as_given(
             iterations, searches = start.iterations + iterations, start.searches + int(searched)
             return replace(reached, iterations=iterations, searches=searches), patch
     raise NotConvergedError(residual)
+
+
+def _serving(problem: ContactProblem, actuator: FloatArray, patch: Patch | None) -> Patch | None:
+    """A patch from earlier on the path if it may serve: with deformable faces where skin touches them as it did."""
+    if patch is None or problem.body is None:
+        return patch
+    again = np.array_equal(patch.actuator, actuator) and np.array_equal(patch.given, problem.actuator_of)
+    return patch if again else None
+
+
+def _remade(
+    problem: ContactProblem,
+    actuator: FloatArray,
+    needed: np.ndarray,
+    ahead: np.ndarray,
+    expected: FloatArray,
+    there: FloatArray | None,
+) -> Patch:
+    """A patch with the nodes that it needs (k,), and those to look ahead to (n,). expected: places (n,) [mm] where skin
+    will touch, `there` on deformable faces. Raises NotConvergedError if it has no stiffness.
+    """
+    try:
+        return patch_of(problem, nodes_of(problem, needed, ahead), expected, there, actuator)
+    except np.linalg.LinAlgError:
+        raise NotConvergedError(float("inf")) from None
 
 
 def _outset(

@@ -67,11 +67,7 @@ def raise_until(
     while missing > enough:
         here = float(state.actuator[0, 1])
         if touch + limit - here <= LEAST_STEP:
-            raise CriterionError(
-                f"pre-indentation did not reach {wanted(law)} within {limit:g} mm from first touch:"
-                f" {missed(missing, here - touch, least, law)}",
-                touched=bool(np.isfinite(least[0])),
-            )
+            raise _out_of_reach(law, limit, missed(missing, here - touch, least, law), least[0])
         step = min(step, touch + limit - here)
         height = here + step
         passed, carried, lost = _raised(problem, state, height, carried, solve)
@@ -81,8 +77,8 @@ def raise_until(
                 raise lost
             height = float(passed[-1].actuator[0, 1])  # what is lost lies beyond the end
             step = height - here
-        if left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP):
-            # too far: again from the last state on the way that was not; beside a new one, what is beyond weighs whole
+        if _is_too_far(law, left, step):
+            # again from the last state on the way that was not; beside a new one, what is beyond weighs whole
             state = next(each for each in reversed(passed) if missing_of(problem, each, law, touch) > enough)
             missing = missing_of(problem, state, law, touch)
             beyond = _Beyond(height, left, beyond.weight / 2.0 if beyond and state is passed[0] else 1.0)
@@ -97,6 +93,17 @@ def raise_until(
             step = (beyond.height - float(state.actuator[0, 1])) * beyond.share(missing)
         step = max(step, LEAST_STEP)
     return state
+
+
+def _is_too_far(law: ContactLaw, left: float, step: float) -> bool:
+    """Whether an increment of a height [mm], after which so much is missing, is to be taken back."""
+    return left < -END_TOLERANCE and step > (LEAST_STEP if law.criterion is Criterion.FORCE else END_STEP)
+
+
+def _out_of_reach(law: ContactLaw, limit: float, told: str, least: float) -> CriterionError:
+    """The error that the criterion is not met within a limit [mm]. told: what is missing. least: so much of it was."""
+    message = f"pre-indentation did not reach {wanted(law)} within {limit:g} mm from first touch: {told}"
+    return CriterionError(message, touched=bool(np.isfinite(least)))
 
 
 def _raised(

@@ -101,16 +101,12 @@ def advance(
             cuts += 1
             state = replace(state, cuts=state.cuts + 1)
             if last:
-                kind, advice = _named(failure)
                 halved = f" halved {round(-np.log2(goal - done))} times" if step < smallest else f", {cuts} halvings"
-                missed = problem.tolerance < failure.residual < np.inf
-                residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
-                raise kind(
-                    f"contact did not converge {done / increments:.1%} of the way from {_located(start[moved])} to"
+                where = (
+                    f"{done / increments:.1%} of the way from {_located(start[moved])} to"
                     f" {_located(target[moved])} mm, increment {int(done) + 1}/{increments}{halved}"
-                    f"{residual}; {advice} or"
-                    f" {'stiffer bodies' if problem.body else 'a finer mesh at the edges (numerics.edge_size)'}"
-                ) from failure
+                )
+                raise _lost(problem, failure, where) from failure
             longest = min(longest, max(step, CROSSED * problem.spacing * increments / length))
     return state, carried
 
@@ -158,6 +154,15 @@ def drifting_to(
 def stands(begin: FloatArray, target: FloatArray) -> bool:
     """Whether the way from `begin` to `target` (n_actuators, 2) [mm] is none."""
     return bool(np.abs(target - begin).max() <= NEGLIGIBLE * max(np.abs(begin).max(), np.abs(target).max()))
+
+
+def _lost(problem: ContactProblem, failure: NotConvergedError, where: str) -> ContactError:
+    """The error that ends a path where an increment did not converge."""
+    kind, advice = _named(failure)
+    missed = problem.tolerance < failure.residual < np.inf
+    residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
+    other = "stiffer bodies" if problem.body else "a finer mesh at the edges (numerics.edge_size)"
+    return kind(f"contact did not converge {where}{residual}; {advice} or {other}")
 
 
 def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
