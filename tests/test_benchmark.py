@@ -477,10 +477,13 @@ def test_the_accuracy_page_counts_pairs_that_both_programs_order_alike() -> None
         for name, (f, c) in scores.items()
     ]
     rows += [where | {"device": "two", "condition": "e", "fingerpad": 9.0, "calculix": 0.1, "note": ""}]
-    values = of_orders(pd.DataFrame(rows))
+    stated = where | {"device": "one", "interface": "shear", "condition": "a", "stated": 0.05}
+    other = stated | {"interface": "frictionless", "stated": 9.0}
+    values = of_orders(pd.DataFrame(rows), pd.DataFrame([stated, other]))
     assert values["same_order"] == (
         "- small strain, change of strain: 2 of 3 pairs of conditions of a device are in the same order\n"
         "- small strain, one, d is left out: lost"
     )
-    assert "| small | one | a | change_of_strain | 1.0 | 1.2 | -16.67 % |" in str(values["calculix_orders"])
+    assert "| small | one | a | change_of_strain | 1.0 | 1.2 | -16.67 % | 3.3 |" in str(values["calculix_orders"])
+    assert "| small | one | b | change_of_strain | 2.0 | 3.0 | -33.33 % |  |" in str(values["calculix_orders"])
     assert "| d |" not in str(values["calculix_orders"])

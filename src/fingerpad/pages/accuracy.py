@@ -12,6 +12,7 @@ from ..calculix.contact_model import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.accuracy import CASE
 from ..readouts.roughness import KEY
+from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
 from ..words import KINEMATICS_NAME, PERCENT, READOUT_NAME
@@ -40,7 +41,7 @@ def accuracy_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
         | _of_increments(tables["increments"])
         | _of_closed_forms(tables["closed_forms"])
         | _of_calculix(tables["calculix"])
-        | of_orders(tables["calculix_orders"])
+        | of_orders(tables["calculix_orders"], tables["scores"])
         | {"stress": table(tables["stress"].convert_dtypes().astype(object).fillna(""))}
     )
 
@@ -140,8 +141,12 @@ def _left_out(rows: pd.DataFrame) -> list[str]:
     return ["Not in the table:", "\n".join(lines)] if lines else []
 
 
-def of_orders(orders: pd.DataFrame) -> dict[str, object]:
-    """Whether both programs order the conditions of a device alike, and by how much their scores differ."""
+def of_orders(orders: pd.DataFrame, scores: pd.DataFrame) -> dict[str, object]:
+    """Whether both programs order the conditions of a device alike, and by how much their scores differ, with small
+    strain also over what the score's error is stated as: with finite strain decks are not pressed as scores are.
+
+    scores: with the stated errors, relative to the score [1].
+    """
     if "fingerpad" not in orders:
         return {"same_order": str(orders["note"].iloc[0]), "calculix_orders": ""}
     solved = orders[["fingerpad", "calculix"]].notna().all(axis=1)
@@ -154,9 +159,13 @@ def of_orders(orders: pd.DataFrame) -> dict[str, object]:
         f"- {KINEMATICS_NAME[Kinematics(row.kinematics)]}, {row.device}, {row.condition} is left out: {row.note}"
         for row in lost.itertuples()
     ]
-    apart = percent(both["fingerpad"] / both["calculix"] - 1.0)
-    shown = both[["kinematics", "device", "condition", "readout", "fingerpad", "calculix"]].astype(str)
-    return {"same_order": "\n".join(verdicts), "calculix_orders": table(shown.assign(difference=apart))}
+    case = ["kinematics", "device", "condition", "readout"]
+    known = scores[(scores["interface"] == Interface.SHEAR) & (scores["kinematics"] == Kinematics.SMALL)]
+    stated = both[case].merge(known[[*case, "stated"]], on=case, how="left")["stated"].to_numpy()
+    apart = both["fingerpad"] / both["calculix"] - 1.0
+    over = (apart.abs() / stated).map("{:.1f}".format, na_action="ignore").fillna("")
+    shown = both[[*case, "fingerpad", "calculix"]].astype(str).assign(difference=percent(apart), over_stated=over)
+    return {"same_order": "\n".join(verdicts), "calculix_orders": table(shown)}
 
 
 def _alike(scores: pd.DataFrame) -> str:
