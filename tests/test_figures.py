@@ -442,7 +442,17 @@ def test_variation_sets_what_is_no_number_side_by_side() -> None:
     values = ["full", "touch", [0, 1, 1, 0]]
     figure = variation_figure("contact.criterion", "1", values, [Scene(MODEL, PHASED)] * 3, variation_tables(PHASED, 0))
     require_legible(figure)
-    assert [label.get_text() for label in figure.axes[-1].get_xticklabels()] == ["full", "touch", "[0, 1, 1, 0]"]
+    assert [label.get_text() for label in figure.axes[-1].get_xticklabels()] == ["full", "touch", "[0,1,1,0]"]
+
+
+def test_variation_tells_long_values_apart() -> None:
+    """Which are alike at both ends; numbers stand for them, and the caption says for which."""
+    values = [[0, 1, 0, 1, 0, 1, 0, 1], [0, 1, 1, 0, 0, 1, 0, 1], [0, 0, 0, 0, 1, 1, 1, 1]]
+    scenes = [Scene(MODEL, PHASED)] * 3
+    figure = variation_figure("stimulus.dispersions.a", "1", values, scenes, variation_tables(PHASED, 0))
+    require_legible(figure)
+    assert [label.get_text() for label in figure.axes[-1].get_xticklabels()] == ["1", "2", "3"]
+    assert "1: [0,1,0,1,0,1,0,1]; 2: [0,1,1,0,0,1,0,1]; 3:" in words(figure).replace("\n", " ")
 
 
 def test_accuracy_has_a_panel_a_case_and_shows_what_is_held_to_a_tolerance() -> None:

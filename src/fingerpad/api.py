@@ -18,7 +18,7 @@ from .scene.tissue_law import Kinematics
 from .scene.validation import check_device, require_effect
 from .scene.variation import NO_VALUES, variants
 
-NUMBERS = ("score", "score_error", "indentation_mm", "force_N_per_mm", "sliding_share", "time_s")
+NUMBERS = ("score", "score_error", "indentation_mm", "force_N_per_mm", "sliding_share", "time")
 RANKS = ("rank", "first_rank", "last_rank")
 
 
@@ -32,19 +32,21 @@ def predict(
     conditions: Sequence[str] = (),
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank`, `first_rank`, `last_rank`,
-    `indentation_mm`, `force_N_per_mm`, `sliding_share`, `time_s` and `caveats` (see `forecast`).
+    `indentation_mm`, `force_N_per_mm`, `sliding_share`, `time`, `time_unit` and `caveats` (see `forecast`).
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
     column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
     "finite". conditions: names of those that are predicted alone, on a mesh made for them (default: all). config: the
     config.yaml beside the device file's folder if not given, or else that of the checkout around the working folder, as
     are schemas. Numbers that are not known are NaN, and such ranks NA. Raises SceneError, and UsageError if there is no
-    such checkout or there are no such kinematics, if what is varied has no effect (`require_effect`), and if conditions
-    are a text.
+    such checkout or there are no such kinematics, if what is varied has no effect (`require_effect`), if conditions are
+    a text, and if the device is no path.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
+    if not isinstance(device, str | PathLike):
+        raise UsageError(f"device: found {device!r}; allowed: the path of one device file")
     if isinstance(conditions, str):
         raise UsageError(f"conditions: found {conditions!r}; allowed: a list of names{hint(f'[{conditions!r}]')}")
     if kinematics not in list(Kinematics):

@@ -7,9 +7,11 @@ import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
 from io import StringIO, TextIOWrapper
 
 from .errors import FingerpadError, UnsolvedError
+from .guess import hint_of_blanks
 
 FAILED = 2  # exit code [1] of anything that a user can mend; argparse has the same
 INTERRUPTED = 130  # exit code [1] after Ctrl-C, as shells have it
@@ -41,7 +43,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")  # titles have any letters, terminals not; as stderr has it
     try:
-        options = _parser(given[:1]).parse_args(given)
+        options, left = _parser(given[:1]).parse_known_args(given)
+        if left:
+            options.parser.error(f"unrecognized arguments: {' '.join(left)}{hint_of_blanks(left)}")
         options.run(options)
         sys.stdout.flush()
     except BrokenPipeError:  # whoever reads what is printed has read enough, as `head` has
@@ -64,15 +68,24 @@ def _parser(first: Sequence[str]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="fingerpad", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter
     )
+    parser.add_argument("--version", action="version", version=f"%(prog)s {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for name, summary in COMMANDS.items():
         command = commands.add_parser(name, help=summary, formatter_class=argparse.RawDescriptionHelpFormatter)
         if name in first:
             module = import_module(f".commands.{name}", __package__)
             command.description = module.DESCRIPTION
-            command.set_defaults(run=module.run)
+            command.set_defaults(run=module.run, parser=command)
             module.add(command)
     return parser
+
+
+def _version() -> str:
+    """The package's version, if it is installed and not just on the path."""
+    try:
+        return version("fingerpad")
+    except PackageNotFoundError:
+        return "(not installed)"
 
 
 if __name__ == "__main__":

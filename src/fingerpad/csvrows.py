@@ -42,10 +42,14 @@ def checked_rows(
     if missing := [name for name in columns if name not in header]:
         raise error(f"{path}, line {line}: column {listed(missing)} is missing; allowed: {listed(columns)}")
     for line, cells in lines[1:]:
+        if len(cells) == 1 and (other := re.search("[;\t|]", cells[0])):
+            raise error(f"{path}, line {line}: found values that are separated by {other[0]!r}; allowed: by ','")
         if len(cells) != len(header):
             hint = f"; {COMMA}" if len(cells) > len(header) else ""
             allowed = f"{len(header)}, for {listed(header)}{hint}"
-            raise error(f"{path}, line {line}: found {len(cells)} values; allowed: {allowed}")
+            raise error(
+                f"{path}, line {line}: found {len(cells)} value{'' if len(cells) == 1 else 's'}; allowed: {allowed}"
+            )
     return [(line, dict(zip(header, cells, strict=True))) for line, cells in lines[1:]]
 
 

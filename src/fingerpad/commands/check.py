@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
     if picture is not None:
         # what draws takes as long to load as all else
         from ..figures.section import section_figure  # noqa: PLC0415
-        from ..figures.style import save_as  # noqa: PLC0415
+        from ..figures.style import letters_without_a_glyph, save_as  # noqa: PLC0415
 
         with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
             section = mesh_section(scene, nominal_edges(scene.device.actuators))
@@ -63,6 +63,8 @@ def run(options: argparse.Namespace) -> None:
             save_as(figure, picture)
             bar.update()
         print(f"drawn: {picture}")
+        if boxes := letters_without_a_glyph(scene.device.title):
+            print(f"figures have no letters for {boxes} in the title: they show boxes")
 
 
 def described(scene: Scene) -> str:

@@ -59,4 +59,6 @@ def run(options: argparse.Namespace) -> None:
         else:
             write_vtu(output, *field_meshes(section, scene, states.last))
         bar.update()
-    print(f"written: {output}")
+    end = f" at {condition.time[-1]:g} {condition.time_unit}" if condition.time.size > 1 else ""
+    on_the_way = " with all times on the way" if output.suffix == ".pvd" else ""
+    print(f"written: {output}, the end of the stimulus{end}{on_the_way}")

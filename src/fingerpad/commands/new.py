@@ -72,6 +72,8 @@ def run(options: argparse.Namespace) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     write_text(target, text)
     shown, how = os.path.relpath(target), _elsewhere(scenes) if options.scenes else []
+    if Path.cwd().resolve() != checkout.root:
+        how = ["--snakefile", str(checkout.root / "Snakefile"), *(how or ["--directory", str(checkout.root)])]
     following = ["fingerpad", "check", shown], ["fingerpad", "predict", shown], ["snakemake", "all", *how]
     print("\n  ".join([f"{shown}: written. Edit it, then:", *map(shlex.join, following)]))
 

@@ -14,7 +14,7 @@ from ..checkout import find_checkout, model_for, schemas_for
 from ..csvrows import listed
 from ..errors import UsageError
 from ..files import require_folder
-from ..guess import closest, hint
+from ..guess import closest, hint, hint_of_blanks
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
@@ -203,4 +203,5 @@ def existing_file(device: Path) -> Path:
     known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
     stem = "" if device.is_dir() else closest(device.stem, known)
     meant = hint(os.path.relpath(known[stem]) if stem else "")
+    meant = meant or hint_of_blanks([str(device)])
     raise UsageError(f"{device}: found {found}; allowed: a device file, such as those in config/devices{meant}")

@@ -43,8 +43,8 @@ def as_csv(rows: Iterable[Mapping[str, Any]], header: bool = True) -> str:
 
 
 def read_times(rows: Iterable[Mapping[str, Any]]) -> str:
-    """When conditions are read, each once, from rows with `time_s`, `condition` and `interface`."""
-    told = (f"{row['time_s']:.9g} ({row['condition']}, {row['interface']})" for row in rows)
+    """When conditions are read, each once, from rows with `time`, `time_unit`, `condition` and `interface`."""
+    told = (f"{row['time']:.9g} {row['time_unit']} ({row['condition']}, {row['interface']})" for row in rows)
     return ", ".join(dict.fromkeys(told))
 
 

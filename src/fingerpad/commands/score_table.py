@@ -62,7 +62,7 @@ def _contact(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     told = {
         "pre-indentation": ", ".join(preloads),
         "sliding, share of the pressing force (shear)": sliding,
-        "read at time, where strain has changed most": read_times(row for row in rows if row["time_s"] is not None),
+        "read at time, where strain has changed most": read_times(row for row in rows if row["time"] is not None),
     }
     return [f"{what}: {text}" for what, text in told.items() if text]
 

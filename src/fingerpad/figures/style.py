@@ -5,6 +5,7 @@ Nothing rests on colour alone: phases differ in colour, lightness and marker, di
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
@@ -17,6 +18,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import findfont, get_font
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -157,12 +159,19 @@ def save(figure: Figure, png: Path) -> None:
 def save_as(figure: Figure, path: Path) -> None:
     """Write one file, in the format that its ending names, without dates and versions: same figure, same bytes."""
     suffix = path.suffix.removeprefix(".")
-    with mpl.rc_context(RC), replacing(path) as part:
+    with mpl.rc_context(RC), replacing(path) as part, warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")  # `check` tells of them
         figure.align_ylabels([axes for axes in figure.axes if axes.get_ylabel()])  # a panel without has no say
         if engine := figure.get_layout_engine():
             engine.execute(figure)
         figure.set_layout_engine(None)
         figure.savefig(part, format=suffix, **WRITTEN[suffix])
+
+
+def letters_without_a_glyph(text: str) -> str:
+    """Letters of a text that figures cannot show, each once."""
+    font = get_font(findfont(RC["font.family"][0]))
+    return "".join(dict.fromkeys(each for each in text if not font.get_char_index(ord(each))))
 
 
 def as_png(figure: Figure, resolution: float) -> bytes:
@@ -178,6 +187,11 @@ def conditions_of(devices: Iterable[Device]) -> list[Shown]:
     return [Shown(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
 
 
+def are_named(conditions: Iterable[Shown]) -> bool:
+    """Whether some are not called by their dispersion and phase, as histories and recordings are not."""
+    return any(one.condition != condition_name(one.dispersion, one.phase_deg) for one in conditions)
+
+
 def condition_styles(conditions: Iterable[Shown], drawn: Collection[Shown] | None = None) -> Styles:
     """Styles of conditions, each of which may come more than once. drawn: those that are; all if not given.
 
@@ -186,7 +200,7 @@ def condition_styles(conditions: Iterable[Shown], drawn: Collection[Shown] | Non
     by its name.
     """
     shown = list(dict.fromkeys(conditions))
-    by_name = {one.device for one in shown if one.condition != condition_name(one.dispersion, one.phase_deg)}
+    by_name = {one.device for one in shown if are_named([one])}
     spreads = Counter(device for device, _ in {(one.device, one.dispersion) for one in shown})
     phases = sorted({one.phase_deg for one in shown if one.device not in by_name})
     dispersions = list(

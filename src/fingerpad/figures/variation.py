@@ -13,7 +13,7 @@ from ..readouts.roughness import SCORE_UNIT, rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
-from ..words import INTERFACE_NAME, KINEMATICS_NAME, SCORE_SCALE, plain, score_label, shortened
+from ..words import INTERFACE_NAME, KINEMATICS_NAME, LONGEST_LABEL, SCORE_SCALE, plain, score_label, shortened
 from .style import (
     WIDE,
     Series,
@@ -39,6 +39,8 @@ CAPTION = (
 
 Rows = Sequence[Mapping[str, Any]]
 
+LONGEST_TOLD = 60  # characters of a value in the caption
+
 
 @styled
 def variation_figure(
@@ -63,18 +65,32 @@ def variation_figure(
             own = [rows_of(rows, interface, readout) for rows in tables]
             _curves(axes, readout, places, own, styles.series)
         row[0].set_ylabel(score_label(readout, SCORE_UNIT))
+    labels, told = _labels(values)
     for axes in grid[-1]:
         axes.set_xlabel(plain(key) if unit == "1" else f"{plain(key)} ({unit})")
         if not are_numbers:
-            axes.set_xticks(places, [shortened(plain(str(value))) for value in values])
+            axes.set_xticks(places, labels)
     title = as_title(figure, f"{first.device.title}, {KINEMATICS_NAME[first.kinematics]}", len(interfaces))
     for axes, interface in zip(grid[0], interfaces, strict=True):
         subtitle(axes, title if interface is Interface.SHEAR else " ", INTERFACE_NAME[interface])
     for axes, text in zip(grid.flat, "ABCD", strict=False):
         letter(axes, text)
     has_errors = any(row["score_error"] is not None for rows in tables for row in rows)
-    legend_below(figure, styles.legend, f"{BARS if has_errors else ''}{CAPTION}", styles.spreads)
+    caption = f"{BARS if has_errors else ''}{CAPTION}{'' if are_numbers else told}"
+    legend_below(figure, styles.legend, caption, styles.spreads)
     return figure
+
+
+def _labels(values: Sequence[Any]) -> tuple[list[str], str]:
+    """What stands at an axis for values that are no numbers: if they are too long for that, numbers, and a caption says
+    of which value each is.
+    """
+    written = [plain(str(value)).replace(", ", ",") for value in values]
+    if max(map(len, written)) <= LONGEST_LABEL:
+        return written, ""
+    numbers = [str(1 + number) for number in range(len(values))]
+    told = (f"{number}: {shortened(text, LONGEST_TOLD)}" for number, text in zip(numbers, written, strict=True))
+    return numbers, f" {'; '.join(told)}."
 
 
 def _curves(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,8 @@ from ..contact.solution import Solution
 from ..readouts.gabor import FilteredReadouts
 from ..readouts.roughness import score_rows
 from ..scene.contact_law import Criterion, Interface
-from ..scene.device import Condition
+from ..scene.device import ActuatorRow, Condition
+from ..scene.finger import Finger
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
@@ -29,6 +31,8 @@ RIVAL = 0.98
 DEEP = 0.5
 # Principal strain at receptors [1]; source: ln(1 + e) is then a tenth less than e. Shipped devices have up to 0.13
 STRAINED = 0.22
+# The same [1], from which on nobody has compared small with finite strain; source: shipped devices have up to 0.36
+DEEPER = 0.37
 BARELY = 1e-3  # indentation [mm]; source: `touch` goes 2e-4 mm past first touch (contact.criterion.NEARLY)
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
 FEW = 5.0
@@ -38,9 +42,14 @@ SHARP = 1.0
 COARSE = 2.0  # elements [1] of the receptor line in a wavelength; source: with 1.1, scores are noise (measured)
 PRESS_AS_ASKED = "contact.criterion depth or force, in the device file or with predict --vary, presses them as asked"
 TOO_WIDE = (
-    "The row is wide for this finger: covering all faces takes an indentation of half the pad, or more; that takes"
-    " minutes to solve and may have no solution. A narrower row needs less,"
-    " and so may contact.criterion: touch, depth or force."
+    "The row is wide for this finger: covering all faces may take an indentation of half the pad, which may take"
+    " minutes to solve and may have no solution. A narrower row needs less, and so may contact.criterion: touch, depth"
+    " or force."
+)
+TOO_FAR_OUT = (
+    "The row lies to one side of the finger: covering its outer face may take an indentation of half the pad, which may"
+    " take minutes to solve and may have no solution. Nearer to the middle (actuators.offset) it needs less, and so may"
+    " contact.criterion: touch, depth or force."
 )
 # Height of the skin over the outermost faces above that touched first, over the pad's thickness [1]; source: six pins
 # of 1.2 mm with 0.28 (pitch 1.8 mm) are pressed 0.43 of the pad deep; with 0.32 (1.9 mm) they have no solution without
@@ -51,9 +60,10 @@ TOO_SHALLOW = (
     "contact.depth is less than the height of the skin over some actuators, which may bear nothing;"
     " counted from the left: {clear}"
 )
+NO_SUCH_DEPTH = "contact.depth is more than the pad is thick: is it in mm, and from first touch?"
 TOO_FAR = "A normal stroke goes deeper than the pad is thick: are displacements in mm?"
 BESIDE = "A lateral stroke takes an actuator beside the finger: are displacements in mm?"
-AWAY = 0.05  # of the stroke [1] at time 0; source: assumption: more than a sensor's noise
+AWAY = 0.1  # of the stroke [1] at time 0; source: assumption: more than a sensor's noise
 JUMP = 2.0  # of the largest step between later times [1]; source: assumption: more than motion that goes on as it began
 SHORTEST = 1e-4  # mm; source: assumption: a two-hundredth of the shipped pins' stroke
 
@@ -73,7 +83,7 @@ def stimulus_caveats(condition: Condition) -> list[str]:
     is_jump = 0.0 < JUMP * step < start and not condition.settling  # cycles begin anywhere
     if condition.time.size > 1 and start > AWAY * stroke and (condition.time[0] == 0.0 or is_jump):
         found.append(
-            f"actuators begin {start:.2g} mm away from where they were pressed to: is that what sensors read there?"
+            f"actuators begin {start:.2g} mm away from where they were pressed to, from where displacements count"
         )
     if phase != round(phase) and abs(phase) < 2.0 * math.pi:
         found.append(f"the phase is {phase:g} degrees: are phases in degrees?")
@@ -91,11 +101,19 @@ def device_caveats(scene: Scene) -> list[str]:
     indentations = {Criterion.FULL: rise, Criterion.DEPTH: law.depth}  # at least; elsewhere solving alone tells
     aside = max(float(np.abs(row.positions + each.tangential).max()) for each in scene.device.conditions)
     clear = numbers_of(rises > law.depth)
+    is_far_up = law.criterion is Criterion.FULL and rise > WIDE * pad
+    # in the middle of the finger the same row would not be wide
+    centred = replace(row, positions=tuple(np.asarray(row.positions) - np.mean(row.positions)))
+    is_wide = float(_rises(scene.model.finger, centred).max()) > WIDE * pad
+    is_deep = law.criterion is Criterion.DEPTH and law.depth > DEEP * pad
+    is_beyond = law.criterion is Criterion.DEPTH and law.depth > pad
     found = {
-        TOO_WIDE: law.criterion is Criterion.FULL and rise > WIDE * pad,
-        TOO_DEEP: law.criterion is Criterion.DEPTH and law.depth > DEEP * pad,
+        TOO_WIDE: is_far_up and is_wide,
+        TOO_FAR_OUT: is_far_up and not is_wide,
+        NO_SUCH_DEPTH: is_beyond,
+        TOO_DEEP: is_deep and not is_beyond,
         TOO_SHALLOW.format(clear=clear): law.criterion is Criterion.DEPTH and bool(clear),
-        TOO_FAR: indentations.get(law.criterion, 0.0) + normal > pad,
+        TOO_FAR: not is_beyond and indentations.get(law.criterion, 0.0) + normal > pad,
         BESIDE: aside + row.width / 2.0 > scene.model.finger.width / 2.0,
     }
     return [caveat for caveat, holds in found.items() if holds]
@@ -103,7 +121,11 @@ def device_caveats(scene: Scene) -> list[str]:
 
 def skin_rises(scene: Scene) -> FloatArray:
     """How far (n_actuators,) [mm] undeformed skin over the outer end of each face lies above the lowest over any."""
-    finger, row = scene.model.finger, scene.device.actuators
+    return _rises(scene.model.finger, scene.device.actuators)
+
+
+def _rises(finger: Finger, row: ActuatorRow) -> FloatArray:
+    """The same of a finger and a row."""
     centre = np.abs(row.positions)
     nearest = np.array([max(centre.min() - row.half_face, 0.0)])
     return finger.skin_height(centre + row.half_face) - finger.skin_height(nearest)
@@ -142,8 +164,9 @@ def state_caveats(scene: Scene, depth: float, strain: FloatArray) -> list[str]:
     """Actuators too deep [mm], and receptors with principal strains (m,) [1] too large, for small strain."""
     found = []
     share, strained = depth / scene.model.finger.pad_thickness, float(strain.max())
-    if scene.kinematics is Kinematics.SMALL and share > DEEP:
-        found.append(f"actuators indent {share:.0%} of the pad: small strain is invalid")
+    if scene.kinematics is Kinematics.SMALL and share > DEEPER:
+        doubt = "small strain is invalid" if share > DEEP else "compare predict --kinematics finite"
+        found.append(f"actuators indent {share:.0%} of the pad: {doubt}")
     if scene.kinematics is Kinematics.SMALL and strained > STRAINED:
         found.append(
             f"receptors are strained by up to {strained:.0%}, too much for small strain: compare predict --kinematics"
@@ -160,7 +183,9 @@ def pressing_caveats(pressing: FloatArray) -> list[str]:
     if idle := numbers_of(pressing[0] <= 0.0):
         found.append(f"actuators without force after pre-indentation, counted from the left: {idle}")
     if left := numbers_of((pressing[0] > 0.0) & (pressing[1:] <= 0.0).any(axis=0)):
-        found.append(f"actuators that leave the skin, counted from the left: {left} (positive normal points into it)")
+        found.append(
+            f"actuators that leave the skin, counted from the left: {left} (of a normal drive positive points into it)"
+        )
     return found
 
 

@@ -23,9 +23,9 @@ NORMAL, TANGENTIAL, ERROR = "normal_N_per_mm", "tangential_N_per_mm", "error_N_p
 
 def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Forces with which every actuator acts on the skin, at every time of every condition that the device is predicted
-    in: `kinematics, device, condition, interface, time_s, is_read, actuator` (from 1, at the left), `x_mm` (of the row
-    before it moves); per mm of finger `normal_N_per_mm` (into the skin), `tangential_N_per_mm` (to the right) and
-    `error_N_per_mm`, the estimated discretisation error of either; `note`; `caveats`, a list of sentences.
+    in: `kinematics, device, condition, interface, time, time_unit, is_read, actuator` (from 1, at the left), `x_mm` (of
+    the row before it moves); per mm of finger `normal_N_per_mm` (into the skin), `tangential_N_per_mm` (to the right)
+    and `error_N_per_mm`, the estimated discretisation error of either; `note`; `caveats`, a list of sentences.
 
     The first time of a condition is that of pre-indentation; `is_read` marks the one at which it is scored. What cannot
     be solved has one row, without a time, and a note that says why. error: whether to solve once more, more coarsely;
@@ -60,14 +60,14 @@ def _rows(scene: Scene, solved: Solved, coarser: Mapping[Case, Solved]) -> Itera
         "interface": str(solved.interface),
     }
     if isinstance(found, UnsolvedError):
-        nothing = dict.fromkeys(("time_s", "is_read", "actuator", "x_mm", NORMAL, TANGENTIAL, ERROR))
+        nothing = dict.fromkeys(("time", "time_unit", "is_read", "actuator", "x_mm", NORMAL, TANGENTIAL, ERROR))
         note = f"{NO_PREDICTION}: {found}"
         yield where | nothing | {"note": note, "caveats": [note]}
         return
     errors, note = _errors(found, coarser.get(solved.case))
     caveats = caveats_of(scene, condition, found, solved.interface) + ([note] if note else [])
     for number, time in enumerate(condition.times):
-        at = {"time_s": float(time), "is_read": number == 1 + found.reading.time}
+        at = {"time": float(time), "time_unit": condition.time_unit, "is_read": number == 1 + found.reading.time}
         for actuator, x in enumerate(scene.device.actuators.positions):
             tangential, normal = found.actuator_force[number, actuator].tolist()
             own = {"actuator": 1 + actuator, "x_mm": x, NORMAL: normal, TANGENTIAL: tangential}

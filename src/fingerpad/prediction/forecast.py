@@ -24,8 +24,8 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank`, `first_rank` and `last_rank` (`ranks`), `indentation_mm`
-    and `force_N_per_mm` of pre-indentation, `sliding_share` (`Solution.sliding_share`), `time_s` at which a condition
-    of several times is read, and `caveats` (a list of sentences) behind.
+    and `force_N_per_mm` of pre-indentation, `sliding_share` (`Solution.sliding_share`), `time` at which a condition
+    of several times is read, its `time_unit`, and `caveats` (a list of sentences) behind.
 
     What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
     coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
@@ -57,18 +57,19 @@ def _caveats(
     return caveats_of(scene, scene.device.condition(case[0]), read[case].solution, case[1]) + unknown
 
 
-def _contact(scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution]) -> dict[str, float | None]:
+def _contact(scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution]) -> dict[str, float | str | None]:
     """Columns that say how a device was pressed, and how much slid, if it was, and when it was read."""
     case = row["condition"], Interface(row["interface"])
     if case not in read:
-        return dict.fromkeys(("indentation_mm", "force_N_per_mm", "sliding_share", "time_s"))
-    solution, time = read[case].solution, scene.device.condition(case[0]).time
+        return dict.fromkeys(("indentation_mm", "force_N_per_mm", "sliding_share", "time", "time_unit"))
+    solution, condition = read[case].solution, scene.device.condition(case[0])
     sliding = solution.sliding_share
     return {
         "indentation_mm": solution.indentation,
         "force_N_per_mm": float(solution.pressing[0].sum()),
         "sliding_share": None if math.isnan(sliding) else sliding,
-        "time_s": float(time[solution.reading.time]) if time.size > 1 else None,
+        "time": float(condition.time[solution.reading.time]) if condition.time.size > 1 else None,
+        "time_unit": condition.time_unit or None,
     }
 
 

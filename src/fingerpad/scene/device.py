@@ -184,6 +184,11 @@ class Condition:
         return np.array([0.0 if first > 0.0 else first - (second - first), *self.time])
 
     @property
+    def time_unit(self) -> str:
+        """Of its times: s, or periods of a cycle; nothing where one time has no length."""
+        return "" if self.time.size == 1 else "periods" if self.settling else "s"
+
+    @property
     def moves(self) -> FloatArray:
         """Displacements (n_times, n_actuators, 2) [mm], tangential and normal."""
         return np.stack([self.tangential, self.normal], axis=2)

@@ -67,6 +67,7 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
         own, of_model = shared_out(values, {each: read_yaml(each) for each in (path, config_path)}).values()
     model = check_config(config_path, schema_dir, of_model)
     require_name(path)
+    require_device_document(path)
     document, schema = checked_document(path, schema_dir / "device.schema.yaml", own)
     where = _named(path, own)
     with _located(where, schema, "stimulus"):
@@ -76,6 +77,13 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     if not values:  # what is varied may end pre-indentation otherwise
         report(where, _idle_preloads(document, schema, scene.model.contact.criterion))
     return scene
+
+
+def require_device_document(path: Path) -> None:
+    """Raise SceneError for a model in place of a device, as config.yaml is one, and what `read_yaml` raises."""
+    document = read_yaml(path)
+    if "finger" in document and "actuators" not in document:
+        raise SceneError(f"{path}: found a model (finger, contact, ...); allowed: a device, as in config/devices")
 
 
 def _idle_preloads(document: dict[str, Any], schema: Schema, criterion: Criterion) -> Iterator[Problem]:
