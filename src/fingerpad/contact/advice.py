@@ -14,7 +14,10 @@ from ..scene.tissue_law import Kinematics
 WHERE = "(in the device file, or in config/config.yaml for every device)"
 NARROWER = f"; contact.criterion: depth or force {WHERE} may need less indentation, as a narrower row does"
 TOUCH = f"; contact.criterion: touch, depth or force {WHERE} may need less indentation, as a narrower row does"
-LESS = {Criterion.DEPTH: "; try less contact.depth", Criterion.FORCE: "; try less contact.force"}
+LESS = {
+    Criterion.DEPTH: "; try less contact.depth",
+    Criterion.FORCE: "; try less contact.force, which is per mm of finger (1 N on 10 mm are 0.1 N/mm)",
+}
 SMALL_ALONE = "; `kinematics: {value: small, ...}` in the device file skips finite strain (docs/troubleshooting.md)"
 SHEAR_ALONE = "; `interfaces: {value: shear, ...}` in the device file skips the frictionless case"
 
