@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 SIMILAR = 0.7  # likeness of words [1] above which one is taken for the other (difflib's); source: chosen
-NUMBER = re.compile(r"[-+]?[.\d][\d.,e+-]*")
+NUMBER = re.compile(r"[-+]?[.\d][\d.,e+-]*")  # or several with commas
 SHORT = 3  # letters of a word [1] that says too little for another that contains it to be meant; source: chosen
 
 

@@ -34,9 +34,11 @@ class Rubbing(StrEnum):
 
 @dataclass(frozen=True)
 class Case:
-    """kinematics, law: of the tissue; with small strain every law is the linear one, and none is named. indentation:
+    """One comparison.
+
+    kinematics, law: of the tissue; with small strain every law is the linear one, and none is named. indentation:
     height of the faces [mm], or as deep as fingerpad indents. coarsening, fingerpad_coarsening: times the sizes of
-    `crosscheck.on_deck` [1]. The rest: as `DeckSettings`.
+    `crosscheck.on_deck` [1]. pressure_slope, stick_slope [MPa/mm], increments [1]: as of `DeckSettings`.
     """
 
     kinematics: Kinematics

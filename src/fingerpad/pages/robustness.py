@@ -97,6 +97,7 @@ def _halves(scores: pd.DataFrame) -> pd.DataFrame:
     """
     is_shown = (scores["varied"] == AS_CONFIGURED) & (scores["interface"] == Interface.SHEAR) & (scores["score"] > 0.0)
     wide = scores[is_shown].pivot_table("score", [*KEY, "condition"], "half_cycle", sort=False)
+    wide = wide.reindex(columns=list(HALF_CYCLES))
     ratios = (wide[SECOND] / wide[FIRST]).dropna()
     rows = []
     for key, own in ratios.groupby(KEY, sort=False):
