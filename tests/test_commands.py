@@ -652,14 +652,14 @@ def test_a_filter_finer_than_the_receptors_elements_is_doubted() -> None:
 def test_caveats_are_notes_of_scores() -> None:
     """So the workflow's table has them, too."""
     given = scene("device2")
-    solution = replace(solved("device2", "alternate_090", Interface.SHEAR), cuts=3, searches=11)
+    solution = replace(solved("device2", "alternate_090", Interface.SHEAR), cuts=4, searches=11)
     section, body = condensed("device2")
     reading = Condensed(section, body, resampling_to_grid(section.arc, given.model.gabor.spacing))
     condition = given.device.condition("alternate_090")
     read = read_out(given, reading, solution)
     strain, change = noted_rows(given, condition, Interface.SHEAR, solution, read)
     assert strain["note"] == change["note"]
-    assert strain["note"] == "increments were halved 3 times; 11 increments did not settle at once"
+    assert strain["note"] == "increments were halved 4 times; 11 increments did not settle at once"
 
 
 def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixture[str]) -> None:

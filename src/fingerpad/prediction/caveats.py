@@ -20,7 +20,7 @@ from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 
 MANY_SEARCHES = 10  # increments that did not settle at once [1]; source: assumption: some; shipped devices have none
-MANY_CUTS = 2  # halved increments [1]; source: shipped devices have up to 2, with finite kinematics
+MANY_CUTS = 3  # halved increments [1]; source: shipped devices have up to 3, with finite kinematics and no friction
 NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0.11
 # Another time's change over that which is read [1]; source: between the shipped sizes and halves of them the ratio of
 # two opposite strokes moves by up to 0.007 (eight patterns of four pins, with friction and without)
