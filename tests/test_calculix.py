@@ -17,7 +17,7 @@ from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.both_sides import BothSides
-from fingerpad.calculix.case import Case, Rubbing, case_of
+from fingerpad.calculix.case import Case, case_of
 from fingerpad.calculix.contact_model import ContactModel
 from fingerpad.calculix.crosscheck import (
     Outcome,
@@ -38,6 +38,7 @@ from fingerpad.errors import CalculixError, ContactError
 from fingerpad.finite.deformation import elements_of, internal_force
 from fingerpad.finite.hyperelasticity import tissue_of
 from fingerpad.prediction.edges import mesh_device
+from fingerpad.scene.contact_law import FrictionFrom
 from fingerpad.scene.device import Condition
 from fingerpad.scene.finger import Material
 from fingerpad.scene.readout import Readout
@@ -105,7 +106,7 @@ def test_a_case_takes_no_word_or_setting_that_it_does_not_know() -> None:
     known = {"kinematics": "small", "indentation": "full", "indentation_increments": 8}
     known |= {"coarsening": 4.0, "fingerpad_coarsening": 4.0}
     assert case_of(known | {"edges": "sharp", "law": "green"}).law is Law.GREEN
-    for wrong in ({"edges": "shrp"}, {"friction": "touch"}, {"kinematics": "large"}, {"law": "linear"}):
+    for wrong in ({"edges": "shrp"}, {"friction_from": "always"}, {"kinematics": "large"}, {"law": "linear"}):
         with pytest.raises(ValueError, match="is not a valid"):
             case_of(known | wrong)
     with pytest.raises(TypeError, match="coarsness"):
@@ -386,12 +387,10 @@ def test_differences_are_those_of_their_own_time(time: int, when: str, changed: 
         assert found[forces[key]] == pytest.approx(expected if changed == "force" else 0.0)
 
 
-@pytest.mark.parametrize(
-    ("friction", "indenting", "acting"), [("never", 0.0, 0.0), ("stimulus", 0.0, 0.6), ("always", 0.6, 0.6)]
-)
-def test_friction_acts_from_when_on_a_case_says(friction: str, indenting: float, acting: float) -> None:
+@pytest.mark.parametrize(("friction_from", "indenting"), [(FrictionFrom.STIMULUS, 0.0), (FrictionFrom.TOUCH, 0.6)])
+def test_friction_acts_from_when_on_a_case_says(friction_from: FrictionFrom, indenting: float) -> None:
     base = scene("device2")
     base = base.with_model(contact=replace(base.model.contact, friction=0.6))
-    case = Case(Kinematics.SMALL, 1.0, 8, 1.0, 1.0, friction=Rubbing(friction))
+    case = Case(Kinematics.SMALL, 1.0, 8, 1.0, 1.0, friction_from=friction_from)
     _, settings = prepared(base, case)
-    assert (settings.friction_indenting, settings.friction_acting) == (indenting, acting)
+    assert (settings.friction_indenting, settings.friction_acting) == (indenting, 0.6)

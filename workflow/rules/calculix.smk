@@ -17,7 +17,7 @@ CALCULIX_CASE = {
 CALCULIX_FINER = {"coarsening": 2.0, "fingerpad_coarsening": 2.0}
 # rubbing, fingerpad's own change of strain moves by a tenth from meshes of these sizes to half of them
 CALCULIX_RUBBING = {
-    "friction": "always",
+    "friction_from": "touch",
     "indentation_increments": 20,
     "stimulus_increments": 8,
     "fingerpad_coarsening": 1.0,

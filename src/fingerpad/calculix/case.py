@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, Literal
 
+from ..scene.contact_law import FrictionFrom
 from ..scene.tissue_law import Kinematics, Law
 
 # MPa/mm of pressure over penetration, of shear over elastic slip; source: CalculiX did not settle on ones four times as
@@ -22,14 +23,6 @@ class Edges(StrEnum):
 
     ROUNDED = "rounded"
     SHARP = "sharp"
-
-
-class Rubbing(StrEnum):
-    """When friction acts: never, in the stimulus alone, or from first touch on."""
-
-    NEVER = "never"
-    STIMULUS = "stimulus"
-    ALWAYS = "always"
 
 
 @dataclass(frozen=True)
@@ -48,7 +41,7 @@ class Case:
     fingerpad_coarsening: float
     law: Law | None = None
     edges: Edges = Edges.ROUNDED
-    friction: Rubbing = Rubbing.STIMULUS
+    friction_from: FrictionFrom = FrictionFrom.STIMULUS
     pressure_slope: float = PRESSURE_SLOPE
     stick_slope: float = STICK_SLOPE
     stimulus_increments: int = STIMULUS_INCREMENTS
@@ -63,5 +56,10 @@ def case_of(settings: Mapping[str, Any]) -> Case:
     >>> case_of(words | {"coarsening": 2.0, "fingerpad_coarsening": 2.0}).edges
     <Edges.SHARP: 'sharp'>
     """
-    read: dict[str, Callable[[Any], Any]] = {"kinematics": Kinematics, "law": Law, "edges": Edges, "friction": Rubbing}
+    read: dict[str, Callable[[Any], Any]] = {
+        "kinematics": Kinematics,
+        "law": Law,
+        "edges": Edges,
+        "friction_from": FrictionFrom,
+    }
     return Case(**{key: read[key](value) if key in read else value for key, value in settings.items()})

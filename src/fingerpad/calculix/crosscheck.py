@@ -35,7 +35,7 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.elasticity import mesh_dofs, strain_of_gradient
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import arc_length, receptor_gradient
-from .case import Case, Edges, Rubbing
+from .case import Case, Edges
 from .contact_model import ContactModel
 from .deck import DeckSettings, input_deck
 from .depth import indented_height
@@ -92,8 +92,7 @@ def prepared(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:
     scene = scene.with_kinematics(case.kinematics)
     law = replace(scene.model.contact, friction_from=FrictionFrom.TOUCH)  # here the case says from when on
     scene, friction = scene.with_model(contact=law), law.friction
-    acting = 0.0 if case.friction is Rubbing.NEVER else friction
-    indenting = friction if case.friction is Rubbing.ALWAYS else 0.0
+    indenting = friction if case.friction_from is FrictionFrom.TOUCH else 0.0
     if case.law is not None:
         scene = scene.with_model(tissue=replace(scene.model.tissue, law=case.law))
     depth = case.indentation
@@ -102,7 +101,7 @@ def prepared(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:
     return scene, DeckSettings(
         indentation=depth,
         friction_indenting=indenting,
-        friction_acting=acting,
+        friction_acting=friction,
         pressure_slope=case.pressure_slope,
         stick_slope=case.stick_slope,
         indentation_increments=case.indentation_increments,

@@ -43,7 +43,7 @@ def crosscheck_rows(
 
 def _shared(case: Case) -> tuple[object, ...]:
     """What two cases must share for CalculiX to be compared with itself."""
-    return case.kinematics, case.law, case.edges, case.friction
+    return case.kinematics, case.law, case.edges, case.friction_from
 
 
 def _compared(

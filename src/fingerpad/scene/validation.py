@@ -67,8 +67,11 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
         own, of_model = shared_out(values, {each: read_yaml(each) for each in (path, config_path)}).values()
     model = check_config(config_path, schema_dir, of_model)
     require_name(path)
-    require_device_document(path)
-    document, schema = checked_document(path, schema_dir / "device.schema.yaml", own)
+    try:
+        document, schema = checked_document(path, schema_dir / "device.schema.yaml", own)
+    except SceneError:
+        _require_no_model(path)
+        raise
     where = _named(path, own)
     with _located(where, schema, "stimulus"):
         device = build_device(path, document)
@@ -79,7 +82,7 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     return scene
 
 
-def require_device_document(path: Path) -> None:
+def _require_no_model(path: Path) -> None:
     """Raise SceneError for a model in place of a device, as config.yaml is one, and what `read_yaml` raises."""
     document = read_yaml(path)
     if "finger" in document and "actuators" not in document:
