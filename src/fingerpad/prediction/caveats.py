@@ -27,11 +27,11 @@ NEAR = 0.2  # of a certificate's limit [1]; source: shipped devices stay below 0
 RIVAL = 0.98
 
 # Depth of an actuator over the pad's thickness [1]; source: mean strain is then 0.5, the logarithmic one 0.69: small
-# strain is off by over a quarter. Shipped devices have up to 0.36
+# strain is off by over a quarter
 DEEP = 0.5
 # Principal strain at receptors [1]; source: ln(1 + e) is then a tenth less than e. Shipped devices have up to 0.13
 STRAINED = 0.22
-# The same [1], from which on nobody has compared small with finite strain; source: shipped devices have up to 0.36
+# The same [1], from which on nobody has compared small with finite strain; source: shipped devices have 0.35 and 0.37
 DEEPER = 0.37
 BARELY = 1e-3  # indentation [mm]; source: `touch` goes 2e-4 mm past first touch (contact.criterion.NEARLY)
 # Elements at edges that an actuator is wide [1]; source: with 7, a sharp pin of 0.1 mm goes as deep as with 28, to 1 %
