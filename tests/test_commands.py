@@ -16,6 +16,7 @@ import subprocess
 import sys
 import time
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
 from decimal import Decimal
 from multiprocessing import active_children, get_context
@@ -1679,6 +1680,15 @@ def test_what_solves_side_by_side_ends_with_what_asked_for_it() -> None:
         assert another.apply(len, ("abc",)) == 3
 
 
+@pytest.fixture
+def heeded() -> Iterator[None]:
+    """Children heed an interruption, also of tests that a shell has put into the background, where it is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("heeded")
 @pytest.mark.parametrize("later", [0.3, 1.0, 3.0])
 def test_interrupted_side_by_side_says_one_line(checkout: Path, later: float) -> None:
     """Processes that have just begun say nothing, nor do those that load or solve."""
