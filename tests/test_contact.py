@@ -10,7 +10,7 @@ import pytest
 
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
-from fingerpad.contact.active_set import NotConvergedError, PatchProblem
+from fingerpad.contact.active_set import PatchProblem
 from fingerpad.contact.criterion import front
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import (
@@ -24,6 +24,7 @@ from fingerpad.contact.formulation import (
 )
 from fingerpad.contact.increment import solve_increment
 from fingerpad.contact.indentation import SHALLOW, raise_until
+from fingerpad.contact.not_converged import NotConvergedError
 from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import Patch, patch_of
 from fingerpad.contact.path import LAST_ITERATIONS, advance, follow

@@ -25,7 +25,7 @@ from fingerpad.finite.deformed_solution import (
     PressedFinger,
     certified_equilibria,
     equilibria,
-    pressed_finger,
+    press_finger,
     receptor_logarithmic_strain,
     stimulate_deformed,
 )
@@ -50,8 +50,7 @@ def base() -> Scene:
 @pytest.fixture(scope="module")
 def finger(base: Scene) -> PressedFinger:
     section = mesh_section(base, nominal_edges(base.device.actuators))
-    pressed = press(base, section, None, Interface.FRICTIONLESS)
-    return pressed_finger(base, section, None, pressed, Interface.FRICTIONLESS)
+    return press_finger(base, section, None, Interface.FRICTIONLESS)
 
 
 def test_corrections_end_where_new_tangents_do(finger: PressedFinger) -> None:
@@ -261,7 +260,7 @@ def test_a_stroke_that_cannot_be_followed_says_how_the_rest_goes_on(base: Scene,
 def test_moves_far_from_the_pressed_state_run_on_tissue_linearised_there(base: Scene, interface: Interface) -> None:
     """They end where new tangents lead from move to move, which are more."""
     section = mesh_section(base, nominal_edges(base.device.actuators))
-    finger = pressed_finger(base, section, None, press(base, section, None, interface), interface)
+    finger = press_finger(base, section, None, interface)
     way = 0.03 * np.array([[1.0, 1.0], [-1.0, 1.0], [1.0, 1.0], [-1.0, 1.0]])  # to the sides, and into the skin [mm]
     reached, tissue = finger.start, finger.tissue
     followed = deformed_state(finger.start.state, finger.start.displacement)

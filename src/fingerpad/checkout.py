@@ -66,6 +66,6 @@ def model_for(device: Path, config: Path | None = None) -> Path:
     return config or (beside if beside.is_file() else find_checkout(Path.cwd()).config)
 
 
-def schemas_for(folder: Path | None = None) -> Path:
+def schemas_for(folder: Path | None) -> Path:
     """The folder of schemas that is given, or that of the checkout. Raises UsageError if there is none."""
     return folder or find_checkout(Path.cwd()).schemas

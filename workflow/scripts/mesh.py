@@ -4,12 +4,11 @@ from pathlib import Path
 
 from fingerpad.jobs import run
 from fingerpad.prediction.edges import edge_intervals, save_edges
-from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.readouts.resampling import section_resampling
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import save
 from fingerpad.tissue.mesh import mesh_section, save_section
-from fingerpad.tissue.receptors import arc_length, receptor_strain
 
 
 def main(config: Path, device: Path, kinematics: Kinematics, edges: Path, mesh: Path, resampling: Path) -> None:
@@ -19,8 +18,7 @@ def main(config: Path, device: Path, kinematics: Kinematics, edges: Path, mesh: 
     save_edges(edges, intervals)
     section = mesh_section(scene, intervals)
     save_section(mesh, section)
-    receptor, _ = receptor_strain(section, scene)
-    save(resampling, resampling_to_grid(arc_length(receptor), scene.model.gabor.spacing))
+    save(resampling, section_resampling(section, scene))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from ..contact.linear_solution import indent_device
-from ..contact.problem import increments
+from ..contact.problem import indentation_increments, stimulus_increments
 from ..contact.solution import Solution
 from ..errors import SceneError
 from ..prediction.edges import edge_intervals
@@ -73,8 +73,8 @@ def plain_ladder(
     depth = float(indented.state.actuator[0, 1])
     for factor in factors:
         other = scene.coarsened(factor)
-        pressing, stimulating = increments(other, indented.problem)
-        counts = round(PATH * pressing), stimulating
+        problem = indented.problem
+        counts = round(PATH * indentation_increments(other, problem)), stimulus_increments(other, problem)
         section = mesh_section(other, edges)
         (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, depth, counts))
         seconds, nodes = (cold, cold, cold), last.position.shape[0]

@@ -22,8 +22,8 @@ from functools import partial
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact.active_set import NotConvergedError
 from ..contact.formulation import ContactProblem
+from ..contact.not_converged import NotConvergedError
 from ..contact.path import SolveIncrement, advance
 from ..errors import ContactError
 from ..scene.device import ActuatorRow

@@ -99,7 +99,7 @@ def block_contact(
     tractions = linear_tractions(face, mesh.doflocs[:, face], np.abs(x[face[1::2]]) < reach)
     matrix = stiffness(basis, [material], np.zeros(mesh.t.shape[1], dtype=int))
     loads = csc_matrix(unit_loads(dofs, tractions.nodes, matrix.shape[0]) @ tractions.by_component())
-    compliance, _, _ = condense(matrix, dofs, fixed, loads, csr_matrix((0, matrix.shape[0])))
+    compliance = condense(matrix, dofs, fixed, loads, csr_matrix((0, matrix.shape[0]))).compliance
     problem = ContactProblem(
         position=tractions.position,
         compliance=compliance,

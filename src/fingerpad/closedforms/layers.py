@@ -21,6 +21,7 @@ from skfem import ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri2
 from ..arrays import FloatArray
 from ..scene.finger import Layer
 from ..scene.scene import Model
+from ..tissue.compliance import displaced
 from ..tissue.condensation import condense
 from ..tissue.elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness, unit_loads
 from .blocks import refined_block
@@ -154,11 +155,11 @@ def layered(name: str, layers: Sequence[Layer], above: int, load: Load, spacing:
     interface = np.flatnonzero(on_line & np.all(np.abs(ends[0]) <= WINDOW, axis=0))
     adjacent = mesh.f2t[:, interface]
     points, read = facet_strain(mesh, interface, np.where(number[adjacent[0]] == above, adjacent[0], adjacent[1]))
-    compliance, strain, _ = condense(matrix, dofs, fixed, unit_loads(dofs, face, matrix.shape[0]), read)
-    found = (strain @ force).reshape(-1, 3)
+    condensed = condense(matrix, dofs, fixed, unit_loads(dofs, face, matrix.shape[0]), read)
+    found = (condensed.strain @ force).reshape(-1, 3)
     wanted = exact(layers, above, load, points[0])
     middle = int(np.argmin(np.abs(x[face])))
-    moved = (compliance @ force).reshape(-1, 2)[middle, 1 if load is Load.PRESSURE else 0]
+    moved = displaced(condensed.compliance, force)[middle, 1 if load is Load.PRESSURE else 0]
     case, grid = f"{PARTICIPLE[load]} {name}", (spacing, int(basis.N))
     return [
         *(

@@ -26,7 +26,9 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import UniquenessError
 from .formulation import OPEN, ContactProblem, ContactState, Status, resolved
+from .not_converged import NotConvergedError
 from .patch import Patch
 from .profile import bend, profile
 
@@ -43,23 +45,7 @@ SMALLEST = float(np.finfo(float).tiny)  # N/mm, in place of no force at all
 ROUNDING = float(np.finfo(float).eps)  # of a number [1]
 STICK, SLIP_FORWARD, SLIP_BACKWARD = map(int, (Status.STICK, Status.SLIP_FORWARD, Status.SLIP_BACKWARD))
 SLIP_SIGN = np.array([0.0, 0.0, 1.0, -1.0])  # direction of slip by Status
-
-
-class NotConvergedError(Exception):
-    """An increment did not converge: it is to be halved. turned: whether states on the way had a negative sign.
-    wedged: what to say if skin touches two actuators at once. inverted: where tissue was turned inside out, if it
-    was. snaps: whether tissue was unstable on the way.
-    """
-
-    def __init__(
-        self, residual: float, turned: bool = False, wedged: str = "", inverted: str = "", snaps: bool = False
-    ) -> None:
-        super().__init__(residual, turned, wedged, inverted, snaps)
-        self.residual = residual
-        self.turned = turned
-        self.wedged = wedged
-        self.inverted = inverted
-        self.snaps = snaps
+NOT_UNIQUE = "the states of contact have no unique solution there; try less friction, rounder edges, less movement"
 
 
 @dataclass(frozen=True)
@@ -67,7 +53,7 @@ class PatchProblem:
     """What does not change while one increment is solved, of the patch's nodes.
 
     origin: (2, b) unloaded nodes from their actuator [mm]. bias: (2b,) displacements [mm] that take no force.
-    gap_scale: [mm].
+    gap_scale: what gaps and slips are compared with, the actuators' largest displacement and movement [mm].
     """
 
     problem: ContactProblem
@@ -213,7 +199,7 @@ def settle(
             reference = _touched_there(reference, start, nodes, trial, touching)
         if ((was == OPEN) | (now == STICK)).any():  # nodes come to the profile or stop; others are where they were
             trial = _at(increment, trial.moved, states, reference[nodes])
-    raise NotConvergedError(residual, turned)
+    raise NotConvergedError(residual, UniquenessError(NOT_UNIQUE) if turned else None)
 
 
 def _states(problem: ContactProblem, status: np.ndarray) -> _States:

@@ -11,7 +11,7 @@ from ..arrays import FloatArray
 from ..errors import CertificateError, ReachError
 from ..tissue.compliance import CondensedSection
 from .faces import displacement, touch
-from .formulation import ContactProblem, ContactState, Status, shearing_and_pressing, unloaded
+from .formulation import OPEN, ContactProblem, ContactState, shearing_and_pressing, unloaded
 from .ownership import given_as, nearest_now, overlapped
 from .profile import profile
 
@@ -58,7 +58,7 @@ def certify(problem: ContactProblem, section: CondensedSection, state: ContactSt
     """Check a state against the laws it was solved for. Raises CertificateError, with the figures, beyond a limit, and
     ReachError if contact comes to the last node considered.
     """
-    active = state.status != Status.OPEN
+    active = state.status != OPEN
     shearing, pressing = shearing_and_pressing(problem, [state])[0].T
     pressure = pressing / section.weight
     largest = float(pressure.max(initial=0.0))
@@ -118,7 +118,7 @@ def require_within_reach(problem: ContactProblem, section: CondensedSection, sta
     """
     own, x = state.given, problem.position[:, 0]
     allowed = PENETRATION_LIMIT * float(np.abs(state.actuator).max())
-    active = state.status != Status.OPEN
+    active = state.status != OPEN
     adjacent = np.diff(x) <= ADJACENT * (section.weight[1:] + section.weight[:-1])
     reached = active & (np.append(True, ~adjacent) | np.append(~adjacent, True))  # first or last nodes side by side
     beyond = np.flatnonzero(reached | overlapped(problem, state, allowed))

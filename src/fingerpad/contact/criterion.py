@@ -38,7 +38,7 @@ def _covered(problem: ContactProblem, state: ContactState) -> float:
     x, closed = state.place + centres[own], state.status != OPEN
     # what touches, also a neighbour, is on its face, not higher by rounding
     height = np.where(closed, 0.0, state.gap) - profile(problem.row, state.place)[0]
-    if problem.images > 1:  # beyond the mid-line lies the mirror image
+    if problem.halved:  # beyond the mid-line lies the mirror image
         beyond = np.flatnonzero(problem.position[:, 0] > 0.0)[::-1]
         own = np.concatenate([np.where(centres[own] == 0.0, own, NOBODY)[beyond], own])
         x = np.concatenate([-x[beyond], x])

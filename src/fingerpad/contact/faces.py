@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray
-from ..tissue.compliance import CondensedBody
+from ..tissue.compliance import CondensedBody, displaced
 from .formulation import ContactProblem
 
 # Gauss-Jacobi on half a hat, exact for cubics: distances from its top over its width [1], weights [1] with a sum of one
@@ -30,7 +30,7 @@ def touch(problem: ContactProblem, place: FloatArray) -> FloatArray | None:
 
 def displacement(problem: ContactProblem, force: FloatArray, there: FloatArray | None) -> FloatArray:
     """Displacement (n, 2) [mm] of the skin relative to the actuators' faces: C f and what these give way."""
-    moved = np.asarray((problem.compliance @ force.ravel()).reshape(-1, 2))
+    moved = displaced(problem.compliance, force)
     return moved if there is None else moved + face_displacement(problem, force, there)
 
 
@@ -49,7 +49,7 @@ def face_displacement(problem: ContactProblem, force: FloatArray, there: FloatAr
     if problem.body is not None:
         for own in problem.spans:
             shape = there[own]
-            given[own] = shape @ (problem.body.compliance @ (shape.T @ force[own]).ravel()).reshape(-1, 2)
+            given[own] = shape @ displaced(problem.body.compliance, shape.T @ force[own])
     return given
 
 

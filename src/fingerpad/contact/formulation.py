@@ -32,7 +32,9 @@ from .profile import profile, touching_heights
 
 
 class Status(IntEnum):
-    """State of a contact node. SLIP_FORWARD: the skin slides towards +x on the actuator."""
+    """State of a contact node. SLIP_FORWARD: the skin slides towards +x on the actuator. Both slips come after all
+    others: what slips is `> STICK`.
+    """
 
     OPEN = 0
     STICK = 1
@@ -49,7 +51,8 @@ FRONT_POWER = 2.0 / 3.0
 
 @dataclass(frozen=True)
 class ContactProblem:
-    """What does not change along a path.
+    """Skin, actuators and the laws of their contact: what a path of states is followed on. It stays as it is along the
+    path, but for `given`, which follows the states (`ownership.given_as`).
 
     position: (n, 2) undeformed contact nodes [mm]. compliance: (2n, 2n) [mm per N/mm], ordered x0, y0, ...
     row: the actuators. body: condensed body of a deformable actuator, or None. friction: coefficient [1].
@@ -57,9 +60,8 @@ class ContactProblem:
     only nodes in contact or about to be, or all. free: (n, 2) displacement of the nodes without contact forces [mm],
     of tissue linearised about a deformed state; None is zero. turning: whether the normal turns on rounded edges.
     given: index (n,) of the actuator that each node is given to, and of no other; None is the one nearest to
-    undeformed skin. It changes along a path, with `ContactState.given`.
-    images: how many like it there are [1]: two where it is one half of a row that mirrors. most_iterations: of Newton
-    within one increment before it is halved [1].
+    undeformed skin. images: how many like it there are [1]: two where it is one half of a row that mirrors.
+    most_iterations: of Newton within one increment before it is halved [1].
     """
 
     position: FloatArray
@@ -75,6 +77,11 @@ class ContactProblem:
     given: np.ndarray | None = None
     images: int = 1
     most_iterations: int = MAX_ITERATIONS
+
+    @property
+    def halved(self) -> bool:
+        """Whether it is one half of a row that mirrors, the right one."""
+        return self.images > 1
 
     @cached_property
     def actuator_of(self) -> np.ndarray:
@@ -153,7 +160,7 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
     actuator[:, 1] = height
     x, y = unloaded(problem, actuator).T
     nothing = np.zeros((count, 2))
-    status = np.full(count, int(Status.OPEN))
+    status = np.full(count, OPEN)
     gap = y + profile(problem.row, x)[0]
     return ContactState(
         actuator=actuator,
@@ -220,4 +227,4 @@ def shearing_and_pressing(problem: ContactProblem, states: Sequence[ContactState
 
 def switch_friction(state: ContactState) -> ContactState:
     """A frictionless state on which friction acts from now on: what touches sticks, and bears no shear yet."""
-    return replace(state, status=np.where(state.status == Status.OPEN, Status.OPEN, Status.STICK))
+    return replace(state, status=np.where(state.status == OPEN, OPEN, int(Status.STICK)))

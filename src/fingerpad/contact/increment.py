@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import FloatArray
+from ..errors import ReachError
 from .acceleration import accelerated
 from .active_set import (
     SLIP_SIGN,
     SMALLEST,
     STICK,
-    NotConvergedError,
     PatchProblem,
     Trial,
     dragged,
@@ -28,6 +28,7 @@ from .active_set import (
 )
 from .faces import displacement, face_displacement, touch
 from .formulation import FRONT_POWER, OPEN, ContactProblem, ContactState, resolved, unloaded
+from .not_converged import NotConvergedError
 from .ownership import given_anew, given_to, handed_over, touches_both
 from .patch import Patch, holds, nodes_of, patch_of
 from .profile import profile
@@ -89,7 +90,8 @@ def solve_increment(
             return reached, patch
         problem, start = given_to(problem, start, given)
     node, positions = np.flatnonzero(reached.given != given)[0], problem.row.positions
-    raise NotConvergedError(float("inf"), wedged=touches_both(positions[reached.given[node]], positions[given[node]]))
+    between = touches_both(positions[reached.given[node]], positions[given[node]])
+    raise NotConvergedError(float("inf"), ReachError(between))
 
 
 def _solved_as_given(

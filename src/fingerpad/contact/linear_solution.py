@@ -20,7 +20,7 @@ from .increment import solve_increment
 from .indentation import indent
 from .patch import Patch
 from .path import SolveIncrement, advance
-from .problem import contact_problem, increments, pressing_problem
+from .problem import contact_problem, indentation_increments, pressing_problem, stimulus_increments
 from .solution import Solution, solution
 from .symmetry import part_of, unfolded
 
@@ -40,19 +40,19 @@ def indented_state(scene: Scene, problem: ContactProblem) -> ContactState:
     """State after pre-indentation: the same for all conditions of a device and interface. Raises ContactError."""
     part = part_of(problem, scene.model.skips.mirrored_half)
     state = raised(scene, part)
-    return state if part is problem else unfolded(state, part)
+    return unfolded(state, part) if part.halved else state
 
 
 def raised(
     scene: Scene, part: ContactProblem, solve: SolveIncrement[ContactState, Patch | None] = solve_increment
 ) -> ContactState:
-    """State of what of a row is pressed (`part_of`) after pre-indentation, with friction acting. solve: an increment.
-    Raises ContactError.
+    """State of a row, or of the half of it that is solved (`part_of`), after pre-indentation, with friction acting.
+    solve: what solves an increment. Raises ContactError.
     """
     pressing = pressing_problem(scene, part)
-    count, _ = increments(scene, pressing)
+    count = indentation_increments(scene, pressing)
     state = indent(pressing, scene.model.contact, count, scene.model.finger.pad_thickness, solve)
-    return state if pressing is part else switch_friction(state)
+    return switch_friction(state) if pressing.friction < part.friction else state
 
 
 def follow_condition(
@@ -64,7 +64,7 @@ def follow_condition(
 ) -> list[ContactState]:
     """States at the times of a condition's stimulus, from the pre-indented one. Raises ContactError."""
     require_tissue(problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
-    states, patch, (_, count) = [before], None, increments(scene, problem)
+    states, patch, count = [before], None, stimulus_increments(scene, problem)
     for moved in condition.moves:
         state, patch = advance(problem, states[-1], before.actuator + moved, count, patch, solve)
         states.append(state)

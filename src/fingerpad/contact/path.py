@@ -9,10 +9,10 @@ from typing import Any, ClassVar, Protocol, TypeVar
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import ContactError, ConvergenceError, InvertedError, ReachError, SnapError, UniquenessError
-from .active_set import NotConvergedError
+from ..errors import ContactError
 from .formulation import ContactProblem, ContactState
 from .increment import solve_increment
+from .not_converged import NotConvergedError
 from .patch import Patch
 
 
@@ -158,30 +158,10 @@ def stands(begin: FloatArray, target: FloatArray) -> bool:
 
 def _lost(problem: ContactProblem, failure: NotConvergedError, where: str) -> ContactError:
     """The error that ends a path where an increment did not converge."""
-    kind, advice = _named(failure)
     missed = problem.tolerance < failure.residual < np.inf
     residual = f", residual {failure.residual:.1e}, tolerance {problem.tolerance:.0e}" if missed else ""
     other = "stiffer bodies" if problem.body else "a finer mesh at the edges (numerics.edge_size)"
-    return kind(f"contact did not converge {where}{residual}; {advice} or {other}")
-
-
-def _named(failure: NotConvergedError) -> tuple[type[ContactError], str]:
-    """Class and advice of the error that ends a path."""
-    if failure.snaps:  # which overshoots, and may turn tissue inside out
-        return SnapError, "the tissue has no stable state nearby and would snap; try less indentation, less movement"
-    if failure.inverted:
-        return InvertedError, f"{failure.inverted}; try less indentation, less movement"
-    if failure.wedged:
-        return ReachError, failure.wedged
-    if failure.turned:
-        return (
-            UniquenessError,
-            "the states of contact have no unique solution there; try less friction, rounder edges, less movement",
-        )
-    return (
-        ConvergenceError,
-        "try larger numerics.indentation_increments and numerics.stimulus_increments, or vibration.steps",
-    )
+    return type(failure.reason)(f"contact did not converge {where}{residual}; {failure.reason} or {other}")
 
 
 def _located(actuator: FloatArray) -> str:

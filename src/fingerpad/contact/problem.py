@@ -54,10 +54,20 @@ def pressing_problem(scene: Scene, problem: ContactProblem) -> ContactProblem:
     return problem if from_touch or problem.friction == 0.0 else replace(problem, friction=0.0)
 
 
-def increments(scene: Scene, problem: ContactProblem) -> tuple[int, int]:
-    """Load increments of pre-indentation and of each segment of a stimulus."""
-    numerics, share = scene.model.numerics, 1
-    linear = scene.kinematics is Kinematics.SMALL  # much less than all at once is too far for Newton's method
-    if scene.model.skips.frictionless_path and problem.friction == 0.0 and linear:
-        share = FRICTIONLESS_SHARE
-    return -(-numerics.indentation_increments // share), -(-numerics.stimulus_increments // share)
+def indentation_increments(scene: Scene, problem: ContactProblem) -> int:
+    """Load increments of pre-indentation [1]."""
+    return -(-scene.model.numerics.indentation_increments // _share(scene, problem))
+
+
+def stimulus_increments(scene: Scene, problem: ContactProblem) -> int:
+    """Load increments of each segment of a stimulus [1]."""
+    return -(-scene.model.numerics.stimulus_increments // _share(scene, problem))
+
+
+def _share(scene: Scene, problem: ContactProblem) -> int:
+    """One of how many increments [1] is enough: without friction the way leaves no trace on linear tissue, but is too
+    far for Newton's method on tissue that deforms much.
+    """
+    linear = scene.kinematics is Kinematics.SMALL
+    shorter = scene.model.skips.frictionless_path and problem.friction == 0.0 and linear
+    return FRICTIONLESS_SHARE if shorter else 1

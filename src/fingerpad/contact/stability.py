@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import FloatArray
 from ..tissue.factors import Factors
 from .faces import nodal_compliance, touch
-from .formulation import ContactProblem, Status
+from .formulation import OPEN, ContactProblem, Status
 
 
 def unstable_directions(problem: ContactProblem, status: np.ndarray, place: FloatArray, factors: Factors) -> int:
@@ -25,7 +25,7 @@ def unstable_directions(problem: ContactProblem, status: np.ndarray, place: Floa
     problem: with the compliance of the tissue whose stiffness has these factors.
     """
     negative = int(np.count_nonzero(factors.pivots < 0.0))
-    active = np.flatnonzero(status != Status.OPEN)
+    active = np.flatnonzero(status != OPEN)
     if negative == 0 or active.size == 0:
         return negative
     compliance = nodal_compliance(problem, active, touch(problem, place))

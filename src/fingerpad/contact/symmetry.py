@@ -23,7 +23,9 @@ MIRRORED_STATUS = np.array([Status.OPEN, Status.STICK, Status.SLIP_BACKWARD, Sta
 
 
 def part_of(problem: ContactProblem, halved: bool) -> ContactProblem:
-    """What of a row is pressed: where that may be halved and the problem mirrors the right half, else all of it."""
+    """The part of a row that is solved: the right half where that is asked for (`halved`) and the problem mirrors, else
+    all of it.
+    """
     return fold(problem) if halved and mirrors(problem) else problem
 
 

@@ -15,10 +15,9 @@ from ..arrays import FloatArray
 from ..contact.formulation import shearing_and_pressing
 from ..contact.linear_solution import solve_condition
 from ..contact.solution import Solution
-from ..finite.deformed_solution import PressedFinger, certified_equilibria, pressed_finger
+from ..finite.deformed_solution import PressedFinger, certified_equilibria, press_finger
 from ..finite.finite_strain import logarithmic_strain
-from ..finite.hyperelasticity import cauchy_stress, tissue_of
-from ..finite.pressing import press
+from ..finite.hyperelasticity import cauchy_stress, scene_tissue
 from ..readouts.measures import stress
 from ..readouts.strain import maximum_principal
 from ..scene.contact_law import Interface
@@ -57,8 +56,7 @@ def solved_states(scene: Scene, section: SectionMesh, condition: Condition, inte
     """Solve a condition, and what it does to the whole section. Raises MeshError, CondensationError, ContactError."""
     body = body_of(scene)
     if scene.kinematics is Kinematics.FINITE:
-        pressed = press(scene, section, body, interface)
-        return deformed_states(scene, pressed_finger(scene, section, body, pressed, interface), condition)
+        return deformed_states(scene, press_finger(scene, section, body, interface), condition)
     condensed = condense_section(section, scene)
     return linear_states(scene, section, solve_condition(scene, condensed, body, condition, interface))
 
@@ -108,12 +106,11 @@ def _mean(stresses: FloatArray) -> FloatArray:
 def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
     """Stress (n_elements k, 4) [MPa] that belongs to the strain of each point."""
     gradient = gradient_at(section.mesh, displacement, points)
-    materials, law = scene.model.finger.materials, scene.model.tissue
     layer = np.repeat(section.layer, points.shape[1])
     if scene.kinematics is Kinematics.FINITE:
-        return np.asarray(cauchy_stress(tissue_of(law.law, law.ogden_exponent, materials, layer), gradient).T)
+        return np.asarray(cauchy_stress(scene_tissue(scene, layer), gradient).T)
     found = np.empty((layer.size, 4))
-    for number, material in enumerate(materials):
+    for number, material in enumerate(scene.model.finger.materials):
         inside = layer == number
         found[inside] = stress(strain_of(gradient[..., inside]).ravel(), material)
     return found

@@ -150,10 +150,8 @@ def _title(panels: _Panels, device: Device, dispersion: str) -> None:
 
 def _window(scene: Scene, face: float) -> Window:
     """What maps show: the row and the pad above its faces, which are at a height [mm]."""
-    row = scene.device.actuators
     bottom, top = face - BELOW, scene.model.finger.pad_thickness + ABOVE
-    reach = max(abs(x) for x in row.positions) + row.width / 2.0 + ASIDE
-    reach = max(reach, (top - bottom) * NARROWEST / 2.0)
+    reach = max(scene.device.actuators.reach + ASIDE, (top - bottom) * NARROWEST / 2.0)
     return (-reach, reach), (bottom, top)
 
 

@@ -47,7 +47,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
     columns = min(len(devices), COLUMNS)
     blocks = math.ceil(len(devices) / columns)
     rows = [device.actuators for device in devices]
-    outermost = max(abs(x) + row.width / 2.0 for row in rows for x in row.positions)
+    outermost = max(row.reach for row in rows)
     reach = outermost + ASIDE
     size = max(1.0, reach / REACH)
     below = max([BELOW * size, *(_arrow_depth(row, size) + ARROW * size / 2.0 for row in rows)])

@@ -21,13 +21,15 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from ..arrays import FloatArray
 from ..contact.acceleration import accelerated
-from ..contact.active_set import NotConvergedError
 from ..contact.formulation import ContactProblem, ContactState
 from ..contact.increment import solve_increment
+from ..contact.not_converged import NotConvergedError
+from ..contact.ownership import given_as
 from ..contact.patch import Patch
 from ..contact.path import SolveIncrement
 from ..contact.stability import unstable_directions
 from ..errors import CondensationError, InvertedError, SnapError
+from ..tissue.compliance import displaced
 from ..tissue.condensation import condense_ordered
 from ..tissue.factors import Factors
 from .deformation import Elements, internal_force, tangent_stiffness
@@ -44,6 +46,8 @@ CONTRACTION = 0.4  # of a change [1] to the one before it, above which a new tan
 CONTACT_INCREMENTS = 4  # in one of the tissue [1], at most; source: scores move by 0.15 of their errors at most
 TANGENT_TOLERANCE = 1e-8  # of displacements [1]; source: a soft mode magnifies rounding; Newton corrects the rest
 TISSUE_INCREMENTS = 5  # of the tissue [1], fewer only where contact has fewer; source: fewer are halved too often
+LESS = "try less indentation, less movement"
+WOULD_SNAP = f"the tissue has no stable state nearby and would snap; {LESS}"
 
 
 @dataclass(frozen=True)
@@ -176,14 +180,14 @@ def solve_deformed_increment(
             ends.append(displacement[free])
             displacement[free] = accelerated(steps, ends)
     except InvertedError as error:
-        raise NotConvergedError(float("inf"), inverted=str(error), snaps=unstable) from error
+        reason = SnapError(WOULD_SNAP) if unstable else InvertedError(f"{error}; {LESS}")
+        raise NotConvergedError(float("inf"), reason) from error
     except CondensationError as error:
-        raise NotConvergedError(float("inf"), snaps=unstable) from error
+        raise NotConvergedError(float("inf"), SnapError(WOULD_SNAP) if unstable else None) from error
     except NotConvergedError as failure:
-        raise NotConvergedError(
-            failure.residual, failure.turned, failure.wedged, snaps=failure.snaps or unstable
-        ) from failure
-    raise NotConvergedError(changes[-1] / LOOSER, snaps=unstable)  # as it compares with the tolerance of contact
+        raise NotConvergedError(failure.residual, SnapError(WOULD_SNAP) if unstable else failure.reason) from failure
+    left = changes[-1] / LOOSER  # as it compares with the tolerance of contact
+    raise NotConvergedError(left, SnapError(WOULD_SNAP) if unstable else None)
 
 
 def _linearised_step(
@@ -214,7 +218,7 @@ def _require_near(
     (size,) [mm] much farther than the actuators, by `length` [mm] under a load of `scale` [mm].
     """
     if is_far(float(np.abs(moved).max()), length, scale) or _is_unstable(problem, found, tangent):
-        raise NotConvergedError(found.residual, snaps=True)
+        raise NotConvergedError(found.residual, SnapError(WOULD_SNAP))
 
 
 def is_far(moved: float, length: float, load: float) -> bool:
@@ -224,7 +228,7 @@ def is_far(moved: float, length: float, load: float) -> bool:
 
 def _is_unstable(problem: ContactProblem, state: ContactState, tangent: Tangent) -> bool:
     """Whether tissue with that tangent is unstable while contact holds it as in that state."""
-    condensed = replace(problem, compliance=tangent.compliance, given=state.given)
+    condensed = given_as(replace(problem, compliance=tangent.compliance), state)
     return unstable_directions(condensed, state.status, state.place, tangent.factors) > 0
 
 
@@ -261,7 +265,7 @@ def _followed(
     length = float(np.abs(actuator - start.actuator).max())
     here = Passed(0.0, first, start.force)
     known = [here] if start.passed is None else [start.passed, here]
-    free = [each.moved - _moved(tangent, each.force) for each in known]
+    free = [each.moved - displaced(tangent.compliance, each.force) for each in known]
     drift = partial(_through, np.array([*(-each.before for each in known), length]), np.array([*free, last]))
     condensed = replace(problem, compliance=tangent.compliance)
     state: ContactState = start
@@ -270,7 +274,7 @@ def _followed(
         passed = replace(here, before=length / increments)
         target = start.actuator + way / length * (actuator - start.actuator)
         state, patch = solve_increment(replace(condensed, free=drift(way)), state, target, patch)
-        here = Passed(0.0, drift(way) + _moved(tangent, state.force), state.force)
+        here = Passed(0.0, drift(way) + displaced(tangent.compliance, state.force), state.force)
     return state, passed, replace(tangent, patch=patch)
 
 
@@ -281,8 +285,3 @@ def _through(places: FloatArray, values: FloatArray, place: float) -> FloatArray
     others = ~np.eye(places.size, dtype=bool)
     weights = [np.prod((place - places[each]) / (own - places[each])) for own, each in zip(places, others, strict=True)]
     return np.tensordot(weights, values, axes=1)
-
-
-def _moved(tangent: Tangent, force: FloatArray) -> FloatArray:
-    """Displacement (n, 2) [mm] of contact nodes by forces (n, 2) [N/mm]."""
-    return (tangent.compliance @ force.ravel()).reshape(-1, 2)

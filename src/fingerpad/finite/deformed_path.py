@@ -28,6 +28,7 @@ from ..contact.increment import solve_increment
 from ..contact.patch import Patch
 from ..contact.path import advance, drifting_to, stands
 from ..errors import CondensationError, ContactError, ConvergenceError, InvertedError
+from ..tissue.compliance import displaced
 from ..tissue.factors import Factors, factorise
 from .deformation import internal_force, tangent_stiffness
 from .deformed import (
@@ -160,7 +161,7 @@ def on_compliance(new: FloatArray, old: FloatArray, free: FloatArray, force: Flo
     """Displacement (m, 2) [mm] of contact nodes without contact forces on a new compliance (2m, 2m) [mm per N/mm], from
     that on the old one: with the forces (m, 2) [N/mm] that act they lie in one place.
     """
-    return free if new is old else free + ((old - new) @ force.ravel()).reshape(-1, 2)
+    return free if new is old else free + displaced(old - new, force)
 
 
 class _UnsettledError(Exception):
@@ -251,7 +252,7 @@ def _followed_newly(
     begin, (count, within) = deformed_state(start.state, start.displacement), increments_of(increments)
     reached, _ = advance(problem, begin, target, count, tangent, solver_on(part, within))
     moved = (part.loads.T @ reached.displacement[part.elements.free]).reshape(-1, 2)
-    rest = moved - (problem.compliance @ reached.force.ravel()).reshape(-1, 2)
+    rest = moved - displaced(problem.compliance, reached.force)
     return Equilibrium(
         state=contact_state(reached),
         displacement=reached.displacement,

@@ -15,7 +15,7 @@ from ..contact.advice import named_pressing, named_stimulus
 from ..contact.certificate import Certificate, certify, worst
 from ..contact.depth import require_tissue
 from ..contact.formulation import ContactProblem
-from ..contact.problem import contact_problem, increments
+from ..contact.problem import contact_problem, stimulus_increments
 from ..contact.solution import Solution, solution
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -27,7 +27,7 @@ from ..tissue.receptors import receptor_gradient
 from ..tissue.skin import Skin, require_uncrossed, skin_of
 from .deformed_path import DeformedTissue, Equilibrium, deformed_tissue, move
 from .finite_strain import logarithmic_strain
-from .pressing import Pressed, whole_part
+from .pressing import Pressed, press, whole_part
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,11 @@ class PressedFinger:
     gradient: csr_matrix
     dofs: np.ndarray
     skin: Skin
+
+
+def press_finger(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> PressedFinger:
+    """`press` a device, and what all its conditions begin with then. Raises what `press` and `pressed_finger` raise."""
+    return pressed_finger(scene, section, body, press(scene, section, body, interface), interface)
 
 
 def pressed_finger(
@@ -108,7 +113,7 @@ def _certified(finger: PressedFinger, found: Equilibrium) -> Certificate:
 
 def equilibria(scene: Scene, finger: PressedFinger, condition: Condition) -> list[Equilibrium]:
     """The pre-indented one, and those at the ends of all moves of a stimulus. Raises ContactError."""
-    before, (_, count) = finger.pressed.state, increments(scene, finger.problem)
+    before, count = finger.pressed.state, stimulus_increments(scene, finger.problem)
     require_tissue(finger.problem, before.actuator + condition.moves, scene.model.finger.pad_thickness)
     found, tissue = [finger.start], finger.tissue
     for moved in condition.moves:

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..scene.finger import Material
+from ..scene.scene import Scene
 from ..scene.tissue_law import Law
 from ..tissue.elasticity import lame
 from .finite_strain import Principal, green_strain, principal_strain
@@ -52,6 +53,12 @@ def tissue_of(law: Law, exponent: float, materials: Sequence[Material], index: n
     """Tissue whose points (...) have the materials of that index (...)."""
     constants = np.array([lame(material) for material in materials])[index]
     return Tissue(law, constants[..., 0], constants[..., 1], exponent)
+
+
+def scene_tissue(scene: Scene, layer: np.ndarray) -> Tissue:
+    """A scene's tissue with finite kinematics, whose points (...) lie in the layers of that index (...)."""
+    law = scene.model.tissue
+    return tissue_of(law.law, law.ogden_exponent, scene.model.finger.materials, layer)
 
 
 def stress_of(tissue: Tissue, gradient: FloatArray) -> FloatArray:

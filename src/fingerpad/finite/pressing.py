@@ -21,11 +21,11 @@ from ..contact.force_curve import curve_of
 from ..contact.formulation import ContactProblem, ContactState, rest, switch_friction, touching_height
 from ..contact.indentation import raise_until
 from ..contact.path import SolveIncrement, advance, recording
-from ..contact.problem import contact_problem, increments, pressing_problem
+from ..contact.problem import contact_problem, indentation_increments, pressing_problem
 from ..contact.symmetry import half_of, mirrors, unfolded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
-from ..tissue.compliance import MIRROR, CondensedBody, CondensedSection
+from ..tissue.compliance import MIRROR, CondensedBody, CondensedSection, displaced
 from ..tissue.elasticity import displacement_basis
 from ..tissue.factors import fill_reducing_order
 from ..tissue.halves import Parts, right_half, unfold, unfolding, whole
@@ -47,7 +47,7 @@ from .deformed import (
     tangent_at,
 )
 from .ellipticity import require_elliptic
-from .hyperelasticity import tissue_of
+from .hyperelasticity import scene_tissue
 
 NONE = np.empty((0, 0))  # a map that nobody asks for
 
@@ -82,7 +82,6 @@ class _Start:
 
     tractions: Tractions
     undeformed: CondensedSection
-    mirrored: bool
     parts: Parts
     tissues: tuple[TissuePart, ...]
     problem: ContactProblem
@@ -121,7 +120,7 @@ def press_to(
 
 
 def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, interface: Interface) -> _Start:
-    """Raises MeshError."""
+    """Where a scene's pre-indentation begins. Raises MeshError."""
     tractions = contact_tractions(section, scene)
     receptor, _ = receptor_strain(section, scene)
     undeformed = CondensedSection(
@@ -141,14 +140,13 @@ def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, inter
     return _Start(
         tractions=tractions,
         undeformed=undeformed,
-        mirrored=mirrored,
         parts=parts,
         tissues=tuple(_part(scene, section, parts, which) for which in range(len(parts.held))),
         problem=solved,
         whole=problem,
-        switches=problem is not acting,
+        switches=problem.friction < acting.friction,
         state=deformed_state(rest(solved, touching_height(solved)), np.zeros(parts.dofs.size)),
-        increments=increments_of(increments(scene, problem)[0]),
+        increments=increments_of(indentation_increments(scene, problem)),
     )
 
 
@@ -157,7 +155,7 @@ def _recorded(
 ) -> tuple[SolveIncrement[DeformedState, Tangent | None], list[ContactState]]:
     """What solves an increment, of skin that may not cross itself, and the states that it will have found."""
     states: list[ContactState] = []
-    skin = skin_of(section, start.parts.dofs, start.mirrored)
+    skin = skin_of(section, start.parts.dofs, start.problem.halved)
 
     def note(state: DeformedState) -> None:
         states.append(state)
@@ -177,8 +175,9 @@ def _within_reach(
     def solve_from(
         problem: ContactProblem, state: DeformedState, actuator: FloatArray, tangent: Tangent | None
     ) -> tuple[DeformedState, Tangent | None]:
-        contact = unfolded(contact_state(state), start.problem) if start.mirrored else contact_state(state)
-        require_within_reach(start.whole, start.undeformed, contact)
+        contact = contact_state(state)
+        everywhere = unfolded(contact, start.problem) if start.problem.halved else contact
+        require_within_reach(start.whole, start.undeformed, everywhere)
         return solve(problem, state, actuator, tangent)
 
     return solve_from
@@ -191,14 +190,14 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
         require_stable(start.problem, reached, tangent)
     displacement, state = reached.displacement[start.parts.dofs], contact_state(reached)
     curve, compliance = curve_of(states, float(start.state.actuator[0, 1]), reached), tangents[0].compliance
-    if start.mirrored:
+    if start.problem.halved:
         displacement, state = _mirrored(section, displacement), unfolded(state, start.problem)
         curve = curve * [1.0, start.problem.images]
         columns = unfolding(start.tractions.position.shape[0], MIRROR)
         compliance = unfold(compliance, tangents[1].compliance, columns, columns)
     state = switch_friction(state) if start.switches else state
     moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
-    free = moved - (compliance @ state.force.ravel()).reshape(-1, 2)
+    free = moved - displaced(compliance, state.force)
     residual = max(reached.change, *(tangent.residual for tangent in tangents))
     condensed = replace(start.undeformed, compliance=compliance, residual=residual)
     return Pressed(section=condensed, free=free, state=state, displacement=displacement, curve=curve)
@@ -215,8 +214,7 @@ def _part(scene: Scene, section: SectionMesh, parts: Parts, which: int) -> Tissu
     basis = displacement_basis(section.mesh, parts.elements)
     joined = _coupling(basis.element_dofs, parts.dofs.size)
     order = fill_reducing_order(joined, parts.dofs, parts.held[which])
-    materials, law = scene.model.finger.materials, scene.model.tissue
-    tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[parts.elements][:, None])
+    tissue = scene_tissue(scene, section.layer[parts.elements][:, None])
     return TissuePart(elements_of(basis, tissue, order), csc_matrix(loads[order]))
 
 

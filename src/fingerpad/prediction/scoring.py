@@ -11,11 +11,10 @@ from ..arrays import FloatArray
 from ..contact.linear_solution import indent_device, stimulate
 from ..contact.solution import Solution
 from ..errors import UnsolvedError
-from ..finite.deformed_solution import pressed_finger, stimulate_deformed
-from ..finite.pressing import press
+from ..finite.deformed_solution import press_finger, stimulate_deformed
 from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import FilteredReadouts, filtered_readouts
-from ..readouts.resampling import resampling_to_grid
+from ..readouts.resampling import resampling_to_grid, section_resampling
 from ..readouts.roughness import NO_PREDICTION, unscored_rows
 from ..readouts.strain import Resampling
 from ..scene.contact_law import Interface
@@ -27,7 +26,6 @@ from ..tissue.actuator_body import body_of
 from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import SectionMesh, mesh_section
-from ..tissue.receptors import arc_length, receptor_strain
 from .caveats import noted_rows
 
 Result = TypeVar("Result")
@@ -101,8 +99,7 @@ def condensed_of(scene: Scene, section: CondensedSection) -> Condensed:
 def mesh_scene(scene: Scene, edges: FloatArray) -> Meshed:
     """Mesh alone, as the finger is condensed when it is pressed. Raises MeshError, CondensationError."""
     section = mesh_section(scene, edges)
-    arc = arc_length(receptor_strain(section, scene)[0])
-    return Meshed(section, body_of(scene), resampling_to_grid(arc, scene.model.gabor.spacing))
+    return Meshed(section, body_of(scene), section_resampling(section, scene))
 
 
 def rows_at(scene: Scene, coarsening: float, edges: FloatArray) -> list[dict[str, Any]]:
@@ -235,8 +232,7 @@ def pressed_device(
     CondensationError, ContactError.
     """
     if isinstance(condensed, Meshed):
-        pressed = press(scene, condensed.section, condensed.body, interface)
-        finger = pressed_finger(scene, condensed.section, condensed.body, pressed, interface)
+        finger = press_finger(scene, condensed.section, condensed.body, interface)
         return partial(stimulate_deformed, scene, finger)
     return partial(stimulate, scene, indent_device(scene, condensed.section, condensed.body, interface))
 

@@ -6,6 +6,9 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from ..arrays import FloatArray
+from ..scene.scene import Scene
+from ..tissue.mesh import SectionMesh
+from ..tissue.receptors import arc_length, receptor_strain
 from .strain import Resampling
 
 
@@ -16,6 +19,12 @@ def resampling_to_grid(arc: FloatArray, spacing: float) -> Resampling:
     """
     grid = _uniform_grid(arc, spacing)
     return Resampling(grid, np.asarray(make_interp_spline(arc, np.eye(arc.size), k=3)(grid)))
+
+
+def section_resampling(section: SectionMesh, scene: Scene) -> Resampling:
+    """`resampling_to_grid` of the receptors of a mesh, as the scene asks for it."""
+    points, _ = receptor_strain(section, scene)
+    return resampling_to_grid(arc_length(points), scene.model.gabor.spacing)
 
 
 def _uniform_grid(arc: FloatArray, spacing: float) -> FloatArray:

@@ -25,7 +25,8 @@ def scene_span(scene: Scene) -> tuple[float, float]:
     """Span (start, stop) [mm] of a scene's scores: x of the row's outer edges and a margin beyond, as arc lengths."""
     # ASSUME: readout.span_margin is laid off from x of the row's ends as if that were arc length (docs/model.md, 10)
     row, margin = scene.device.actuators, scene.model.readout.span_margin
-    return row.positions[0] - row.width / 2.0 - margin, row.positions[-1] + row.width / 2.0 + margin
+    start, stop = row.span
+    return start - margin, stop + margin
 
 
 def roughness_score(grid: FloatArray, filtered: FloatArray, span: tuple[float, float]) -> float:

@@ -94,6 +94,16 @@ class ActuatorRow:
         return max(self.edge_radius, SHARP_RADIUS)
 
     @property
+    def span(self) -> tuple[float, float]:
+        """Where the row begins and ends along x [mm]."""
+        return self.positions[0] - self.width / 2.0, self.positions[-1] + self.width / 2.0
+
+    @property
+    def reach(self) -> float:
+        """How far it reaches from the finger's middle [mm]."""
+        return max(abs(x) for x in self.positions) + self.width / 2.0
+
+    @property
     def mirrors(self) -> bool:
         """Whether actuators stand in places that are their own mirror image about the finger's middle."""
         return self.positions == tuple(-x for x in reversed(self.positions))

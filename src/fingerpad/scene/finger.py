@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
-from ..errors import SceneError
 from ..requirements import require, require_positive
 
 
@@ -139,10 +138,3 @@ class Finger:
     def parallel_depth(self) -> float:
         """Depth [mm] down to which layer interfaces run parallel to the outline."""
         return max(sum(la.thickness for la in stack[:-1]) for stack in (self.pad, self.dorsal))
-
-    def layer(self, name: str) -> Layer:
-        """The layer of that name. Raises SceneError if there is none."""
-        for layer in self.layers:
-            if layer.name == name:
-                return layer
-        raise SceneError(f"finger: no layer {name!r}")

@@ -71,8 +71,7 @@ class Scene:
     device: Device
 
     def __post_init__(self) -> None:
-        row = self.device.actuators
-        reach = max(abs(x) for x in row.positions) + row.width / 2.0
+        reach = self.device.actuators.reach
         require(
             reach < self.model.finger.width / 2.0,
             f"{self.device.name}: found an actuator that reaches x = {reach:g} mm; allowed: less than half the finger's"

@@ -13,8 +13,7 @@ import numpy as np
 from ..contact.linear_solution import solve_condition
 from ..contact.solution import Solution
 from ..errors import CertificateError, FingerpadError, MeshError
-from ..finite.deformed_solution import pressed_finger, stimulate_deformed
-from ..finite.pressing import press
+from ..finite.deformed_solution import press_finger, stimulate_deformed
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition
 from ..scene.scene import Scene
@@ -154,8 +153,7 @@ def _coarsened(scene: Scene, covering: Scene, most_contact: int, most_unknowns: 
 def deformed_solution(scene: Scene, section: SectionMesh) -> Solution:
     """The solution with friction of a scene with finite kinematics. Raises FingerpadError."""
     body, (condition,) = body_of(scene), scene.device.conditions
-    pressed = press(scene, section, body, Interface.SHEAR)
-    finger = pressed_finger(scene, section, body, pressed, Interface.SHEAR)
+    finger = press_finger(scene, section, body, Interface.SHEAR)
     return _with_numbers(stimulate_deformed(scene, finger, condition))
 
 

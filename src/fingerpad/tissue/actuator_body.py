@@ -38,5 +38,5 @@ def condense_body(scene: Scene) -> CondensedBody:
     dofs = node_dofs(basis)
     loads = unit_loads(dofs, face, matrix.shape[0])
     none = csr_matrix((0, matrix.shape[0]))
-    compliance, _, _ = condense(matrix, dofs, dofs[:, y == y.min()].ravel(), loads, none)
+    compliance = condense(matrix, dofs, dofs[:, y == y.min()].ravel(), loads, none).compliance
     return CondensedBody(mesh.doflocs[0, face], compliance + np.tile(row.body.mount(), (face.size, face.size)))

@@ -52,6 +52,13 @@ class CondensedBody:
     compliance: FloatArray
 
 
+def displaced(compliance: FloatArray, force: FloatArray) -> FloatArray:
+    """Displacement (n, 2) [mm] of nodes under forces (n, 2) [N/mm], by their compliance (2n, 2n) [mm per N/mm], ordered
+    x0, y0, x1, y1, ...
+    """
+    return np.asarray((compliance @ force.ravel()).reshape(-1, 2))
+
+
 def load_body(path: Path | None) -> CondensedBody | None:
     """Read the body that `store.save` wrote, or nothing where actuators are rigid. Raises ResultError."""
     return load(path, CondensedBody) if path else None

@@ -88,7 +88,8 @@ def condense_parts(
         compliance = unfold(together[0], against[0], columns, columns)
         strain_map = unfold(together[1], against[1], rows, columns)
     else:
-        compliance, strain_map, residual = condense(matrix, parts.dofs, parts.held[0], parts.loads[0], strain)
+        found = condense(matrix, parts.dofs, parts.held[0], parts.loads[0], strain)
+        compliance, strain_map, residual = found.compliance, found.strain, found.residual
     arc = arc_length(points)
     return CondensedSection(
         position=tractions.position,
@@ -116,23 +117,22 @@ def _condensed_halves(
     axes = [unit_forces(np.setdiff1d(held, still), matrix.shape[0]) for held in parts.held]
     across = np.flatnonzero(abs(mirrored - opposite).sum(axis=0))  # loads that reach over the mid-line
     all_loads = csc_matrix(hstack([mirrored, opposite[:, across], *axes]))
-    compliance, strain_map, residual = condense(matrix, parts.dofs, still, all_loads, read)
+    found = condense(matrix, parts.dofs, still, all_loads, read)
 
     ends = np.cumsum([mirrored.shape[1], across.size, *(axis.shape[1] for axis in axes)])
     first = np.arange(ends[0])
     second = first.copy()
     second[across] = np.arange(ends[0], ends[1])
-    together = _holding(compliance, strain_map, first, np.arange(ends[1], ends[2]))
-    against = _holding(compliance, strain_map, second, np.arange(ends[2], ends[3]))
-    return together, against, residual
+    together = _holding(found, first, np.arange(ends[1], ends[2]))
+    against = _holding(found, second, np.arange(ends[2], ends[3]))
+    return together, against, found.residual
 
 
-def _holding(
-    compliance: FloatArray, strain: FloatArray, loads: np.ndarray, held: np.ndarray
-) -> tuple[FloatArray, FloatArray]:
+def _holding(found: Answers, loads: np.ndarray, held: np.ndarray) -> tuple[FloatArray, FloatArray]:
     """Maps of some loads (k,) while forces that belong to other columns (h,) keep their own displacements at zero.
     Raises CondensationError.
     """
+    compliance, strain = found.compliance, found.strain
     try:
         reaction = np.linalg.solve(compliance[np.ix_(held, held)], compliance[np.ix_(held, loads)])
     except np.linalg.LinAlgError:
@@ -141,10 +141,8 @@ def _holding(
     return (left + left.T) / 2.0, strain[:, loads] - strain[:, held] @ reaction
 
 
-def condense(
-    matrix: csc_matrix, dofs: np.ndarray, fixed: np.ndarray, loads: csc_matrix, strain: csr_matrix
-) -> tuple[FloatArray, FloatArray, float]:
-    """Compliance (k, k), strain map (n_rows of strain, k) and relative residual of k loads.
+def condense(matrix: csc_matrix, dofs: np.ndarray, fixed: np.ndarray, loads: csc_matrix, strain: csr_matrix) -> Answers:
+    """Compliance (k, k) and strain map (n_rows of strain, k) of k loads.
 
     matrix: stiffness; dofs: (2, n_nodes) unknowns of the nodes; fixed: unknowns that do not move (loads on them are
     borne without an answer); loads: nodal forces (n_unknowns, k) of unit forces; strain: rows that are read, as a
@@ -154,8 +152,7 @@ def condense(
     displacements by the compliance are off those of a solution by more than READ_TOLERANCE.
     """
     order = fill_reducing_order(matrix, dofs, fixed)
-    found = condense_ordered(csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order])
-    return found.compliance, found.strain, found.residual
+    return condense_ordered(csc_matrix(matrix[order][:, order]), csc_matrix(loads[order]), strain[:, order])
 
 
 def condense_ordered(

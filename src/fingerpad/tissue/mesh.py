@@ -134,7 +134,7 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
     large.
     """
     row, outline = scene.device.actuators, _Outline(scene.model.finger)
-    under = np.array([[row.positions[0] - row.width / 2.0, row.positions[-1] + row.width / 2.0]])
+    under = np.array([row.span])
     right, left = _Graded(edges, under), _Graded(-edges[:, ::-1], -under[:, ::-1])
     mirrored = row.mirrors or scene.kinematics is Kinematics.SMALL
     sides = [_both(right, left)] if mirrored else [right, left]
