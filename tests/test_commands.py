@@ -53,18 +53,23 @@ from fingerpad.prediction.caveats import (
     TOO_FAR,
     TOO_FAR_OUT,
     TOO_WIDE,
-    noted_rows,
+    note_of,
+    rival_caveats,
     scene_caveats,
+    score_caveats,
     solution_caveats,
     stimulus_caveats,
 )
 from fingerpad.prediction.forecast import LEFT_OUT, SILENT, forecast, steps
 from fingerpad.prediction.orders import orders
 from fingerpad.prediction.ranking import RANKS, ranks
-from fingerpad.prediction.scoring import Condensed, Meshed, read_out
+from fingerpad.prediction.scoring import Condensed, Meshed, read_solution
+from fingerpad.readouts.gabor import filtered_readouts
 from fingerpad.readouts.resampling import resampling_to_grid
+from fingerpad.readouts.roughness import roughness_scores
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
+from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.sources import Origin, quantities
@@ -656,11 +661,8 @@ def test_caveats_are_notes_of_scores() -> None:
     solution = replace(solved("device2", "alternate_090", Interface.SHEAR), cuts=4, searches=11)
     section, body = condensed("device2")
     reading = Condensed(section, body, resampling_to_grid(section.arc, given.model.gabor.spacing))
-    condition = given.device.condition("alternate_090")
-    read = read_out(given, reading, solution)
-    strain, change = noted_rows(given, condition, Interface.SHEAR, solution, read)
-    assert strain["note"] == change["note"]
-    assert strain["note"] == "increments were halved 4 times; 11 increments did not settle at once"
+    read = read_solution(given, reading, given.device.condition("alternate_090"), Interface.SHEAR, solution)
+    assert note_of(read.caveats) == "increments were halved 4 times; 11 increments did not settle at once"
 
 
 def test_check_says_how_high_the_outermost_faces_lie(capsys: pytest.CaptureFixture[str]) -> None:
@@ -778,30 +780,36 @@ def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
     assert caveat.startswith("actuators that leave the skin, counted from the left: 2 (")
 
 
-def test_a_peak_that_the_next_comes_near_to_is_doubted() -> None:
-    """Slippery pins that slide to and almost as far fro: the first stroke is read, on half the sizes the second."""
-    tangential = np.outer([0.02, -0.01982], [1.0, -1.0, 1.0, -1.0])
-    strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential)
-    (caveat,) = solution_caveats(
-        scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS), Interface.FRICTIONLESS
-    )
-    assert caveat.startswith("at another time strain changes by 9")
+def test_a_time_that_might_as_well_be_read_is_told_where_it_scores_otherwise() -> None:
+    """Slippery pins that slide to and almost as far fro; twice the change scores otherwise, a twenty-fifth more does not."""
+    given = scene("device2")
+    section, _ = condensed("device2")
+    resampling = resampling_to_grid(section.arc, given.model.gabor.spacing)
+    tangential = np.outer([0.02, -0.0197], [1.0, -1.0, 1.0, -1.0])
+    strokes = Condition("strokes", "test", 0.0, np.array([0.1, 0.3]), np.zeros_like(tangential), tangential)
+    found = solve("device2", strokes, Interface.FRICTIONLESS)
+    reading = found.reading
+    assert reading.rivalled
+    (caveat,) = score_caveats(given, strokes, Interface.FRICTIONLESS, found, resampling)
+    changes = [dict.fromkeys(Readout, each) for each in (reading.change_of_strain, reading.rival_change)]
+    filtered = [filtered_readouts(resampling, each, given.model.gabor) for each in changes]
+    read, other = (roughness_scores(given, each)[Readout.CHANGE_OF_STRAIN] for each in filtered)
+    assert abs(other / read - 1.0) > 0.05
+    now, then = strokes.time[[reading.time, reading.rival]]
+    assert caveat.startswith(f"read at {now:g} s; at {then:g} s strain changes by ")
+    assert f"{other:.3g} in place of {read:.3g} mm2" in caveat
+    for factor, told in ((1.04, False), (2.0, True)):
+        alike = replace(reading, rival_change=factor * reading.change_of_strain)
+        assert bool(rival_caveats(given, strokes, alike, resampling)) is told
     there = replace(strokes, time=strokes.time[:1], normal=strokes.normal[:1], tangential=tangential[:1])
-    alone = solve("device2", there, Interface.FRICTIONLESS)
-    assert solution_caveats(scene("device2"), alone, Interface.SHEAR) == []
-    for rival, doubted in ((0.97, False), (0.99, True)):  # finer meshes move it by less than 0.01
-        near = replace(alone, reading=replace(alone.reading, rival_peak=rival))
-        assert bool(solution_caveats(scene("device2"), near, Interface.SHEAR)) is doubted
+    assert rival_caveats(given, there, solve("device2", there, Interface.FRICTIONLESS).reading, resampling) == []
 
 
 def test_a_peak_that_mirrors_the_one_that_is_read_is_no_rival() -> None:
     """Two slippery pins to the right, and the other two almost as far to the left, which scores alike."""
     tangential = np.array([[0.02, 0.0, 0.02, 0.0], [0.0, -0.0199, 0.0, -0.0199]])
     strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential)
-    assert (
-        solution_caveats(scene("device2"), solve("device2", strokes, Interface.FRICTIONLESS), Interface.FRICTIONLESS)
-        == []
-    )
+    assert not solve("device2", strokes, Interface.FRICTIONLESS).reading.rivalled
 
 
 def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
@@ -1219,7 +1227,7 @@ def test_a_device_with_shear_alone_says_why_the_rest_is_left_out() -> None:
     )  # edges, and so meshes, are those of the interfaces that are solved
     without = [row for row in alone if row["interface"] == "frictionless"]
     assert len(without) == len(both) / 2
-    assert all(row["score"] is None and row["caveats"] == [LEFT_OUT] for row in without)
+    assert all(row["score"] is None and row["caveats"] == (LEFT_OUT,) for row in without)
 
 
 # Where things are, what is loaded, and exit codes
@@ -1399,7 +1407,7 @@ def test_why_there_is_nothing_without_friction_depends_on_control(monkeypatch: p
     for control, why in ((Control.FORCE, SILENT), (Control.DISPLACEMENT, LEFT_OUT)):
         rows = forecast(replace(base, device=replace(base.device, control=control, frictionless=False)), error=False)
         assert rows
-        assert all(row["caveats"] == [why] for row in rows)
+        assert all(row["caveats"] == (why,) for row in rows)
 
 
 def test_errors_are_solved_up_to_the_time_that_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -1427,7 +1435,7 @@ def test_deformable_actuators_are_so_with_finite_kinematics(monkeypatch: pytest.
         asked.append(own)
         raise ContactError("enough")
 
-    monkeypatch.setattr(scoring, "press", press)
+    monkeypatch.setattr(scoring, "press_finger", press)
     given = scene("device3").with_kinematics(Kinematics.FINITE)
     meshed = Meshed(object(), object(), object())  # type: ignore[arg-type]
     with pytest.raises(ContactError, match="enough"):

@@ -754,7 +754,7 @@ def make_solution(contact: CondensedSection, row: ActuatorRow, traction: FloatAr
         contact=none,
         actuator_force=none,
         arc=none,
-        reading=Reading(time=0, strain=none, change_of_strain=none, rival_peak=0.0),
+        reading=Reading(time=0, strain=none, change_of_strain=none, rival=0, rival_change=none, rival_peak=1.0),
         pressure=traction,
         shear=0.5 * traction,
         actuator=row.nearest(contact.position[:, 0]),

@@ -66,22 +66,35 @@ def test_the_peak_does_not_depend_on_where_receptors_lie_close(finer: str) -> No
 
 
 @pytest.mark.parametrize(
-    ("other", "mirrors", "rival"),
+    ("other", "mirrors", "rivals"),
     [
-        ([0.0, 0.0, 0.0, 0.99, 0.0], True, 0.0),  # but for 1 %, the mirror image of what is read
-        ([0.0, 0.0, 0.0, 0.99, 0.0], False, 0.99),  # which is another pattern to a row that does not mirror
-        ([0.0, 0.99, 0.0, 0.0, 0.0], True, 0.0),  # as just beside the peak
-        ([0.0, 0.99, 0.0, 0.0, 0.0], False, 0.0),
-        ([0.0, 0.0, 0.99, 0.0, 0.0], True, 0.99),
-        ([0.0, 0.5, 0.0, 0.5, 0.0], True, 0.5**0.5),
+        ([0.0, 0.0, 0.0, 0.99, 0.0], True, False),  # but for 1 %, the mirror image of what is read
+        ([0.0, 0.0, 0.0, 0.99, 0.0], False, True),  # which is another pattern to a row that does not mirror
+        ([0.0, 0.99, 0.0, 0.0, 0.0], True, False),  # as just beside the peak
+        ([0.0, 0.99, 0.0, 0.0, 0.0], False, False),
+        ([0.0, 0.0, 0.99, 0.0, 0.0], True, True),
+        ([0.0, 0.0, 0.94, 0.0, 0.0], True, False),  # as people may tell apart
     ],
 )
-def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], mirrors: bool, rival: float) -> None:
-    """Five receptors, of which one is stretched by 1 at the time that is read."""
-    exx = np.array([np.zeros(5), np.array([0.0, 1.0, 0.0, 0.0, 0.0]), other])
-    components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
-    assert read_receptors(components, np.arange(5.0), mirrors=mirrors).rival_peak == pytest.approx(rival)
-    assert read_receptors(components[:2], np.arange(5.0), mirrors=mirrors).rival_peak == 0.0
+def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], mirrors: bool, rivals: bool) -> None:
+    """Five receptors, of which one is stretched by 1 at the time that is read, the second after one of settling."""
+    peak = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
+    exx = np.array([np.zeros(5), 0.9 * peak, peak, other])
+    components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(4, -1)
+    reading = read_receptors(components, np.arange(5.0), settling=1, mirrors=mirrors)
+    assert (reading.time, reading.rival) == (1, 2 if rivals else 1)
+    assert reading.rivalled is rivals
+    assert reading.rival_change.tolist() == (other if rivals else peak.tolist())
+    assert reading.rival_peak == pytest.approx(max(other) if rivals else 1.0)
+
+
+def test_of_several_rivals_the_most_different_one_counts() -> None:
+    """Its score, too, may differ most."""
+    exx = np.zeros((4, 5))
+    exx[1:, 1:4] = [[1.0, 0.0, 0.0], [0.98, 0.15, 0.0], [0.0, 0.96, 0.0]]
+    components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(4, -1)
+    reading = read_receptors(components, np.arange(5.0))
+    assert (reading.time, reading.rival) == (0, 2)
 
 
 @pytest.mark.parametrize("wavelength", [2.8, 1.15])

@@ -1,5 +1,5 @@
 # Roughness scores: of one device, condition and interface, their errors from a coarser mesh, and the tidy table of all.
-# REQUIRED INPUTS: results/{kinematics}/{device}/edges.csv, solution.npz and filtered.npz in results/{kinematics}/{device}/{condition}/{interface}.
+# REQUIRED INPUTS: edges.csv and resampling.npz in results/{kinematics}/{device}, solution.npz and filtered.npz in results/{kinematics}/{device}/{condition}/{interface}.
 # OUTPUTS: score.csv beside it, results/{kinematics}/{device}/check.csv, results/scores.csv
 
 
@@ -10,6 +10,7 @@ rule score:
         recordings=ancient(recordings_of),
         solution=solution_of,
         filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
+        resampling="results/{kinematics}/{device}/resampling.npz",
     output:
         score="results/{kinematics}/{device}/{condition}/{interface}/score.csv",
     log:

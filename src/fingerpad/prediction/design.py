@@ -17,6 +17,7 @@ from ..contact.solution import Solution
 from ..errors import ContactError
 from ..readouts.accuracy import COARSENING, score_errors, with_error
 from ..readouts.gabor import FilteredReadouts
+from ..readouts.roughness import score_rows
 from ..scene.contact_law import Interface
 from ..scene.device import ActuatorRow, Condition, Control, Device, evenly
 from ..scene.readout import Readout
@@ -24,7 +25,7 @@ from ..scene.scene import Model, Scene
 from ..scene.stimuli import ALTERNATE, at_peak
 from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import mesh_section
-from .caveats import noted_rows
+from .caveats import note_of, score_caveats
 from .scoring import Condensed, condense_mesh, read_out
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
@@ -137,7 +138,8 @@ def _moved(row: PressedRow, condition: Condition) -> Answer:
     scene = row.scene.with_conditions([condition])
     solution = stimulate(scene, row.indented, condition)
     readouts = read_out(scene, row.skin, solution)
-    rows = noted_rows(_as_meshed(scene), condition, Interface.SHEAR, solution, readouts)
+    caveats = score_caveats(_as_meshed(scene), condition, Interface.SHEAR, solution, row.skin.resampling)
+    rows = score_rows(scene, condition, Interface.SHEAR, readouts, note_of(caveats))
     return Answer(scene, row.skin.section, solution, readouts, rows)
 
 

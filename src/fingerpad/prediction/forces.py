@@ -62,10 +62,10 @@ def _rows(scene: Scene, solved: Solved, coarser: Mapping[Case, Solved]) -> Itera
     if isinstance(found, UnsolvedError):
         nothing = dict.fromkeys(("time", "time_unit", "is_read", "actuator", "x_mm", NORMAL, TANGENTIAL, ERROR))
         note = f"{NO_PREDICTION}: {found}"
-        yield where | nothing | {"note": note, "caveats": [note]}
+        yield where | nothing | {"note": note, "caveats": (note,)}
         return
     errors, note = _errors(found, coarser.get(solved.case))
-    caveats = caveats_of(scene, condition, found, solved.interface) + ([note] if note else [])
+    caveats = (*caveats_of(scene, condition, found, solved.interface), *([note] if note else []))
     for number, time in enumerate(condition.times):
         at = {"time": float(time), "time_unit": condition.time_unit, "is_read": number == 1 + found.reading.time}
         for actuator, x in enumerate(scene.device.actuators.positions):

@@ -13,7 +13,6 @@ from ..readouts.roughness import unpredicted_rows
 from ..scene.contact_law import Interface
 from ..scene.device import Control
 from ..scene.scene import Scene
-from .caveats import caveats_of
 from .edges import edge_intervals
 from .ranking import ranks
 from .scoring import Case, ReadSolution, error_rows, solved_rows
@@ -25,7 +24,7 @@ LEFT_OUT = "skipped by `interfaces` in the device file"
 def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
     """Rows of the score table, as the workflow's, with `rank`, `first_rank` and `last_rank` (`ranks`), `indentation_mm`
     and `force_N_per_mm` of pre-indentation, `sliding_share` (`Solution.sliding_share`), `time` at which a condition
-    of several times is read, its `time_unit`, and `caveats` (a list of sentences) behind.
+    of several times is read, its `time_unit`, and `caveats` (sentences) behind.
 
     What cannot be meshed or solved has no score, and a note that says why. error: whether to solve once more, more
     coarsely, for `score_error`; without, or if that cannot be done, as the note then says, that is None. step: called
@@ -39,22 +38,22 @@ def forecast(scene: Scene, error: bool = True, step: Callable[[], object] = lamb
     found = [*rows, *silent]
     table = with_errors(found, checks) if error else [with_error(row, None) for row in found]
     why = LEFT_OUT if scene.device.control is Control.DISPLACEMENT else SILENT
-    caveats = [_caveats(scene, row, read, checks) for row in table[: len(rows)]] + [[why] for _ in silent]
+    caveats = [_caveats(row, read, checks) for row in table[: len(rows)]] + [[why] for _ in silent]
     return [
-        row | rank | _contact(scene, row, read) | {"caveats": own}
+        row | rank | _contact(scene, row, read) | {"caveats": tuple(own)}
         for row, rank, own in zip(table, ranks(table), caveats, strict=True)
     ]
 
 
 def _caveats(
-    scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution], checks: Sequence[Mapping[str, Any]]
+    row: Mapping[str, Any], read: Mapping[Case, ReadSolution], checks: Sequence[Mapping[str, Any]]
 ) -> list[str]:
     """What to know of a row: the caveats of its solution and why its error is unknown, or why it has no score."""
     case = row["condition"], Interface(row["interface"])
     if case not in read:
         return [row["note"]]
     unknown = [check["note"] for check in checks if check["note"] and case_of(check) == case_of(row)]
-    return caveats_of(scene, scene.device.condition(case[0]), read[case].solution, case[1]) + unknown
+    return [*read[case].caveats, *unknown]
 
 
 def _contact(scene: Scene, row: Mapping[str, Any], read: Mapping[Case, ReadSolution]) -> dict[str, float | str | None]:

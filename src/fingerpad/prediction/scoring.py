@@ -15,7 +15,7 @@ from ..finite.deformed_solution import press_finger, stimulate_deformed
 from ..readouts.accuracy import COARSENING, score_errors
 from ..readouts.gabor import FilteredReadouts, filtered_readouts
 from ..readouts.resampling import resampling_to_grid, section_resampling
-from ..readouts.roughness import NO_PREDICTION, unscored_rows
+from ..readouts.roughness import NO_PREDICTION, score_rows, unscored_rows
 from ..readouts.strain import Resampling
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
@@ -26,7 +26,7 @@ from ..tissue.actuator_body import body_of
 from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import SectionMesh, mesh_section
-from .caveats import noted_rows
+from .caveats import note_of, score_caveats
 
 Result = TypeVar("Result")
 Case = tuple[str, Interface]  # condition, interface
@@ -53,10 +53,11 @@ class Meshed:
 
 @dataclass(frozen=True)
 class ReadSolution:
-    """A solution and what was read of it."""
+    """A solution, what was read of it and, where that is asked for, what to know before believing it."""
 
     solution: Solution
     filtered: FilteredReadouts
+    caveats: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -168,8 +169,8 @@ def predicted_rows(scene: Scene, condensed: Condensed | Meshed) -> list[dict[str
     for solved in solve_scene(scene, condensed):
         if isinstance(solved.solution, UnsolvedError):
             raise solved.solution
-        read = read_out(scene, condensed, solved.solution)
-        rows += noted_rows(scene, solved.condition, solved.interface, solved.solution, read)
+        read = read_solution(scene, condensed, solved.condition, solved.interface, solved.solution)
+        rows += score_rows(scene, solved.condition, solved.interface, read.filtered, note_of(read.caveats))
     return rows
 
 
@@ -190,9 +191,9 @@ def solved_rows(
             note = f"{NO_PREDICTION}: {solved.solution}"
             rows += unscored_rows(scene, solved.condition, solved.interface, note)
         else:
-            filtered = read_out(scene, condensed, solved.solution)
-            read[solved.case] = ReadSolution(solved.solution, filtered)
-            rows += noted_rows(scene, solved.condition, solved.interface, solved.solution, filtered)
+            own = read_solution(scene, condensed, solved.condition, solved.interface, solved.solution)
+            read[solved.case] = own
+            rows += score_rows(scene, solved.condition, solved.interface, own.filtered, note_of(own.caveats))
         step()
     return rows, read
 
@@ -235,6 +236,14 @@ def pressed_device(
         finger = press_finger(scene, condensed.section, condensed.body, interface)
         return partial(stimulate_deformed, scene, finger)
     return partial(stimulate, scene, indent_device(scene, condensed.section, condensed.body, interface))
+
+
+def read_solution(
+    scene: Scene, condensed: Condensed | Meshed, condition: Condition, interface: Interface, solution: Solution
+) -> ReadSolution:
+    """A solution of a condition at an interface, read."""
+    caveats = score_caveats(scene, condition, interface, solution, condensed.resampling)
+    return ReadSolution(solution, read_out(scene, condensed, solution), tuple(caveats))
 
 
 def read_out(scene: Scene, condensed: Condensed | Meshed, solution: Solution) -> FilteredReadouts:

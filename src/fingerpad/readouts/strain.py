@@ -12,8 +12,11 @@ from ..scene.readout import Readout
 from ..tissue.compliance import VOIGT
 from .comparison import CONSTANT
 
-# Least relative difference [1] at which two changes count as different patterns; source: a pattern that is as large as
-# its peak but for what makes a rival (`caveats.RIVAL`, a fiftieth) differs from it by no more than that
+# Change at another time over that which is read [1], from which on people may answer the other; source: assumption:
+# nobody tells a twentieth apart; between the shipped mesh and halves of it this moves by 0.007 (eight patterns of pins)
+RIVAL = 0.95
+# Least relative difference [1] at which two changes count as different patterns; source: a pattern that swells and
+# fades and is as large as its peak but for RIVAL differs from it by half of that
 UNLIKE = 0.1
 # Relative difference [1] up to which changes count as equally large; source: those at times that mirror differ by 1e-11
 TIED = 1e-6
@@ -36,14 +39,23 @@ def maximum_principal(components: FloatArray) -> FloatArray:
 class Reading:
     """What receptors say of a stimulus: both read-outs at one of its times, in the unit of a measure.
 
-    time: index of that time. strain, change_of_strain: (m,). rival_peak: how large the change is at the time that comes
-    next to being read, over that which is read [1]: root mean squares over arc length, zero without such a time.
+    time: index of that time. strain, change_of_strain: (m,). rival: index of the time whose change differs most from
+    that which is read, of those at which it is as large but for RIVAL and another pattern; the one that is read if
+    there is none. rival_change: (m,) the change then. rival_peak: how large that is over the one which is read [1]:
+    root mean squares over arc length.
     """
 
     time: int
     strain: FloatArray
     change_of_strain: FloatArray
+    rival: int
+    rival_change: FloatArray
     rival_peak: float
+
+    @property
+    def rivalled(self) -> bool:
+        """Whether there is such a time."""
+        return self.rival != self.time
 
     @property
     def readouts(self) -> dict[Readout, FloatArray]:
@@ -71,7 +83,15 @@ def read_receptors(
     size = _size(changes, arc)
     # ASSUME: stimulus.playback: of several times people answer the one at which receptors change most
     time = int(np.argmax(size >= (1.0 - TIED) * size.max()))  # the first of those that mirror
-    return Reading(settling + time, strains[time], changes[time], _rival_peak(changes, size, time, arc, mirrors))
+    rival = _rival(changes, size, time, arc, mirrors)
+    return Reading(
+        time=settling + time,
+        strain=strains[time],
+        change_of_strain=changes[time],
+        rival=settling + rival,
+        rival_change=changes[rival],
+        rival_peak=float(size[rival] / size[time]) if size[time] > 0.0 else 1.0,
+    )
 
 
 def without_rounding(change: FloatArray, value: FloatArray) -> FloatArray:
@@ -79,15 +99,16 @@ def without_rounding(change: FloatArray, value: FloatArray) -> FloatArray:
     return change if np.abs(change).max() > CONSTANT * np.abs(value).max() else np.zeros_like(change)
 
 
-def _rival_peak(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray, mirrors: bool) -> float:
-    """`Reading.rival_peak` of changes (n_times, m) of some size (n_times,).
+def _rival(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray, mirrors: bool) -> int:
+    """`Reading.rival` of changes (n_times, m) of some size (n_times,), but for the times of settling.
 
     Only times count at which the change is another, by UNLIKE, than what is read, and where the row mirrors than its
     mirror image: those just beside a peak would score alike, as does the other half of such a row's cycle.
     """
     images = [changes[time], changes[time, ::-1]] if mirrors else [changes[time]]
     apart = np.min([_size(changes - image, arc) for image in images], axis=0)
-    return float((size[apart > UNLIKE * size[time]] / size[time]).max(initial=0.0))
+    apart[(size < RIVAL * size[time]) | (apart <= UNLIKE * size[time])] = 0.0
+    return int(np.argmax(apart)) if apart.any() else time
 
 
 def _size(changes: FloatArray, arc: FloatArray) -> FloatArray:
