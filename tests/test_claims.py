@@ -3,6 +3,7 @@
 import io
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,16 +12,10 @@ import pytest
 
 from fingerpad.perception.claims import COLUMNS, claims_table
 from fingerpad.perception.correlation import correlation_table
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.readouts.comparison import Relation, Score, classes, relation
+from literature import CONDITIONS, LITERATURE
 
 ROOT = Path(__file__).parents[1]
-PHASES = (0, 90, 180)
-CONDITIONS = {
-    "device1": [f"{dispersion}_{phase:03d}" for dispersion in ("low", "medium", "high") for phase in PHASES],
-    "device2": [f"alternate_{phase:03d}" for phase in PHASES],
-    "device3": [f"alternate_{phase:03d}" for phase in PHASES],
-}
 ERROR = 1e-3  # of every score: far below what tells them apart
 NOTHING = [math.nan] * 3
 AS_IN_THE_PAPER: dict[tuple[str, str, str], list[float]] = {
@@ -53,12 +48,7 @@ def make_scores(change: dict[tuple[str, str, str], list[float]] | None = None) -
 
 def correlate(scores: pd.DataFrame, kind: str = "measured") -> pd.DataFrame:
     """Correlations with the ratings in data/, taken for measured ones unless told otherwise."""
-    return correlation_table(
-        scores,
-        read_ratings(ROOT / "data/ratings.csv", CONDITIONS).assign(kind=kind),
-        read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS),
-        read_published(ROOT / "data/published_r2.csv"),
-    )
+    return correlation_table(scores, replace(LITERATURE, ratings=LITERATURE.ratings.assign(kind=kind)))
 
 
 def claims_of(change: dict[tuple[str, str, str], list[float]] | None = None) -> pd.DataFrame:

@@ -7,19 +7,13 @@ import pandas as pd
 import pytest
 
 from fingerpad.perception.order import order_matrix
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scenefile import build_device, build_model, read_yaml
+from literature import CONDITIONS, DATA, LITERATURE
 
 ROOT = Path(__file__).parents[1]
-DATA = ROOT / "data"
 DEVICES = ("device1", "device2", "device3")
-
-
-def conditions() -> dict[str, list[str]]:
-    files = {name: ROOT / "config/devices" / f"{name}.yaml" for name in DEVICES}
-    return {name: [c.name for c in build_device(file, read_yaml(file)).conditions] for name, file in files.items()}
 
 
 @pytest.mark.parametrize("path", sorted(DATA.glob("*.csv")), ids=lambda path: path.name)
@@ -50,7 +44,7 @@ def test_finger_has_the_layers_of_table_2() -> None:
 
 
 def test_published_r2_covers_every_device_interface_and_readout_once() -> None:
-    published = read_published(DATA / "published_r2.csv").set_index(["device", "interface", "readout"])
+    published = LITERATURE.published.set_index(["device", "interface", "readout"])
     everything = pd.MultiIndex.from_product([DEVICES, [*Interface], [*Readout]])
     assert sorted(published.index) == sorted(everything)
     numbers = published["r2"].dropna()
@@ -60,8 +54,8 @@ def test_published_r2_covers_every_device_interface_and_readout_once() -> None:
 
 
 def test_every_condition_has_a_rating_called_ordinal_surrogate() -> None:
-    ratings = read_ratings(DATA / "ratings.csv", conditions())
-    assert ratings.groupby("device")["condition"].apply(list).to_dict() == conditions()
+    ratings = LITERATURE.ratings
+    assert ratings.groupby("device")["condition"].apply(list).to_dict() == CONDITIONS
     surrogates = ratings[ratings["kind"] == "surrogate"]
     assert surrogates["source"].str.contains("ordinal surrogate").all()
 
@@ -69,9 +63,9 @@ def test_every_condition_has_a_rating_called_ordinal_surrogate() -> None:
 def test_surrogates_have_the_stated_order() -> None:
     """Rows with `<` are strict, rows with `=` are equal; of pairs that are left open the rule for Device 1 ties one."""
     ties = {"device1": {("low_180", "medium_090")}}
-    ratings = read_ratings(DATA / "ratings.csv", conditions())
-    order = read_stated_order(DATA / "stated_order.csv", conditions())
-    for device, names in conditions().items():
+    ratings = LITERATURE.ratings
+    order = LITERATURE.order
+    for device, names in CONDITIONS.items():
         rating = ratings[ratings["device"] == device].set_index("condition")["rating"].loc[names].to_numpy()
         at_most = order_matrix(names, order[order["device"] == device])
         equal = at_most & at_most.T
@@ -84,17 +78,17 @@ def test_surrogates_have_the_stated_order() -> None:
 
 
 def test_equal_ratings_are_stated_exactly_where_the_stimulus_is_the_same() -> None:
-    order = read_stated_order(DATA / "stated_order.csv", conditions())
+    order = LITERATURE.order
     for name in DEVICES:
         file = ROOT / "config/devices" / f"{name}.yaml"
         device = build_device(file, read_yaml(file))
-        at_most = order_matrix(conditions()[name], order[order["device"] == name])
+        at_most = order_matrix(CONDITIONS[name], order[order["device"] == name])
         same = [[a.same_stimulus(b) for b in device.conditions] for a in device.conditions]
         np.testing.assert_array_equal(at_most & at_most.T, same)
 
 
 def test_surrogates_of_device1_follow_their_formula_and_the_stated_bound() -> None:
-    ratings = read_ratings(DATA / "ratings.csv", conditions())
+    ratings = LITERATURE.ratings
     rating = ratings[ratings["device"] == "device1"].set_index("condition")["rating"]
     groups = read_yaml(ROOT / "config/devices/device1.yaml")["stimulus"]["dispersions"]
     for dispersion, entry in groups.items():
@@ -111,6 +105,6 @@ def test_surrogates_of_device1_follow_their_formula_and_the_stated_bound() -> No
     [("device2", ["000", "090", "180"]), ("device3", ["180", "000", "090"])],
 )
 def test_surrogates_of_devices_2_and_3_are_ranks(device: str, ascending: list[str]) -> None:
-    ratings = read_ratings(DATA / "ratings.csv", conditions())
+    ratings = LITERATURE.ratings
     rating = ratings[ratings["device"] == device].set_index("condition")["rating"]
     assert [rating[f"alternate_{phase}"] for phase in ascending] == [1.0, 2.0, 3.0]

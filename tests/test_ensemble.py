@@ -30,15 +30,15 @@ from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.pages.robustness import robustness_values
 from fingerpad.perception.correlation import correlation_table
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.prediction import scoring
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
 from fingerpad.scene.variation import with_value
+from literature import LITERATURE
 from scenes import scene
-from test_claims import CONDITIONS, make_scores
+from test_claims import make_scores
 
 ROOT = Path(__file__).parents[1]
 SCHEMAS = ROOT / "workflow" / "schemas"
@@ -175,9 +175,7 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     return ensemble_tables(
         pd.concat(members).drop(columns="score_error"),
         usual,
-        read_ratings(ROOT / "data/ratings.csv", CONDITIONS).assign(kind="measured"),
-        read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS),
-        read_published(ROOT / "data/published_r2.csv"),
+        replace(LITERATURE, ratings=LITERATURE.ratings.assign(kind="measured")),
     )
 
 
@@ -376,14 +374,8 @@ def test_the_scenes_as_configured_have_their_own_errors() -> None:
     """As a member of the ensemble, whose errors are relative ones of the score table."""
     recorded = pd.read_csv(ROOT / "tests" / "expected" / "scores.csv")
     members = recorded.drop(columns="score_error").assign(half_cycle=FIRST, varied=AS_CONFIGURED)
-    known = {name: list(own["condition"].unique()) for name, own in recorded.groupby("device")}
-    literature = (
-        read_ratings(ROOT / "data" / "ratings.csv", known),
-        read_stated_order(ROOT / "data" / "stated_order.csv", known),
-        read_published(ROOT / "data" / "published_r2.csv"),
-    )
-    _, correlations, _ = ensemble_tables(members, recorded, *literature)
-    expected = correlation_table(recorded, *literature)
+    _, correlations, _ = ensemble_tables(members, recorded, LITERATURE)
+    expected = correlation_table(recorded, LITERATURE)
     both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
     assert len(both) == len(expected)
     np.testing.assert_allclose(both["r_error"], both["r_error_expected"], rtol=1e-9)

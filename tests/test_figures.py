@@ -52,6 +52,7 @@ from fingerpad.figures.style import (
 from fingerpad.figures.variation import variation_figure
 from fingerpad.figures.workflow import workflow_figure
 from fingerpad.perception.correlation import correlation_table
+from fingerpad.perception.ratings import Literature
 from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.strain import Reading
 from fingerpad.scene.contact_law import Interface
@@ -163,13 +164,14 @@ PUBLISHED = pd.DataFrame(
     ],
     columns=["device", "interface", "readout", "r2", "slope", "words", "source"],
 )
+LITERATURE = Literature(RATINGS, ORDER, PUBLISHED)
 
 
 @pytest.fixture(scope="module")
 def correlations(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
     """The table as figures get it: through a CSV file."""
     path = tmp_path_factory.mktemp("tables") / "correlations.csv"
-    correlation_table(SCORES, RATINGS, ORDER, PUBLISHED).to_csv(path, index=False)
+    correlation_table(SCORES, LITERATURE).to_csv(path, index=False)
     return pd.read_csv(path)
 
 
@@ -242,7 +244,7 @@ def test_captions_tell_unknown_errors_from_small_ones(correlations: pd.DataFrame
 
 
 def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) -> None:
-    measured = correlation_table(SCORES, RATINGS.assign(kind="measured"), ORDER, PUBLISHED)
+    measured = correlation_table(SCORES, replace(LITERATURE, ratings=RATINGS.assign(kind="measured")))
     text = words(correlation_figure(SCORES, RATINGS, measured, TITLES, Kinematics.SMALL))
     assert "surrogate" not in text
     assert "(measured)" in text
@@ -273,7 +275,7 @@ def test_unrated_device_is_ranked_and_not_correlated(correlations: pd.DataFrame)
 
 def test_unrated_conditions_with_one_score_share_a_place() -> None:
     scores = make_scores([UNRATED]).assign(score=0.3)
-    correlations = correlation_table(scores, RATINGS[:0], ORDER[:0], PUBLISHED[:0])
+    correlations = correlation_table(scores, Literature(RATINGS[:0], ORDER[:0], PUBLISHED[:0]))
     figure = correlation_figure(scores, RATINGS[:0], correlations, {"unrated": "Histories"}, Kinematics.SMALL)
     for axes in figure.axes:
         assert [label.get_text() for label in axes.get_yticklabels()] == ["push +1"]
@@ -289,7 +291,7 @@ def test_captions_explain_what_is_there_alone(correlations: pd.DataFrame) -> Non
         ):
             assert ("Open:" in words(figure)) is is_open
     assert "range:" in words(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL))
-    unordered = correlation_table(SCORES, RATINGS, ORDER[:0], PUBLISHED)
+    unordered = correlation_table(SCORES, replace(LITERATURE, order=ORDER[:0]))
     assert "range:" not in words(correlation_figure(SCORES, RATINGS, unordered, TITLES, Kinematics.SMALL))
 
 
@@ -608,7 +610,7 @@ def test_names_of_many_conditions_are_legible(count: int, alike: bool) -> None:
     conditions = [make_condition(f"{s}_{p:03d}", s, 0.0 if alike else p, 3) for s in spreads for p in range(count)]
     device = replace(PHASED, conditions=tuple(conditions))
     scores = make_scores([device])
-    correlations = correlation_table(scores, RATINGS[:0], ORDER, PUBLISHED[:0])
+    correlations = correlation_table(scores, Literature(RATINGS[:0], ORDER, PUBLISHED[:0]))
     ablation = ablation_figure(scores, correlations, {device.name: device.title}, Kinematics.SMALL, False)
     ranks = correlation_figure(scores, RATINGS[:0], correlations, {device.name: device.title}, Kinematics.SMALL)
     way = workflow_figure(Scene(MODEL, device), make_readouts(device), scores[scores["interface"] == "shear"])

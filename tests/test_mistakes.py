@@ -27,7 +27,7 @@ from fingerpad.scene.recording import COLUMNS, MOST_TIMES, read_recording
 from fingerpad.scene.scenefile import read_yaml
 from fingerpad.store import load, save_arrays
 from fingerpad.tissue.mesh import load_section
-from scenes import scene
+from literature import CONDITIONS
 
 ROOT = Path(__file__).parents[1]
 TABLE: dict[str, Any] = yaml.safe_load((ROOT / "tests" / "mistakes.yaml").read_text(encoding="utf-8"))
@@ -35,7 +35,6 @@ MISTAKES: list[dict[str, Any]] = TABLE["mistakes"]
 IN_PROCESS = [mistake for mistake in MISTAKES if not mistake["run"].startswith("snakemake")]
 IN_WORKFLOW = [mistake for mistake in MISTAKES if mistake["run"].startswith("snakemake")]
 LEFT_OUT = ("results", ".snakemake", "__pycache__")  # of a copy
-CONDITIONS = {name: [c.name for c in scene(name).device.conditions] for name in ("device1", "device2", "device3")}
 READERS: Mapping[str, Callable[[Path], object]] = {  # what every run of the workflow reads first
     "read_ratings": lambda path: read_ratings(path, CONDITIONS),
     "read_stated_order": lambda path: read_stated_order(path, CONDITIONS),

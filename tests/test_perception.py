@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,28 +24,18 @@ from fingerpad.perception.extremes import rating_range
 from fingerpad.perception.order import order_matrix, up_sets
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.readouts.comparison import classes
+from literature import CONDITIONS, LITERATURE
 
 Array = NDArray[np.float64]
 Matrix = NDArray[np.bool_]
 
-ROOT = Path(__file__).parents[1]
-PHASES = ("000", "090", "180")
-CONDITIONS = {
-    "device1": [f"{dispersion}_{phase}" for dispersion in ("low", "medium", "high") for phase in PHASES],
-    "device2": [f"alternate_{phase}" for phase in PHASES],
-    "device3": [f"alternate_{phase}" for phase in PHASES],
-}
 CHAIN = np.triu(np.ones((3, 3), dtype=bool))
 NO_ORDER = np.eye
 DECIMALS = 1e-12  # of R² [1]; source: `rating_range` is rounded to twelve decimals
 
 
-def stated_order() -> pd.DataFrame:
-    return read_stated_order(ROOT / "data/stated_order.csv", CONDITIONS)
-
-
 def stated_matrix(device: str) -> Matrix:
-    order = stated_order()
+    order = LITERATURE.order
     return order_matrix(CONDITIONS[device], order[order["device"] == device])
 
 
@@ -341,13 +332,8 @@ def make_scores(device: str, values: list[float], interface: str = "shear", note
 
 
 def make_table(scores: pd.DataFrame, ratings: pd.DataFrame | None = None) -> pd.DataFrame:
-    """The table with the shipped data."""
-    return correlation_table(
-        scores,
-        read_ratings(ROOT / "data/ratings.csv", CONDITIONS) if ratings is None else ratings,
-        stated_order(),
-        read_published(ROOT / "data/published_r2.csv"),
-    )
+    """The table with the shipped data, or with other ratings."""
+    return correlation_table(scores, LITERATURE if ratings is None else replace(LITERATURE, ratings=ratings))
 
 
 def test_correlation_of_three_points_in_closed_form() -> None:

@@ -13,7 +13,6 @@ import yaml
 
 from fingerpad.pages.scorings import scorings_values
 from fingerpad.perception.correlation import correlation_table
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.perception.scorings import scoring_tables
 from fingerpad.prediction.frictions import FRICTIONS, friction_rows
 from fingerpad.prediction.phases import PHASES, phase_rows
@@ -37,6 +36,7 @@ from fingerpad.scene.device import ActuatorRow, Condition, Control, Device
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
+from literature import LITERATURE
 from scenes import condensed, scene, solve
 
 ROOT = Path(__file__).parents[1]
@@ -172,19 +172,6 @@ def test_response_is_asked_of_faces_and_pitches() -> None:
     assert {row["readout"] for row in rows} == {"strain", "change_of_strain"}
 
 
-def known() -> dict[str, list[str]]:
-    return {name: [condition.name for condition in scene(name).device.conditions] for name in DEVICES}
-
-
-def literature() -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
-    data = ROOT / "data"
-    return (
-        read_ratings(data / "ratings.csv", known()),
-        read_stated_order(data / "stated_order.csv", known()),
-        read_published(data / "published_r2.csv"),
-    )
-
-
 def of_drives() -> pd.DataFrame:
     """Rows of the drive alone, for all shipped conditions; the read-outs do not matter to them."""
     nothing = read_as(np.ones(GRID.size), np.ones(GRID.size))
@@ -201,7 +188,7 @@ def of_drives() -> pd.DataFrame:
 def test_the_drive_alone_has_the_stated_orders() -> None:
     """Relative motion those of Devices 1 and 2, common motion that of Device 3, both together all: what README and
     docs/scorings.md warn of."""
-    correlations, claims = scoring_tables(of_drives(), RECORDED[RECORDED["kinematics"] == "small"], *literature())
+    correlations, claims = scoring_tables(of_drives(), RECORDED[RECORDED["kinematics"] == "small"], LITERATURE)
     rises = claims[claims["claim"].str.contains("the change of strain rises")]
     held = rises.pivot(index="scoring", columns="claim", values="holds").eq("yes")
     held.columns = [claim[:8] for claim in held.columns]
@@ -217,9 +204,9 @@ def test_the_drive_alone_has_the_stated_orders() -> None:
 
 def test_the_configured_scoring_is_among_the_tables() -> None:
     small = RECORDED[RECORDED["kinematics"] == "small"]
-    correlations, claims = scoring_tables(of_drives(), small, *literature())
+    correlations, claims = scoring_tables(of_drives(), small, LITERATURE)
     own = correlations[correlations["scoring"] == Scoring.CONFIGURED].drop(columns="scoring")
-    pd.testing.assert_frame_equal(own, correlation_table(small, *literature()))
+    pd.testing.assert_frame_equal(own, correlation_table(small, LITERATURE))
     for table in (correlations, claims):
         assert table["scoring"].unique().tolist() == [Scoring.CONFIGURED, *DRIVES]
 
@@ -295,7 +282,7 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
         scoring=str(Scoring.INDENTED), score=lambda t: t["score"] / 1.01
     )
     others = pd.concat([of_drives(), indented])
-    correlations, claims = scoring_tables(others, small, *literature())
+    correlations, claims = scoring_tables(others, small, LITERATURE)
     tables = {"scores": small, "others": others, "correlations": correlations, "claims": claims, "phases": phases}
     slippery = {"device": "device2", "condition": "alternate_000", "readout": "change_of_strain"}
     frictions = pd.DataFrame(

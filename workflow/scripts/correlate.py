@@ -6,7 +6,7 @@ import pandas as pd
 
 from fingerpad.jobs import run
 from fingerpad.perception.correlation import correlation_table
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.perception.ratings import read_literature
 from fingerpad.store import write_table
 
 
@@ -14,13 +14,8 @@ def main(
     scores: Path, ratings: Path, order: Path, published: Path, conditions: dict[str, list[str]], correlations: Path
 ) -> None:
     """Read scores and literature data, correlate, write the table. conditions: of every known device."""
-    table = correlation_table(
-        pd.read_csv(scores),
-        read_ratings(ratings, conditions),
-        read_stated_order(order, conditions),
-        read_published(published),
-    )
-    write_table(correlations, table)
+    literature = read_literature(ratings, order, published, conditions)
+    write_table(correlations, correlation_table(pd.read_csv(scores), literature))
 
 
 if __name__ == "__main__":

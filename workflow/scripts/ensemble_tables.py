@@ -6,7 +6,7 @@ import pandas as pd
 
 from fingerpad.ensemble.members import ensemble_tables
 from fingerpad.jobs import run
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.perception.ratings import read_literature
 from fingerpad.store import write_table
 
 
@@ -27,9 +27,7 @@ def main(
     tables = ensemble_tables(
         pd.concat([pd.read_csv(path) for path in members if path.stat().st_size], ignore_index=True),
         pd.read_csv(scores),
-        read_ratings(ratings, conditions),
-        read_stated_order(order, conditions),
-        read_published(published),
+        read_literature(ratings, order, published, conditions),
     )
     for found, path in zip(tables, (claims, correlations, table), strict=True):
         write_table(path, found)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from fingerpad.jobs import run
-from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
+from fingerpad.perception.ratings import read_literature
 from fingerpad.perception.scorings import scoring_tables
 from fingerpad.readouts.accuracy import relative_errors
 from fingerpad.readouts.gabor import FilteredReadouts
@@ -49,9 +49,7 @@ def main(
     correlated, judged = scoring_tables(
         pd.read_csv(scorings),
         pd.read_csv(scores),
-        read_ratings(ratings, conditions),
-        read_stated_order(order, conditions),
-        read_published(published),
+        read_literature(ratings, order, published, conditions),
     )
     write_table(correlations, correlated)
     write_table(claims, judged)

@@ -9,6 +9,7 @@ import pandas as pd
 
 from ..perception.claims import claims_table
 from ..perception.correlation import correlation_table
+from ..perception.ratings import Literature
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import solved_rows
 from ..readouts.accuracy import error_in_proportion
@@ -33,7 +34,7 @@ def member_scores(
 
 
 def ensemble_tables(
-    members: pd.DataFrame, configured: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
+    members: pd.DataFrame, configured: pd.DataFrame, literature: Literature
 ) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     """Claims, correlations and scores of every member, in the columns of their tables behind MEMBER.
 
@@ -55,7 +56,7 @@ def ensemble_tables(
         for varied, own in group.groupby("varied", sort=False):
             rest = usual[~usual["device"].isin(own["device"])]
             scores = pd.concat([own, rest])
-            table = correlation_table(scores, ratings, order, published)
+            table = correlation_table(scores, literature)
             for found, rows in ((claims, claims_table(scores, table)), (correlations, table)):
                 found.append(rows.assign(kinematics=kinematics, half_cycle=half_cycle, varied=varied))
     tables = pd.concat(claims), pd.concat(correlations), scored[[*configured.columns, *MEMBER[1:]]]

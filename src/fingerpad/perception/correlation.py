@@ -21,7 +21,7 @@ from ..readouts.comparison import classes, is_constant
 from ..readouts.roughness import KEY, NO_PREDICTION
 from .extremes import RatingRange, rating_range, unit
 from .order import order_matrix
-from .ratings import NO_RATINGS, RatingKind
+from .ratings import NO_RATINGS, Literature, RatingKind
 
 COLUMNS = [
     *KEY,
@@ -126,15 +126,12 @@ def _is_any_turned(score: FloatArray, over: RatingRange, error: FloatArray) -> b
     return level or any(is_turned(score, rating, error) for rating in over.generators)
 
 
-def correlation_table(
-    scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
-) -> pd.DataFrame:
+def correlation_table(scores: pd.DataFrame, literature: Literature) -> pd.DataFrame:
     """How each score correlates with perceived roughness: a row for each kinematics, device, interface and
     read-out.
 
     scores: columns kinematics, device, condition, interface, readout, score [any unit, NaN without a prediction],
-    score_error [the same unit, NaN if it is not known], note. ratings, order, published: see `read_ratings`,
-    `read_stated_order`, `read_published`.
+    score_error [the same unit, NaN if it is not known], note.
 
     Returns the columns COLUMNS:
     n: conditions correlated. spread: range of the scores over the mean of their sizes, empty if all are zero.
@@ -155,10 +152,11 @@ def correlation_table(
     `rating_range`.
     """
     rows = [
-        {**dict(zip(KEY, key, strict=True)), **_correlate(group, *(t[t["device"] == key[1]] for t in (ratings, order)))}
+        dict(zip(KEY, key, strict=True))
+        | _correlate(group, *(each[each["device"] == key[1]] for each in (literature.ratings, literature.order)))
         for key, group in scores.groupby(KEY, sort=False)
     ]
-    said = published.rename(columns={name: f"published_{name}" for name in ("r2", "slope", "words")})
+    said = literature.published.rename(columns={name: f"published_{name}" for name in ("r2", "slope", "words")})
     computed = pd.DataFrame(rows, columns=[column for column in COLUMNS if column not in PUBLISHED])
     same = KEY[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")

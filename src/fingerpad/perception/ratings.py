@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,28 @@ class RatingKind(StrEnum):
     def label(self) -> str:
         """How figures and tables call it; a surrogate is always called an ordinal surrogate."""
         return "ordinal surrogate" if self is RatingKind.SURROGATE else self.value
+
+
+@dataclass(frozen=True)
+class Literature:
+    """What scores are held against: ratings (`read_ratings`), what is stated of their order (`read_stated_order`), and
+    published correlations (`read_published`).
+    """
+
+    ratings: pd.DataFrame
+    order: pd.DataFrame
+    published: pd.DataFrame
+
+
+def read_literature(
+    ratings: Path, order: Path, published: Path, conditions_by_device: Mapping[str, Sequence[str]]
+) -> Literature:
+    """All three tables, checked against the devices. Raises RatingError as their readers do."""
+    return Literature(
+        read_ratings(ratings, conditions_by_device),
+        read_stated_order(order, conditions_by_device),
+        read_published(published),
+    )
 
 
 def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) -> pd.DataFrame:

@@ -7,10 +7,11 @@ import pandas as pd
 from ..readouts.scorings import Scoring
 from .claims import claims_table
 from .correlation import correlation_table
+from .ratings import Literature
 
 
 def scoring_tables(
-    others: pd.DataFrame, configured: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame, published: pd.DataFrame
+    others: pd.DataFrame, configured: pd.DataFrame, literature: Literature
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Correlations and claims of every scoring, in the columns of their tables behind `scoring`.
 
@@ -23,7 +24,7 @@ def scoring_tables(
         (str(Scoring.CONFIGURED), configured),
         *((str(name), rows.drop(columns="scoring")) for name, rows in others.groupby("scoring", sort=False)),
     ):
-        table = correlation_table(scores, ratings, order, published)
+        table = correlation_table(scores, literature)
         for found, own in ((correlations, table), (claims, claims_table(scores, table))):
             own.insert(0, "scoring", scoring)
             found.append(own)
