@@ -24,7 +24,7 @@ from fingerpad.ensemble.alternatives import (
     slug,
     write_scenes,
 )
-from fingerpad.ensemble.members import ensemble_tables, member_scores
+from fingerpad.ensemble.members import EnsembleTables, ensemble_tables, member_scores
 from fingerpad.ensemble.robustness import absent_keys, changed, orders_held, reasons, varied_values
 from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.ensemble import ensemble_figure
@@ -162,7 +162,7 @@ def test_devices_without_half_cycles_have_no_ensemble() -> None:
 
 
 @pytest.fixture(scope="module")
-def tables() -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
+def tables() -> EnsembleTables:
     """Scores as the paper says; with less friction Device 2's strain falls, and in the second half-cycle Device 3's
     strain is as good as level: its errors, as large a share of the scores as those of 1 to 3, are 0.07 and more."""
     usual, less = make_scores(), make_scores({("device2", "shear", "strain"): [3, 2, 1]})
@@ -179,11 +179,10 @@ def tables() -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     )
 
 
-def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]) -> None:
+def test_verdicts_of_members_are_those_of_their_scores(tables: EnsembleTables) -> None:
     """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
-    claims, correlations, _ = tables
-    assert len(claims) == 4 * 20
-    verdict = claims.set_index(["half_cycle", "varied", "claim"])["holds"]
+    assert len(tables.claims) == 4 * 20
+    verdict = tables.claims.set_index(["half_cycle", "varied", "claim"])["holds"]
     turned = verdict[verdict != "yes"].to_dict()
     strain2, strain3 = "Device 2: the strain correlates well.", "Device 3: the strain correlates negatively."
     assert turned == {
@@ -192,13 +191,11 @@ def test_verdicts_of_members_are_those_of_their_scores(tables: tuple[pd.DataFram
         (SECOND, AS_CONFIGURED, strain3): "undecided",
         (SECOND, FRICTION.name, strain3): "undecided",
     }
-    assert set(correlations["varied"]) == {AS_CONFIGURED, FRICTION.name}
+    assert set(tables.correlations["varied"]) == {AS_CONFIGURED, FRICTION.name}
 
 
-def test_page_counts_members_and_names_what_turns_a_statement(
-    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
-) -> None:
-    values = robustness_values(dict(zip(("claims", "correlations", "scores"), tables, strict=True)))
+def test_page_counts_members_and_names_what_turns_a_statement(tables: EnsembleTables) -> None:
+    values = robustness_values(vars(tables))
     assert values["members"] == 2
     row = next(
         line for line in str(values["statements"]).splitlines() if "Device 2: the strain correlates well" in line
@@ -213,19 +210,17 @@ def test_page_counts_members_and_names_what_turns_a_statement(
     assert "| small | device3 | change_of_strain | 0.959, rising | 1, rising | 1, rising | 2 of 2 |" in counted
 
 
-def test_page_has_scores_of_both_halves_and_names_what_has_no_solution(
-    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
-) -> None:
-    claims, correlations, scores = tables
-    values = robustness_values({"claims": claims, "correlations": correlations, "scores": scores})
+def test_page_has_scores_of_both_halves_and_names_what_has_no_solution(tables: EnsembleTables) -> None:
+    values = robustness_values(vars(tables))
     assert values["unsolved"] == "None."
     assert "| small | device1 | strain | 1.00 (`low_000`) | 1.00 (`low_000`) |" in str(values["halves"])
     level = next(line for line in str(values["halves"]).splitlines() if "device3 | strain" in line)
-    assert level == f"| small | device3 | strain | {level_ratio(scores)} |"
+    assert level == f"| small | device3 | strain | {level_ratio(tables.scores)} |"
+    scores = tables.scores
     lost = scores["varied"].eq(FRICTION.name) & scores["device"].eq("device2")
     assert lost.any()
     unsolved = scores.assign(score=scores["score"].mask(lost), note=scores["note"].mask(lost, "no prediction: too far"))
-    told = robustness_values({"claims": claims, "correlations": correlations, "scores": unsolved})
+    told = robustness_values(vars(replace(tables, scores=unsolved)))
     assert told["unsolved"] == "- `contact.friction 0.38`, small kinematics: too far"
 
 
@@ -237,31 +232,27 @@ def level_ratio(scores: pd.DataFrame) -> str:
     return " | ".join(f"{ratio[name]:.2f} (`{name}`)" for name in (ratio.idxmin(), ratio.idxmax()))
 
 
-def test_figure_of_devices_that_the_paper_does_not_know_says_so(
-    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
-) -> None:
+def test_figure_of_devices_that_the_paper_does_not_know_says_so(tables: EnsembleTables) -> None:
     """Their table has its header alone."""
-    (axes,) = ensemble_figure(tables[0][:0]).axes
+    (axes,) = ensemble_figure(tables.claims[:0]).axes
     assert [text.get_text() for text in axes.texts] == ["no statement: these are about the paper's devices"]
 
 
-def test_figure_has_a_mark_for_every_verdict(tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]) -> None:
+def test_figure_has_a_mark_for_every_verdict(tables: EnsembleTables) -> None:
     """But for those whose numbers do not change, as another device's do not."""
-    figure = ensemble_figure(tables[0])
+    figure = ensemble_figure(tables.claims)
     figure.draw_without_rendering()
     marks = sum(len(line.get_xdata()) for line in figure.axes[0].lines if line.get_linestyle() == "None")
     told = ["claim", "half_cycle", "evidence"]
-    varied = tables[0][tables[0]["varied"] != AS_CONFIGURED]
-    idle = varied.merge(tables[0][tables[0]["varied"] == AS_CONFIGURED], on=told)
+    varied = tables.claims[tables.claims["varied"] != AS_CONFIGURED]
+    idle = varied.merge(tables.claims[tables.claims["varied"] == AS_CONFIGURED], on=told)
     assert 0 < len(idle) < len(varied)
-    assert marks == len(tables[0]) - len(idle)
+    assert marks == len(tables.claims) - len(idle)
     assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == [AS_CONFIGURED, FRICTION.name]
 
 
-def test_figure_tells_what_has_no_solution_from_what_does_not_change(
-    tables: tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame],
-) -> None:
-    claims = tables[0]
+def test_figure_tells_what_has_no_solution_from_what_does_not_change(tables: EnsembleTables) -> None:
+    claims = tables.claims
     lost = (claims["varied"] == FRICTION.name) & claims["claim"].str.startswith("Device 3")
     assert lost.any()
     figure = ensemble_figure(claims[~lost])
@@ -374,7 +365,7 @@ def test_the_scenes_as_configured_have_their_own_errors() -> None:
     """As a member of the ensemble, whose errors are relative ones of the score table."""
     recorded = pd.read_csv(ROOT / "tests" / "expected" / "scores.csv")
     members = recorded.drop(columns="score_error").assign(half_cycle=FIRST, varied=AS_CONFIGURED)
-    _, correlations, _ = ensemble_tables(members, recorded, LITERATURE)
+    correlations = ensemble_tables(members, recorded, LITERATURE).correlations
     expected = correlation_table(recorded, LITERATURE)
     both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
     assert len(both) == len(expected)

@@ -188,8 +188,8 @@ def of_drives() -> pd.DataFrame:
 def test_the_drive_alone_has_the_stated_orders() -> None:
     """Relative motion those of Devices 1 and 2, common motion that of Device 3, both together all: what README and
     docs/scorings.md warn of."""
-    correlations, claims = scoring_tables(of_drives(), RECORDED[RECORDED["kinematics"] == "small"], LITERATURE)
-    rises = claims[claims["claim"].str.contains("the change of strain rises")]
+    found = scoring_tables(of_drives(), RECORDED[RECORDED["kinematics"] == "small"], LITERATURE)
+    rises = found.claims[found.claims["claim"].str.contains("the change of strain rises")]
     held = rises.pivot(index="scoring", columns="claim", values="holds").eq("yes")
     held.columns = [claim[:8] for claim in held.columns]
     assert held.loc[Scoring.RELATIVE, ["Device 1", "Device 2"]].to_numpy().all()
@@ -198,16 +198,16 @@ def test_the_drive_alone_has_the_stated_orders() -> None:
     assert not held.loc[Scoring.COMMON, ["Device 1", "Device 2"]].to_numpy().any()
     assert held.loc[Scoring.MOTION].to_numpy().all()
     # Device 1's surrogates are made of places of relative motion and phase
-    relative = correlations[(correlations["scoring"] == Scoring.RELATIVE) & (correlations["device"] == "device1")]
-    assert relative["r2"].item() == pytest.approx(1.0)
+    of_device1 = found.correlations[found.correlations["device"] == "device1"].set_index("scoring")
+    assert of_device1.loc[Scoring.RELATIVE, "r2"] == pytest.approx(1.0)
 
 
 def test_the_configured_scoring_is_among_the_tables() -> None:
     small = RECORDED[RECORDED["kinematics"] == "small"]
-    correlations, claims = scoring_tables(of_drives(), small, LITERATURE)
-    own = correlations[correlations["scoring"] == Scoring.CONFIGURED].drop(columns="scoring")
+    found = scoring_tables(of_drives(), small, LITERATURE)
+    own = found.correlations[found.correlations["scoring"] == Scoring.CONFIGURED].drop(columns="scoring")
     pd.testing.assert_frame_equal(own, correlation_table(small, LITERATURE))
-    for table in (correlations, claims):
+    for table in (found.correlations, found.claims):
         assert table["scoring"].unique().tolist() == [Scoring.CONFIGURED, *DRIVES]
 
 
@@ -282,8 +282,7 @@ def test_page_says_where_scores_fall_before_they_rise() -> None:
         scoring=str(Scoring.INDENTED), score=lambda t: t["score"] / 1.01
     )
     others = pd.concat([of_drives(), indented])
-    correlations, claims = scoring_tables(others, small, LITERATURE)
-    tables = {"scores": small, "others": others, "correlations": correlations, "claims": claims, "phases": phases}
+    tables = {"scores": small, "others": others, "phases": phases} | vars(scoring_tables(others, small, LITERATURE))
     slippery = {"device": "device2", "condition": "alternate_000", "readout": "change_of_strain"}
     frictions = pd.DataFrame(
         [slippery | {"friction": mu, "score": score} for mu, score in ((0.0, 4.2e-3), (0.01, 6e-4))]

@@ -24,13 +24,14 @@ def main(
     """Read all members' scores and literature data, check the statements, write the tables. A member that varies no
     device with its kinematics has an empty file.
     """
-    tables = ensemble_tables(
+    found = ensemble_tables(
         pd.concat([pd.read_csv(path) for path in members if path.stat().st_size], ignore_index=True),
         pd.read_csv(scores),
         read_literature(ratings, order, published, conditions),
     )
-    for found, path in zip(tables, (claims, correlations, table), strict=True):
-        write_table(path, found)
+    write_table(claims, found.claims)
+    write_table(correlations, found.correlations)
+    write_table(table, found.scores)
 
 
 if __name__ == "__main__":

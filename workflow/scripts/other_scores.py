@@ -46,13 +46,13 @@ def main(
         for row in scoring_rows(scene, condition, interface, load(path, FilteredReadouts), errors)
     ]
     write_rows(scorings, rows)
-    correlated, judged = scoring_tables(
+    found = scoring_tables(
         pd.read_csv(scorings),
         pd.read_csv(scores),
         read_literature(ratings, order, published, conditions),
     )
-    write_table(correlations, correlated)
-    write_table(claims, judged)
+    write_table(correlations, found.correlations)
+    write_table(claims, found.claims)
     write_rows(response, [row for scene in scenes for row in response_rows(scene)])
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
 
-from ..perception.claims import claims_table
-from ..perception.correlation import correlation_table
+from ..perception.evaluation import evaluate
 from ..perception.ratings import Literature
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import solved_rows
@@ -19,6 +19,15 @@ from ..scene.tissue_law import Kinematics
 from .alternatives import AS_CONFIGURED, Alternative
 
 MEMBER = ["kinematics", "half_cycle", "varied"]  # columns that tell members apart
+
+
+@dataclass(frozen=True)
+class EnsembleTables:
+    """Claims, correlations and scores of every member, in the columns of their tables behind MEMBER."""
+
+    claims: pd.DataFrame
+    correlations: pd.DataFrame
+    scores: pd.DataFrame
 
 
 def member_scores(
@@ -33,10 +42,8 @@ def member_scores(
     return [{"half_cycle": half_cycle, "varied": varied} | row for row in rows]
 
 
-def ensemble_tables(
-    members: pd.DataFrame, configured: pd.DataFrame, literature: Literature
-) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
-    """Claims, correlations and scores of every member, in the columns of their tables behind MEMBER.
+def ensemble_tables(members: pd.DataFrame, configured: pd.DataFrame, literature: Literature) -> EnsembleTables:
+    """What becomes of claims, correlations and scores in every member.
 
     members: rows of the score table of all members behind MEMBER; devices that a member leaves as they are have rows as
     configured alone. configured: the score table with errors, which members' scores have too, in proportion to the
@@ -49,20 +56,16 @@ def ensemble_tables(
         error_in_proportion(*each)
         for each in zip(scored["score"], scored["score_usual"], scored["score_error"], strict=True)
     ]
-    claims: list[pd.DataFrame] = []
-    correlations: list[pd.DataFrame] = []
-    for (kinematics, half_cycle), group in scored.groupby(MEMBER[:2], sort=False):
+    found = evaluate(_with_all_devices(scored), MEMBER, literature)
+    scores = scored[[*MEMBER, *configured.columns.difference(MEMBER, sort=False)]]
+    return EnsembleTables(found.claims, found.correlations, scores)
+
+
+def _with_all_devices(members: pd.DataFrame) -> pd.DataFrame:
+    """The rows of every member, and of devices that it leaves as they are those as configured."""
+    found: list[pd.DataFrame] = []
+    for _, group in members.groupby(MEMBER[:2], sort=False):
         usual = group[group["varied"] == AS_CONFIGURED]
         for varied, own in group.groupby("varied", sort=False):
-            rest = usual[~usual["device"].isin(own["device"])]
-            scores = pd.concat([own, rest])
-            table = correlation_table(scores, literature)
-            for found, rows in ((claims, claims_table(scores, table)), (correlations, table)):
-                found.append(rows.assign(kinematics=kinematics, half_cycle=half_cycle, varied=varied))
-    tables = pd.concat(claims), pd.concat(correlations), scored[[*configured.columns, *MEMBER[1:]]]
-    first, second, third = map(_first_columns, tables)
-    return first, second, third
-
-
-def _first_columns(table: pd.DataFrame) -> pd.DataFrame:
-    return table[[*MEMBER, *(column for column in table.columns if column not in MEMBER)]]
+            found += [own, usual[~usual["device"].isin(own["device"])].assign(varied=varied)]
+    return pd.concat(found)
