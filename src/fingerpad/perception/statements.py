@@ -80,14 +80,12 @@ class Tables:
     by_key: Mapping[Key, Scores]
     correlations: Mapping[Key, Mapping[str, Any]]
 
-    def scores(self, *key: str) -> Scores:
-        device, interface, readout = key
+    def scores(self, device: str, interface: Interface, readout: Readout) -> Scores:
         if (device, interface, readout) not in self.by_key:
             raise AbsentError
         return self.by_key[device, interface, readout]
 
-    def correlation(self, *key: str) -> Mapping[str, Any]:
-        device, interface, readout = key
+    def correlation(self, device: str, interface: Interface, readout: Readout) -> Mapping[str, Any]:
         row = self.correlations.get((device, interface, readout), {"n": 0})
         if row["n"] == 0 or (pd.isna(row["r2"]) and row["note"] != CONSTANT_SCORE):
             raise AbsentError

@@ -49,7 +49,7 @@ def tau_text(row: Mapping[str, Any]) -> str:
 
 def is_open(row: Mapping[str, Any]) -> bool:
     """Whether errors of scores leave open which way the slope is."""
-    return has_error(row) and bool(int(row["slope_open"]))
+    return has_r_error(row) and bool(int(row["slope_open"]))
 
 
 def is_range_open(row: Mapping[str, Any]) -> bool:
@@ -62,8 +62,8 @@ def has_open(rows: Iterable[Mapping[str, Any]]) -> bool:
     return any(is_open(row) or is_range_open(row) for row in rows)
 
 
-def has_error(row: Mapping[str, Any]) -> bool:
-    """Whether it is known what errors of scores add up to."""
+def has_r_error(row: Mapping[str, Any]) -> bool:
+    """Whether it is known what errors of scores can change in r."""
     return _is_there(row["r_error"])
 
 
@@ -74,7 +74,7 @@ def slope_name(row: Mapping[str, Any]) -> str:
     >>> tuple(slope_name(row) for row in rows)
     ('falling (open)', 'rising (error unknown)')
     """
-    doubt = " (open)" if is_open(row) else "" if has_error(row) else " (error unknown)"
+    doubt = " (open)" if is_open(row) else "" if has_r_error(row) else " (error unknown)"
     return SLOPE_NAME[int(row["slope_sign"])] + doubt
 
 
