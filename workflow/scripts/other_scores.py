@@ -10,8 +10,8 @@ from fingerpad.perception.scorings import scoring_tables
 from fingerpad.readouts.accuracy import relative_errors
 from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.scorings import response_rows, scoring_rows
+from fingerpad.scene.scene import with_all_kinematics
 from fingerpad.scene.scenefile import load_scene
-from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, read_rows, write_rows, write_table
 
 
@@ -38,11 +38,10 @@ def main(
     errors, read = relative_errors(read_rows(scores)), dict(zip(cases, filtered, strict=True))
     rows = [
         row
-        for kinematics in Kinematics
-        for scene in (each.with_kinematics(kinematics) for each in scenes if kinematics in each.computed)
+        for scene in with_all_kinematics(scenes)
         for condition in scene.device.conditions
         for interface in scene.device.interfaces()
-        for path in [read[kinematics, scene.device.name, condition.name, interface]]
+        for path in [read[scene.kinematics, scene.device.name, condition.name, interface]]
         for row in scoring_rows(scene, condition, interface, load(path, FilteredReadouts), errors)
     ]
     write_rows(scorings, rows)

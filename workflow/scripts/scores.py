@@ -5,8 +5,8 @@ from pathlib import Path
 from fingerpad.jobs import run
 from fingerpad.readouts.accuracy import with_errors
 from fingerpad.readouts.roughness import unpredicted_rows
+from fingerpad.scene.scene import with_all_kinematics
 from fingerpad.scene.scenefile import load_scene
-from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows, write_rows
 
 
@@ -15,13 +15,7 @@ def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Pat
     found = [row for path in scores for row in read_rows(path)]
     coarser = [row for path in checks for row in read_rows(path)]
     scenes = [load_scene(config, device) for device in devices]
-    missing = [
-        row
-        for each in Kinematics
-        for scene in scenes
-        if each in scene.computed
-        for row in unpredicted_rows(scene.with_kinematics(each))
-    ]
+    missing = [row for scene in with_all_kinematics(scenes) for row in unpredicted_rows(scene)]
     write_rows(table, with_errors([*found, *missing], coarser))
 
 

@@ -14,7 +14,7 @@ from ..prediction.edges import edge_intervals
 from ..prediction.scoring import solved_rows
 from ..readouts.accuracy import error_in_proportion
 from ..readouts.roughness import KEY, unpredicted_rows
-from ..scene.scene import Scene
+from ..scene.scene import Scene, with_all_kinematics
 from ..scene.tissue_law import Kinematics
 from .alternatives import AS_CONFIGURED, Alternative
 
@@ -35,7 +35,7 @@ def member_scores(
 ) -> list[dict[str, Any]]:
     """Rows of the score table of a member behind MEMBER; what cannot be solved has none, and its note says why."""
     rows: list[dict[str, Any]] = []
-    for scene in (each.with_kinematics(kinematics) for each in scenes if kinematics in each.computed):
+    for scene in (each for each in with_all_kinematics(scenes) if each.kinematics == kinematics):
         rows += solved_rows(scene, edge_intervals(scene))[0]
         rows += unpredicted_rows(scene)
     varied = alternative.name if alternative else AS_CONFIGURED

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..readouts.scorings import both_motions
 from ..scene.contact_law import Interface
+from ..scene.scene import with_all_kinematics
 from ..scene.validation import check_device
 from .forecast import forecast
 
@@ -23,8 +24,8 @@ def phase_rows(device: Path, schemas: Path, config: Path) -> Iterator[dict[str, 
     """
     scene = check_device(device, schemas, config, {"stimulus.phases": PHASES})
     with_shear = replace(scene, device=replace(scene.device, frictionless=False))
-    for kinematics in scene.computed:
-        for row in forecast(with_shear.with_kinematics(kinematics)):
+    for each in with_all_kinematics([with_shear]):
+        for row in forecast(each):
             if row["interface"] == Interface.SHEAR:
                 motion = both_motions(scene.device.condition(row["condition"]))
                 yield {column: row[column] for column in COLUMNS} | {"motion_mm": motion}

@@ -7,7 +7,7 @@ is +y, into the skin; positive tangential displacement is +x.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -125,3 +125,10 @@ class Scene:
     def coarsened(self, factor: float) -> Scene:
         """The scene with coarser numerics."""
         return self.with_model(numerics=self.model.numerics.coarsened(factor))
+
+
+def with_all_kinematics(scenes: Sequence[Scene]) -> Iterator[Scene]:
+    """Every scene with each kinematics computed for it: all with small ones, then all with finite ones."""
+    return (
+        each.with_kinematics(kinematics) for kinematics in Kinematics for each in scenes if kinematics in each.computed
+    )
