@@ -45,11 +45,8 @@ def main(
         for row in scoring_rows(scene, condition, interface, load(path, FilteredReadouts), errors)
     ]
     write_rows(scorings, rows)
-    found = scoring_tables(
-        pd.read_csv(scorings),
-        pd.read_csv(scores),
-        read_literature(ratings, order, published, conditions),
-    )
+    literature = read_literature(ratings, order, published, conditions)
+    found = scoring_tables(pd.DataFrame(rows), pd.read_csv(scores), literature)
     write_table(correlations, found.correlations)
     write_table(claims, found.claims)
     write_rows(response, [row for scene in scenes for row in response_rows(scene)])
