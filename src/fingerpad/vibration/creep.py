@@ -100,7 +100,7 @@ def answer(rate: FloatArray, time: float) -> FloatArray:
 def stiffened(scene: Scene, rate: complex) -> Scene:
     """The scene with layers as stiff as they are at a rate [1/s]; of a complex modulus the real part."""
     relaxation, finger = scene.model.vibration.relaxation, scene.model.finger
-    factor = complex(stiffening(relaxation, rate)).real
+    factor = stiffening(relaxation, rate).real
     pad, dorsal = (
         tuple(
             replace(layer, material=replace(layer.material, modulus=factor * layer.material.modulus))

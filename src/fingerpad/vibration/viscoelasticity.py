@@ -22,13 +22,12 @@ def stiffening(relaxation: Relaxation, rate: complex) -> complex:
     vibration.
 
     >>> stiffening(Relaxation((0.5,), (1.0,), ("dermis",)), 1.0)
-    1.5
+    (1.5+0j)
     """
     ratios, times = _ratios(relaxation), np.asarray(relaxation.times)
     if math.isinf(abs(rate)):
-        return float(1.0 + ratios.sum())
-    stiffened = 1.0 + np.sum(ratios * rate * times / (1.0 + rate * times))
-    return complex(stiffened) if isinstance(rate, complex) else float(stiffened)
+        return complex(1.0 + ratios.sum())
+    return complex(1.0 + np.sum(ratios * rate * times / (1.0 + rate * times)))
 
 
 def retardation_times(relaxation: Relaxation) -> FloatArray:
