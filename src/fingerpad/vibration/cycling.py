@@ -18,12 +18,14 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..contact.formulation import ContactProblem, ContactState
+from ..contact.linear_solution import Indented
 from ..contact.patch import Patch
 from ..contact.path import advance, drifting_to
 from ..errors import CycleError
 from ..scene.device import CROSSING, Cycle
 from ..tissue.compliance import CondensedSection
 from .creep import Creep
+from .speed import SLOWLY, frequency_name
 
 MAX_CYCLES = 60  # [1] before it is given up; source: usual count is 3-10 (measured)
 REPEATED = 5e-4  # change of what is read at the receptors from cycle to cycle [1]; source: a tenth of the score error
@@ -57,31 +59,24 @@ class Vibration:
     """The last cycle of a vibration.
 
     problems, states: of contact at the ends of its steps, the last at phase 0. skin: (n_times, n, 2) displacement of
-    contact nodes then [mm]. strain: (n_times, 3m) at the receptors then [1]. cycles: that it took.
+    contact nodes then [mm]. strain: (n_times, 3m) at the receptors then [1].
     """
 
     problems: list[ContactProblem]
     states: list[ContactState]
     skin: FloatArray
     strain: FloatArray
-    cycles: int
 
 
-def vibrate(
-    problem: ContactProblem,
-    section: CondensedSection,
-    creep: Creep,
-    before: ContactState,
-    cycle: Cycle,
-    frequency: float,
-    steps: int,
-) -> Vibration:
-    """Vibrate from a pressed state at a frequency [Hz], 0 for so slowly that tissue is always relaxed.
+def vibrate(indented: Indented, creep: Creep, cycle: Cycle, frequency: float, steps: int) -> Vibration:
+    """Vibrate a pressed device at a frequency [Hz], or SLOWLY, on tissue that is always relaxed.
 
-    problem, section: of relaxed tissue. steps: a cycle is followed in. The first cycle grows evenly from rest. Raises
+    indented: on relaxed tissue. steps: a cycle is followed in. The first cycle grows evenly from rest. Raises
     ConvergenceError, UniquenessError, and CycleError if cycles do not come to repeat themselves.
     """
-    stepping = _stepping(problem, creep, 1.0 / (frequency * steps) if frequency > 0.0 else np.inf)
+    problem, before = indented.problem, indented.state
+    is_slow = frequency <= SLOWLY
+    stepping = _stepping(problem, creep, np.inf if is_slow else 1.0 / (frequency * steps))
     phases = 2.0 * np.pi * np.arange(1, steps + 1) / steps
     nothing = np.zeros((creep.time.size, *before.force.shape))
     moment = Moment(before, nothing, _left(stepping, creep, before, nothing), None)
@@ -95,14 +90,14 @@ def vibrate(
             target = before.actuator + growth * displacement(cycle, phase)
             moment = _stepped(stepping, creep, before, moment, target)
             moments.append(moment)
-        strain = _strain(section, creep, before, moments)
+        strain = _strain(indented.section, creep, before, moments)
         then, watched = watched, [strain[-1], strain[-1] - strain.mean(axis=0)]
         noise = NOISE * float(np.linalg.norm(strain[-1]))
         if number > 1 and all(_repeated(*each, noise) for each in zip(watched, then, strict=True)):
             problems = [replace(stepping.problem, free=each.free) for each in moments]
             moves = [(stepping.problem.compliance @ each.state.force.ravel()).reshape(-1, 2) for each in moments]
             skin = np.array([each.free + moved for each, moved in zip(moments, moves, strict=True)])
-            return Vibration(problems, [each.state for each in moments], skin, strain, number + 1)
+            return Vibration(problems, [each.state for each in moments], skin, strain)
         if number > 0:  # the first cycle is another than all that follow
             left = stepping.fading**steps
             for_ever = (moment.memory - left * memory) / (1.0 - left)
@@ -110,9 +105,9 @@ def vibrate(
             answered = np.tensordot(share, for_ever - moment.memory, 1)
             moment = replace(moment, memory=for_ever - answered)
     rubbing = "friction ratchets the skin" if problem.friction > 0.0 else ""
-    creeping = "tissue still creeps" if frequency > 0.0 else ""
+    creeping = "" if is_slow else "tissue still creeps"
     why = ", or ".join(filter(None, [rubbing, creeping])) or "contact does not repeat itself"
-    where = f"at {frequency:g} Hz" if frequency > 0.0 else "without creep"
+    where = "without creep" if is_slow else f"at {frequency_name(frequency)}"
     advice = "; try a smaller amplitude" if rubbing else ""
     raise CycleError(f"no periodic state after {MAX_CYCLES} cycles {where}: {why}{advice}")
 

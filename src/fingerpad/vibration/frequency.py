@@ -23,7 +23,7 @@ from ..prediction.caveats import pressing_caveats, scene_caveats, state_caveats
 from ..prediction.scoring import Condensed, attempt
 from ..readouts.gabor import filtered_readouts
 from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
-from ..readouts.strain import maximum_principal, without_rounding
+from ..readouts.strain import Resampling, maximum_principal, without_rounding
 from ..scene.contact_law import Interface
 from ..scene.device import Cycle
 from ..scene.readout import Readout
@@ -33,7 +33,7 @@ from ..words import PERCENT
 from .creep import Creep, condense_creep
 from .cycling import Vibration, vibrate
 from .inertia import Vibrating, condense_vibrating, highest_frequency, inertia_effect, slipping, stuck
-from .speed import SLOWLY
+from .speed import SLOWLY, frequency_name
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def frequency_rows(
                 found[stimulus, frequency] = (
                     Outcome({}, None, [f"{NO_PREDICTION}: {indented}"])
                     if isinstance(indented, UnsolvedError)
-                    else _outcome(scene, condensed, creep, indented, interface, cycle, at)
+                    else _outcome(scene, condensed.resampling, creep, indented, cycle, at)
                 )
             rows += [_row(scene, cycle, frequency, interface, each, found[stimulus, frequency]) for each in Readout]
             step()
@@ -106,13 +106,7 @@ def frequency_rows(
 
 
 def _outcome(
-    scene: Scene,
-    condensed: Condensed,
-    creep: Creep,
-    indented: Indented,
-    interface: Interface,
-    cycle: Cycle,
-    at: Vibrating | None,
+    scene: Scene, resampling: Resampling, creep: Creep, indented: Indented, cycle: Cycle, at: Vibrating | None
 ) -> Outcome:
     """What becomes of a condition at a frequency, slowly if there is none."""
     frequency, sticks = at.frequency if at else SLOWLY, indented.problem.friction > 0.0
@@ -122,37 +116,38 @@ def _outcome(
         if at and sticks:
             effect = inertia_effect(scene, stuck(indented, cycle), at.still, at.moving)
             _require_no_inertia(scene, frequency, effect)
-        vibration = certified_vibration(scene, condensed, creep, indented, cycle, frequency)
+        vibration = certified_vibration(scene, creep, indented, cycle, frequency)
         if at and not sticks:
             effect = inertia_effect(scene, slipping(vibration), at.still, at.moving)
             _require_no_inertia(scene, frequency, effect)
         deepest, read = depth(indented.problem, _highest(indented, cycle)), maximum_principal(vibration.strain[-1])
         pressing = actuator_forces(indented.problem, [indented.state, *vibration.states])[:, :, 1]
-        told = [*state_caveats(scene, deepest, read), *scene_caveats(scene, interface), *pressing_caveats(pressing)]
-        return Outcome(_vibration_scores(scene, condensed, vibration), effect, told)
+        told = [
+            *state_caveats(scene, deepest, read),
+            *scene_caveats(scene, indented.interface),
+            *pressing_caveats(pressing),
+        ]
+        return Outcome(_vibration_scores(scene, resampling, vibration), effect, told)
     except ContactError as error:
         return Outcome({}, effect, [f"{NO_PREDICTION}: {error}"])
 
 
-def certified_vibration(
-    scene: Scene, condensed: Condensed, creep: Creep, indented: Indented, cycle: Cycle, frequency: float
-) -> Vibration:
+def certified_vibration(scene: Scene, creep: Creep, indented: Indented, cycle: Cycle, frequency: float) -> Vibration:
     """A condition at a frequency [Hz], if all states of its last cycle have their certificate. Raises ContactError,
     naming it.
     """
-    speed = f"{frequency:g} Hz" if frequency > SLOWLY else "slowly"
-    with named(f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}, {speed}"):
+    case = f"device={scene.device.name}, condition={cycle.name}, interface={indented.interface}"
+    with named(f"{case}, {frequency_name(frequency)}"):
         require_tissue(indented.problem, _highest(indented, cycle), scene.model.finger.pad_thickness)
-        steps = scene.model.vibration.steps
-        vibration = vibrate(indented.problem, condensed.section, creep, indented.state, cycle, frequency, steps)
+        vibration = vibrate(indented, creep, cycle, frequency, scene.model.vibration.steps)
         for problem, state in zip(vibration.problems, vibration.states, strict=True):
-            certify(problem, condensed.section, state)
+            certify(problem, indented.section, state)
     return vibration
 
 
-def _vibration_scores(scene: Scene, condensed: Condensed, vibration: Vibration) -> dict[Readout, float]:
+def _vibration_scores(scene: Scene, resampling: Resampling, vibration: Vibration) -> dict[Readout, float]:
     """Both scores [mm2] of a vibration."""
-    filtered = filtered_readouts(condensed.resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
+    filtered = filtered_readouts(resampling, cyclic_readouts(vibration.strain), scene.model.gabor)
     return roughness_scores(scene, filtered)
 
 
