@@ -10,8 +10,8 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from io import StringIO, TextIOWrapper
 
+from .commands.blanks import hint_of_blanks
 from .errors import FingerpadError, UnsolvedError
-from .guess import hint_of_blanks
 
 FAILED = 2  # exit code [1] of anything that a user can mend; argparse has the same
 INTERRUPTED = 130  # exit code [1] after Ctrl-C, as shells have it

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
 SIMILAR = 0.7  # likeness of words [1] above which one is taken for the other (difflib's); source: chosen
-NUMBER = re.compile(r"[-+]?[.\d][\d.,e+-]*")  # or several with commas
 SHORT = 3  # letters of a word [1] that says too little for another that contains it to be meant; source: chosen
 
 
@@ -30,13 +28,3 @@ def hint(meant: str, quote: str = "") -> str:
     ("; did you mean 'alternate'?", '')
     """
     return f"; did you mean {quote}{meant}{quote}?" if meant else ""
-
-
-def hint_of_blanks(arguments: Iterable[str]) -> str:
-    """The end of a message on arguments that are all numbers: a blank after a comma cuts values of `--vary` off.
-
-    >>> hint_of_blanks(["0.6"]), hint_of_blanks(["device2"])
-    ('; values of --vary are separated by commas alone, or stand in quotes', '')
-    """
-    is_value = all(NUMBER.fullmatch(each) for each in arguments)
-    return "; values of --vary are separated by commas alone, or stand in quotes" if is_value else ""

@@ -14,7 +14,7 @@ from ..checkout import find_checkout, model_for, schemas_for
 from ..csvrows import listed
 from ..errors import UsageError
 from ..files import require_folder
-from ..guess import closest, hint, hint_of_blanks
+from ..guess import closest, hint
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
@@ -22,6 +22,7 @@ from ..scene.scenefile import read_values
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import check_device
 from ..scene.variation import NO_VALUES, variants
+from .blanks import hint_of_blanks
 
 PICTURES = (".png", ".pdf", ".svg")
 CUT_NUMBER = re.compile(r",\s*(0\d+)\s*(?=[,\]]|$)")  # what a decimal comma leaves of a number
