@@ -6,7 +6,6 @@ import argparse
 import os
 
 import numpy as np
-from tqdm import tqdm
 
 from ..checkout import model_for
 from ..prediction.caveats import device_caveats, skin_rises, stimulus_caveats
@@ -16,6 +15,7 @@ from ..tissue.mesh import mesh_section, nominal_edges
 from ..words import several
 from .options import add_device, add_picture, add_scene_options, checked_scene, picture_of
 from .printing import whose
+from .progress import progress
 
 DESCRIPTION = """\
 Check a device file: keys, units, ranges, and whether the device fits the finger. Errors name the file, the key, the
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> None:
         from ..figures.section import section_figure  # noqa: PLC0415
         from ..figures.style import letters_without_a_glyph, save_as  # noqa: PLC0415
 
-        with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar:
+        with progress(STEPS, scene.device.name) as bar:
             section = mesh_section(scene, nominal_edges(scene.device.actuators))
             bar.update()
             figure = section_figure(scene.model, section, [scene.device])

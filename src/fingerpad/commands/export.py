@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from ..calculix.case import PRESSURE_SLOPE, REST_INCREMENTS, STICK_SLOPE, STIMULUS_INCREMENTS
 from ..calculix.deck import DeckSettings, input_deck, kinematics_told
@@ -16,6 +15,7 @@ from ..files import write_text
 from ..prediction.edges import mesh_device
 from ..scene.contact_law import FrictionFrom
 from .options import add_case_options, add_scene_options, checked_case, writable
+from .progress import progress
 
 DECK = ".inp"
 STEPS = 2  # of the progress: mesh, pre-indentation
@@ -77,8 +77,8 @@ def run(options: argparse.Namespace) -> None:
         stimulus_increments=options.stimulus_increments,
         rest_increments=options.rest_increments,
     )
-    progress = tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None)
-    with threadpool_limits(1), progress as bar:  # how deep the deck goes does not depend on the number of threads
+    # how deep the deck goes does not depend on the number of threads
+    with progress(STEPS, scene.device.name) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()
         settings = replace(settings, indentation=indented_height(scene, section, touching))

@@ -6,7 +6,6 @@ import argparse
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from ..errors import UsageError
 from ..fields.states import solved_states
@@ -14,6 +13,7 @@ from ..fields.vtu import field_meshes, write_path, write_vtu
 from ..files import require_folder
 from ..prediction.edges import mesh_device
 from .options import add_case_options, add_scene_options, checked_case, writable
+from .progress import progress
 
 STEPS = 3  # of the progress: mesh, solution, fields
 ENDINGS = (".vtu", ".pvd")
@@ -49,7 +49,7 @@ def run(options: argparse.Namespace) -> None:
         if folder.exists() and not folder.is_dir():
             raise UsageError(f"{folder}: found a file; allowed: a folder, or nothing, where states on the way go")
     scene, condition, interface = checked_case(options)
-    with tqdm(total=STEPS, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
+    with progress(STEPS, scene.device.name) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()
         states = solved_states(scene, section, condition, interface)

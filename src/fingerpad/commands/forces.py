@@ -7,8 +7,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from tqdm import tqdm
-
 from ..errors import ContactError
 from ..prediction.forces import ERROR, NORMAL, TANGENTIAL, force_rows
 from ..prediction.forecast import steps
@@ -25,6 +23,7 @@ from .options import (
     asked_scene,
 )
 from .printing import aligned, caveats_told, print_rows, read_times, titled
+from .progress import progress
 
 PRESSED = "(pre-indented)"  # in place of a condition: all begin there; no condition has such a name
 COLUMNS = ("condition", "interface", "actuator", "x", "normal", "tangential", "error")
@@ -55,7 +54,7 @@ def run(options: argparse.Namespace) -> None:
     """Solve the device and print all forces once they are there. Raises ContactError if there is none."""
     scene = asked_scene(options).with_asked(options.conditions)
     error = not options.no_error
-    with tqdm(total=steps(scene, error), desc=scene.device.name, leave=False, disable=None) as bar:
+    with progress(steps(scene, error), scene.device.name) as bar:
         rows = force_rows(scene, error, bar.update)
     print_rows(options, rows, lambda: as_table(scene, rows))
     if all(row[NORMAL] is None for row in rows):

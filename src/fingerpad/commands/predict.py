@@ -9,8 +9,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from ..checkout import model_for
 from ..csvrows import listed
 from ..errors import UsageError
@@ -36,6 +34,7 @@ from .options import (
     variations,
 )
 from .printing import as_csv, require_scores
+from .progress import progress
 from .score_table import as_table, named
 
 DESCRIPTION = """\
@@ -86,7 +85,7 @@ def run(options: argparse.Namespace) -> None:
     predictions: list[list[dict[str, Any]]] = []
     total = sum(steps(scene, error) for own in devices for scene in own)
     try:
-        with tqdm(total=total, leave=False, disable=None) as bar:
+        with progress(total) as bar:
             solved = forecasts([(scene, error) for own in devices for scene in own], options.cores, bar.update)
             for own in devices:
                 tables: dict[str, list[dict[str, Any]]] = {}

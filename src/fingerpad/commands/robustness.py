@@ -8,8 +8,6 @@ from itertools import groupby, product
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from ..checkout import find_checkout, model_for
 from ..ensemble.alternatives import AS_CONFIGURED, Alternative, by_key, read_ensemble
 from ..ensemble.robustness import Order, absent_keys, changed, kept_keys, orders_held, reasons, varied_values
@@ -25,6 +23,7 @@ from ..scene.scenefile import read_yaml
 from ..scene.variation import Document
 from .options import add_cores, add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
 from .printing import as_csv, in_order, require_scores, titled
+from .progress import progress
 from .score_table import caveat_lines
 
 DESCRIPTION = """\
@@ -68,7 +67,7 @@ def run(options: argparse.Namespace) -> None:
     device = read_yaml(options.device)
     varied, refused = _varied(scene, options, device, alternatives)
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
-    with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar:
+    with progress(total, scene.device.name) as bar:
         predicted = forecasts([(scene, True), *((each, False) for each in varied.values())], options.cores, bar.update)
         configured = next(predicted)
         require_scores(configured)
