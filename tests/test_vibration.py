@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 from skfem import MeshTri, MeshTri2
+from threadpoolctl import threadpool_info, threadpool_limits
 
 import fingerpad.vibration.cycling
 from fingerpad.contact.certificate import certify
@@ -31,11 +32,14 @@ from fingerpad.tissue.elasticity import mass, mesh_dofs
 from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import IN_BAND, Creep, answer, condense_creep, creep_times, stiffened
 from fingerpad.vibration.cycling import MAX_CYCLES, Vibration, displacement, vibrate
+from fingerpad.vibration.forecast import steps as steps_of
+from fingerpad.vibration.forecast import vibration_forecast
 from fingerpad.vibration.frequency import (
     _require_no_inertia,
     certified_vibration,
     cyclic_readouts,
     frequency_rows,
+    vibration_rows,
     without_caveats,
 )
 from fingerpad.vibration.frequency_variants import _relaxation_variants, relaxation_rows
@@ -529,6 +533,19 @@ def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
     assert all(row["score"] is None for row in rows)
     assert all(row["note"].startswith("no prediction: device=device2, interface=shear, pre-ind") for row in rows)
     assert all(row["inertia"] is None for row in rows)  # nobody knows it
+
+
+def test_a_forecast_is_the_table_on_a_mesh_of_its_own_and_says_how_far_it_has_come() -> None:
+    """Whatever the number of threads, on which rounding depends."""
+    given = coarse()
+    asked = replace(given, device=replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1]))
+    section, done = mesh(("device2", False)), list[int]()
+    with threadpool_limits(1):
+        table = vibration_rows(asked, section, condense_mesh(asked, section))
+    with threadpool_limits(2):
+        found = vibration_forecast(asked, lambda: done.append(max(each["num_threads"] for each in threadpool_info())))
+    assert found == table
+    assert done == [1] * steps_of(asked)
 
 
 def test_other_assumptions_on_relaxation_keep_to_the_limit_of_inertia() -> None:

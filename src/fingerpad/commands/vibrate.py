@@ -8,20 +8,16 @@ from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-from tqdm import tqdm
-
 from ..errors import UsageError
-from ..prediction.edges import mesh_device
-from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
-from ..vibration.frequency import steps, vibration_rows, without_caveats
+from ..vibration.forecast import steps, vibration_forecast
+from ..vibration.frequency import without_caveats
 from ..vibration.speed import SLOWLY, frequency_name
 from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene
 from .printing import aligned, caveats_told, in_order, print_rows, require_scores, titled
+from .progress import progress
 
 LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
-STEPS = 2  # of the progress before vibrations: mesh, compliance
 DESCRIPTION = """\
 Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
 creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
@@ -65,13 +61,8 @@ def hertz(text: str) -> float:
 def run(options: argparse.Namespace) -> None:
     """Vibrate the device, and print all scores once they are there. Raises ContactError if there is none."""
     scene = asked(checked_scene(options.device, options).with_asked(options.conditions), options.frequency)
-    total = STEPS + steps(scene)
-    with tqdm(total=total, desc=scene.device.name, leave=False, disable=None) as bar, threadpool_limits(1):
-        section = mesh_device(scene)
-        bar.update()
-        condensed = condense_mesh(scene, section)
-        bar.update()
-        rows = vibration_rows(scene, section, condensed, bar.update)
+    with progress(steps(scene), scene.device.name) as bar:
+        rows = vibration_forecast(scene, bar.update)
     print_rows(options, without_caveats(rows) if options.csv else rows, lambda: as_table(scene, rows))
     require_scores(rows)
 

@@ -51,8 +51,8 @@ def vibration_rows(
     scene: Scene, section: SectionMesh, condensed: Condensed, step: Callable[[], object] = lambda: None
 ) -> list[dict[str, Any]]:
     """Rows of the frequency table of a scene, of slow cycles first, with `caveats` (a list of sentences) behind, which
-    the note joins. section, condensed: of the scene. step: called after each of `steps`. Raises MeshError,
-    CondensationError.
+    the note joins. section, condensed: of the scene. step: called after what each speed needs is condensed, and after
+    each row pair. Raises MeshError, CondensationError.
     """
     creep = condense_creep(section, scene)
     step()
@@ -65,13 +65,6 @@ def vibration_rows(
         for interface in scene.device.interfaces()
         for row in frequency_rows(scene, condensed, creep, speeds, interface, step)
     ]
-
-
-def steps(scene: Scene) -> int:
-    """How often `vibration_rows` calls its `step`."""
-    device = scene.device
-    speeds = 1 + len(device.frequencies)
-    return speeds * (1 + len(device.interfaces()) * len(device.cycles))
 
 
 def frequency_rows(
