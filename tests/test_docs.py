@@ -18,7 +18,7 @@ from fingerpad.contact.solution import Solution
 from fingerpad.digraph import levels
 from fingerpad.pages.codemap import dotted, imported, page, summary, unit
 from fingerpad.perception.correlation import COLUMNS
-from fingerpad.prediction import frictions, phases
+from fingerpad.prediction import frictions, phases, ranking
 from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.scorings import response_rows
 from scenes import scene
@@ -176,5 +176,5 @@ def test_the_page_of_outputs_names_what_is_written() -> None:
     named = set(re.findall(r"`([\w/]+)`", (ROOT / "docs" / "outputs.md").read_text(encoding="utf-8")))
     arrays = {field.name for kind in (Solution, FilteredReadouts) for field in fields(kind)}
     arrays = arrays - {"reading", "certificate"} | {f"certificate/{field.name}" for field in fields(Certificate)}
-    columns = {*COLUMNS, *phases.COLUMNS, *frictions.COLUMNS, *api.NUMBERS, *api.RANKS}
+    columns = {*COLUMNS, *phases.COLUMNS, *frictions.COLUMNS, *api.NUMBERS, *ranking.RANKS}
     assert arrays | columns | set(response_rows(scene("device2"))[0]) <= named

@@ -14,12 +14,12 @@ from .csvrows import listed
 from .errors import UsageError
 from .guess import hint
 from .prediction.forecast import forecast
+from .prediction.ranking import RANKS
 from .scene.tissue_law import Kinematics
 from .scene.validation import check_device, require_effect
 from .scene.variation import NO_VALUES, variants
 
 NUMBERS = ("score", "score_error", "indentation_mm", "force_N_per_mm", "sliding_share", "time")
-RANKS = ("rank", "first_rank", "last_rank")
 
 
 def predict(

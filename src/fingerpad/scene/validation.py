@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
 Key = list[str | int]
 
-RANKS: Mapping[str, int] = {"required": 0, "additionalProperties": 0, "type": 1}  # else 2
+# rank of a problem by the rule of the schema that is broken, else 2
+PRECEDENCE: Mapping[str, int] = {"required": 0, "additionalProperties": 0, "type": 1}
 SOURCE_RANK = 3  # of what is wrong with a source: values and units come first
 
 
@@ -164,7 +165,7 @@ def _layer_problems(config: Mapping[str, Any]) -> Iterator[Problem]:
 
 def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -> Iterator[Problem]:
     """The problems, in words, that lie behind one error of the schema."""
-    key, found, rank = list(error.absolute_path), error.instance, RANKS.get(error.validator, 2)
+    key, found, rank = list(error.absolute_path), error.instance, PRECEDENCE.get(error.validator, 2)
     if key and key[-1] == "source":
         rank = SOURCE_RANK
     if (nameless := _nameless(key, schema, document)) is not None:
