@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fingerpad.contact.symmetry import mirrors
-from fingerpad.errors import SceneError
+from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.design import DesignPicture
 from fingerpad.figures.style import BLUE, VERMILLION
 from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
@@ -31,7 +31,7 @@ def pad() -> Pad:
 
 
 @cache
-def pressed(friction: float) -> tuple[PressedRow, PressedRow | str]:
+def pressed(friction: float) -> tuple[PressedRow, PressedRow | ContactError]:
     """Device 2, pressed."""
     return press_row(pad(), PITCH, WIDTH, friction)
 
@@ -174,5 +174,5 @@ def test_axes_hold_what_is_drawn() -> None:
 
 def test_the_coarser_row_takes_fewer_increments() -> None:
     fine, coarse = pressed(0.6)
-    assert not isinstance(coarse, str)
+    assert isinstance(coarse, PressedRow)
     assert coarse.scene.model.numerics == fine.scene.model.numerics.coarsened(COARSENING)

@@ -11,7 +11,7 @@ from typing import Any
 import ipywidgets
 from threadpoolctl import threadpool_limits
 
-from .errors import FingerpadError
+from .errors import ContactError, FingerpadError
 from .figures.design import DesignPicture
 from .prediction.design import Answer, Pad, PressedRow, answer, condense_pad, pins_at_rest, press_row
 from .scene.scene import Model
@@ -95,5 +95,5 @@ class Explorer:
         self.seconds, self.processor_seconds = perf_counter() - start, process_time() - processor_start
 
     def _answer(self, pitch: float, width: float, friction: float, phase: float, amplitude: float) -> Answer:
-        pressed: tuple[PressedRow, PressedRow | str] = self._pressed(pitch, width, friction)
+        pressed: tuple[PressedRow, PressedRow | ContactError] = self._pressed(pitch, width, friction)
         return answer(pressed, amplitude, phase, self.direction.value == "lateral")

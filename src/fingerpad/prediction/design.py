@@ -14,7 +14,7 @@ import numpy as np
 
 from ..contact.linear_solution import Indented, indent_device, stimulate
 from ..contact.solution import Solution
-from ..errors import ContactError
+from ..errors import ContactError, UnsolvedError
 from ..readouts.accuracy import COARSENING, score_errors, with_error
 from ..readouts.gabor import FilteredReadouts
 from ..readouts.roughness import score_rows
@@ -26,7 +26,7 @@ from ..scene.stimuli import ALTERNATE, at_peak
 from ..tissue.compliance import CondensedSection
 from ..tissue.mesh import mesh_section
 from .caveats import note_of, score_caveats
-from .scoring import Condensed, condense_mesh, read_out
+from .scoring import Condensed, attempt, condense_mesh, read_out
 
 # times the configured size of elements at edges [1]; source: Device 2 scores as in the workflow within errors (a test)
 SIZE = 4.0
@@ -88,7 +88,7 @@ def condense_pad(scene: Scene, reach: float) -> Pad:
     return Pad(scene, *(_condensed(each, reach + ROOM) for each in scenes))
 
 
-def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[PressedRow, PressedRow | str]:
+def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[PressedRow, PressedRow | ContactError]:
     """Press a row of pins with that pitch and width [mm] and friction coefficient [1] onto both meshes; in place of the
     coarser one stands why its path cannot be followed, if it cannot.
 
@@ -102,10 +102,12 @@ def press_row(pad: Pad, pitch: float, width: float, friction: float) -> tuple[Pr
     try:
         return fine, _pressed(scene.with_model(numerics=model.numerics.coarsened(COARSENING)), pad.coarse)
     except ContactError as error:
-        return fine, str(error)
+        return fine, error
 
 
-def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase_deg: float, lateral: bool) -> Answer:
+def answer(
+    pressed: tuple[PressedRow, PressedRow | ContactError], amplitude: float, phase_deg: float, lateral: bool
+) -> Answer:
     """Move the pins of a pressed row, sideways or up and down, read and score: pins 1, 3, ... by the amplitude A [mm],
     pins 2, 4, ... by A cos(p) with p the phase [degrees] between neighbours.
 
@@ -115,15 +117,11 @@ def answer(pressed: tuple[PressedRow, PressedRow | str], amplitude: float, phase
     count = len(fine.scene.device.actuators.positions)
     condition = _condition(count, amplitude, phase_deg, lateral)
     found = _moved(fine, condition)
-    if isinstance(coarse, str):
-        unknown = coarse
-    else:
-        try:
-            errors = score_errors(found.scene, found.readouts, _moved(coarse, condition).readouts)
-            return replace(found, rows=[with_error(row, errors[Readout(row["readout"])]) for row in found.rows])
-        except ContactError as error:
-            unknown = str(error)
-    return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=unknown)
+    coarser = coarse if isinstance(coarse, ContactError) else attempt(_moved, coarse, condition)
+    if isinstance(coarser, UnsolvedError):
+        return replace(found, rows=[with_error(row, None) for row in found.rows], unknown=str(coarser))
+    errors = score_errors(found.scene, found.readouts, coarser.readouts)
+    return replace(found, rows=[with_error(row, errors[Readout(row["readout"])]) for row in found.rows])
 
 
 def _condition(count: int, amplitude: float, phase_deg: float, lateral: bool) -> Condition:
