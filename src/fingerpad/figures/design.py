@@ -19,6 +19,7 @@ from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 from ..arrays import FloatArray
+from ..contact.formulation import Status
 from ..prediction.design import Answer
 from ..readouts.roughness import SCORE_UNIT, scene_span
 from ..rounding import rounded
@@ -133,7 +134,7 @@ class DesignPicture:
         faces = face_arcs(answer.scene.device, answer.section, answer.solution)
         for artist, (start, stop) in zip(self._faces, np.tile(faces, (len(Readout), 1)), strict=True):
             artist.set(x=start, width=stop - start)
-        indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status)
+        indentation, nodes = answer.solution.indentation, np.count_nonzero(answer.solution.status != Status.OPEN)
         self._note.set_text(f"indentation {indentation:.2f} mm\n{nodes} nodes in contact")
         for axes in (self._tractions, *self._strains.values()):
             axes.set_xlim(*scene_span(answer.scene))
