@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from ..scene.readout import Readout
 from ..words import LONGEST_LABEL, SCORE_SCALE, plain, score_label, shortened
-from .style import BLACK, BLUE, GREY, ORANGE, Shown, are_named, draw_errors
+from .style import BLACK, BLUE, GREY, ORANGE, are_named, draw_errors, shown_in
 
 BAR = 0.38  # width of a bar, of the distance between conditions [1]
 SIDES = (-0.5, 0.5)  # middle of each bar of a pair from that of the pair, in widths of a bar [1]
@@ -58,7 +58,7 @@ def _name_conditions(axes: Axes, conditions: pd.DataFrame, is_short: bool) -> No
     places = np.arange(len(conditions))
     named = slice(None, None, math.ceil(len(places) / MOST_UPRIGHT))
     upright = len(places) > MOST_LEVEL
-    if are_named(Shown(*row) for row in conditions[list(Shown._fields)].itertuples(index=False)):
+    if are_named(shown_in(conditions)):
         names = [shortened(name) for name in conditions["condition"]]
         turned: dict[str, Any] = {"rotation": 20.0, "ha": "right"} if sum(map(len, names)) > NAMES else {}
         turned = {"rotation": 90.0} if upright else turned

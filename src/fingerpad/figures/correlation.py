@@ -33,7 +33,6 @@ from ..words import KINEMATICS_NAME, PERCENT, SCORE_SCALE, score_label, shortene
 from .style import (
     GREY,
     WIDE,
-    Shown,
     Styles,
     as_points,
     as_title,
@@ -44,6 +43,7 @@ from .style import (
     letter,
     new_figure,
     note_in,
+    shown_in,
     styled,
     unknown_errors,
 )
@@ -191,11 +191,6 @@ def ratings_caption(correlations: pd.DataFrame) -> str:
     ranges = RANGE if correlations["r2_lowest"].notna().any() else ""
     opened = f" {OPEN_SLOPE}" if has_open(correlations.to_dict("records")) else ""
     return f" Ratings: {kinds}.{ranges}{opened}" if kinds else ""
-
-
-def shown_in(scores: pd.DataFrame) -> list[Shown]:
-    """The conditions of a table of scores, row by row."""
-    return [Shown(*row) for row in scores[list(Shown._fields)].itertuples(index=False)]
 
 
 def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:

@@ -10,7 +10,7 @@ from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
 from ..words import INTERFACE_NAME, KINEMATICS_NAME
 from .ablation import TURNING
-from .correlation import caption, correlation_panel, shown_in
+from .correlation import caption, correlation_panel
 from .style import (
     WIDE,
     as_points,
@@ -19,6 +19,7 @@ from .style import (
     legend_below,
     letter,
     new_figure,
+    shown_in,
     styled,
     unknown_errors,
 )

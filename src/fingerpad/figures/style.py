@@ -187,6 +187,11 @@ def conditions_of(devices: Iterable[Device]) -> list[Shown]:
     return [Shown(d.name, c.name, c.dispersion, c.phase_deg) for d in devices for c in d.conditions]
 
 
+def shown_in(scores: pd.DataFrame) -> list[Shown]:
+    """The conditions of a table of scores, row by row."""
+    return [Shown(*row) for row in scores[list(Shown._fields)].itertuples(index=False)]
+
+
 def are_named(conditions: Iterable[Shown]) -> bool:
     """Whether some are not called by their dispersion and phase, as histories and recordings are not."""
     return any(one.condition != condition_name(one.dispersion, one.phase_deg) for one in conditions)
