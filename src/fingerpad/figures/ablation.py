@@ -16,9 +16,10 @@ from ..scene.tissue_law import Kinematics
 from ..words import INTERFACE_NAME, KINEMATICS_NAME
 from .bars import LOOKS, draw_pairs
 from .correlation import ratings_caption
-from .style import WIDE, as_title, legend_below, letter, new_figure, styled, unknown_errors
+from .style import LETTER_OFFSET, WIDE, as_title, legend_below, letter, new_figure, styled, unknown_errors
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
+RISE = 26.0  # of devices' titles and of letters above panels, over two lines of statistics [pt]
 ERRORS = " Lines on bars: estimated discretisation errors."
 # what else differs between the interfaces where the contact normal turns under friction (docs/decisions/0021)
 TURNING = " With shear the contact normal turns on rounded edges, which press sideways; without shear it does not."
@@ -45,10 +46,10 @@ def ablation_figure(
             _panel(axes, readout, *chosen)
         row[0].annotate(
             as_title(figure, title, len(Readout)), (0.0, 1.0), xycoords="axes fraction",
-            xytext=(0.0, 26.0), textcoords="offset points", fontweight="bold", fontsize="large",
+            xytext=(0.0, RISE), textcoords="offset points", fontweight="bold", fontsize="large",
         )  # fmt: skip
     for axes, text in zip(grid[0], "AB", strict=True):
-        letter(axes, text, (-30.0, 26.0))
+        letter(axes, text, (LETTER_OFFSET[0], RISE))
     handles = [Patch(label=INTERFACE_NAME[each], **look) for each, look in zip(Interface, LOOKS, strict=True)]
     shown = correlations[correlations["device"].isin(titles)]
     turned, unknown = TURNING if turning else "", unknown_errors(scores[scores["device"].isin(titles)])

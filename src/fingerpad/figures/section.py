@@ -26,6 +26,7 @@ HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of dev
 PANEL = 49.0  # mm of the figure's width across a device
 CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators are driven."
 COLUMNS = 3  # devices beside each other
+LETTER_WHOLE, LETTER_DEVICES = (-12.0, -8.0), (-26.0, 26.0)  # of letters from panels' upper left corners [pt]
 LABELS = 1.075  # of the finger's half width [1]: from the mid-line to where the layers' names begin
 BONE_LABEL = (0.3, 0.7)  # of the bone's width and height [1]: the point that its name is for
 DIMENSION = 0.7  # mm from the section to its dimensions
@@ -59,7 +60,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
     whole = figure.add_subplot(grid[0, :])
     _draw_section(whole, section)
     _label(whole, model, section)
-    letter(whole, "A", (-12.0, -8.0))
+    letter(whole, "A", LETTER_WHOLE)
     for number, device in enumerate(devices):
         block, column = divmod(number, columns)
         axes = figure.add_subplot(grid[1 + block, column])
@@ -71,7 +72,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
         if column == 0:
             axes.set_ylabel("y (mm)")
         if number == 0:
-            letter(axes, "B", (-26.0, 26.0))
+            letter(axes, "B", LETTER_DEVICES)
     figure.supxlabel(CAPTION, fontsize="medium")
     return figure
 

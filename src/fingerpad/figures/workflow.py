@@ -34,6 +34,7 @@ from .style import (
 HEIGHT, UPRIGHT = 100.0, 17.0  # mm, and what upright labels take besides, which stand in the last row alone
 LAST = list(Readout)[-1]  # row
 WIDTHS = (1.0, 1.0, 0.9)  # of the columns, relative
+LETTER_PLACE = (-30.0, 14.0)  # of letters from panels' upper left corners, beside titles [pt]
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 LONG = 6  # characters of a condition's name beyond which names stand upright
 HEADROOM = 1.45  # of the bars' axis over the tallest bar [1]
@@ -72,7 +73,7 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     grid[-1][2].set_xlabel(_what_bars_are(names, device))
     for axes, text in zip(grid[:, 0], "AB", strict=True):
-        letter(axes, text, (-30.0, 14.0))
+        letter(axes, text, LETTER_PLACE)
     title = f"{device.title}, with shear ({counted(device.conditions)})"
     figure.suptitle(as_title(figure, title), fontweight="bold")
     caption = NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES
