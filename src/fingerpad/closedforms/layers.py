@@ -25,19 +25,18 @@ from ..tissue.compliance import displaced
 from ..tissue.condensation import condense
 from ..tissue.elasticity import displacement_basis, facet_strain, lame, node_dofs, stiffness, unit_loads
 from .blocks import refined_block
-from .comparison import Comparison, compare, refined
+from .comparison import FIELD_TOLERANCE, Comparison, compare, refined
 
 HALF_LENGTH = 16.0  # L of the strip [mm]
 HALF_LOAD = 0.5  # half-width a of the load [mm]; source: half a pin's face
 PEAK = 0.01  # of the load [MPa]; linear, so any
 # Largest k times receptor depth [1]; source: strain is cut off at e^-40, below rounding, the surface's displacement at
-# 1.5e-6 (measured against 160), far below TOLERANCE
+# 1.5e-6 (measured against 160), far below FIELD_TOLERANCE
 CUTOFF = 40.0
 WINDOW = 1.0  # |x| up to which strain is compared [mm]; source: two half-widths of the load, where the mesh is fine
 SPACINGS = (1 / 8, 1 / 16, 1 / 32)  # mm; the load ends at a vertex
 GROWTH = 0.3  # of element size with distance from load and receptors [1]; source: half moves errors by 4e-5 at most
 COARSEST = 16.0  # element size, of the smallest [1]: the whole mesh is refined, not only its fine part
-TOLERANCE = 0.002  # [1]; source: below half the accuracy that scores are to have
 FLAT = 1e-9  # mm by which a node may miss an interface; source: rounding
 LOAD_ORDER = 4  # degree of parabola times shape function: exact
 
@@ -163,10 +162,10 @@ def layered(name: str, layers: Sequence[Layer], above: int, load: Load, spacing:
     case, grid = f"{PARTICIPLE[load]} {name}", (spacing, int(basis.N))
     return [
         *(
-            compare(case, component, grid, found[:, i], wanted.strain[:, i], TOLERANCE)
+            compare(case, component, grid, found[:, i], wanted.strain[:, i], FIELD_TOLERANCE)
             for i, component in enumerate(("exx", "eyy", "gxy"))
         ),
-        compare(case, "displacement", grid, float(moved), wanted.displacement, TOLERANCE),
+        compare(case, "displacement", grid, float(moved), wanted.displacement, FIELD_TOLERANCE),
     ]
 
 

@@ -1,4 +1,4 @@
-"""All comparisons with closed forms, in the order in which they are told."""
+"""All comparisons with closed forms, in the order of the table's rows."""
 
 from __future__ import annotations
 
