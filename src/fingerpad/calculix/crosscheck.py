@@ -205,7 +205,7 @@ def _turning_states(
 ) -> tuple[PenaltyState, PenaltyState]:
     """The same by the penalty law. weight: (n,) length of skin of each node [mm]."""
     indented, *stimulus = targets(condition, settings)
-    law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting, slides_open=True)
+    law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting)
     first = replace(law, friction=settings.friction_indenting)
     # in the deck's increments, which decide how much of what slides before it touches bears friction
     state = before = follow_penalties(

@@ -34,15 +34,11 @@ TOLERANCE = 1e-10  # mm of residual displacement; source: 1e-6 of the smallest p
 
 @dataclass(frozen=True)
 class PenaltyLaw:
-    """Slopes [MPa/mm] of pressure over penetration and of shear over elastic slip, and friction coefficient [1].
-
-    slides_open: whether what slides before it touches is slip, as in CalculiX, or what does in the increment alone.
-    """
+    """Slopes [MPa/mm] of pressure over penetration and of shear over elastic slip, and friction coefficient [1]."""
 
     pressure_slope: float
     stick_slope: float
     friction: float
-    slides_open: bool = False
 
 
 @dataclass(frozen=True)
@@ -132,8 +128,7 @@ def _increment(
             if np.linalg.norm(residual) < size:
                 break
         if np.abs(residual).max() < TOLERANCE:
-            if law.slides_open:
-                origin = np.where(_surface(problem.row, position).gap < 0.0, origin, first.origin)
+            origin = np.where(_surface(problem.row, position).gap < 0.0, origin, first.origin)
             return PenaltyState(actuator, force, position, origin, start.cuts), None
     raise NotConvergedError(float(np.abs(residual).max()))
 
