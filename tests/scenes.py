@@ -21,7 +21,7 @@ from fingerpad.tissue.mesh import SectionMesh
 
 CONFIG = Path(__file__).parents[1] / "config"
 DECK = DeckSettings(
-    indentation=1.25,
+    height=1.25,
     friction_indenting=0.0,
     friction_acting=0.6,
     pressure_slope=500.0,

@@ -22,10 +22,10 @@ from fingerpad.calculix.contact_model import ContactModel
 from fingerpad.calculix.crosscheck import (
     Outcome,
     calculix_outcome,
+    deck_inputs,
     differences,
     fingerpad_outcome,
     on_deck,
-    prepared,
     printed_outcome,
     sharpened,
 )
@@ -53,7 +53,7 @@ from scripts import calculix_condition, calculix_orders
 from scripts.calculix import main
 
 SETTINGS = DeckSettings(
-    indentation=0.4,
+    height=0.4,
     friction_indenting=0.0,
     friction_acting=0.0,
     pressure_slope=500.0,
@@ -209,7 +209,7 @@ def large_case() -> Decked:
     large = finite(on_deck(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
     sizes = {"growth": 1.2, "receptor_size": 0.6, "nail_size": 3.0, "largest_size": 3.0}
     large = large.with_model(numerics=replace(large.model.numerics, **sizes))
-    return Decked(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, indentation=0.8))
+    return Decked(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, height=0.8))
 
 
 CASES = {"small": small_case, "finite": large_case}
@@ -392,5 +392,5 @@ def test_friction_acts_from_when_on_a_case_says(friction_from: FrictionFrom, ind
     base = scene("device2")
     base = base.with_model(contact=replace(base.model.contact, friction=0.6))
     case = Case(Kinematics.SMALL, 1.0, 8, 1.0, 1.0, friction_from=friction_from)
-    _, settings = prepared(base, case)
+    _, settings = deck_inputs(base, case)
     assert (settings.friction_indenting, settings.friction_acting) == (indenting, 0.6)

@@ -99,7 +99,7 @@ def test_deck_whose_friction_falls_after_pre_indentation_is_refused(acting: floa
         replace(DECK, friction_indenting=0.6, friction_acting=acting)
 
 
-@pytest.mark.parametrize("name", ["indentation", "friction_indenting", "friction_acting", "rest_increments"])
+@pytest.mark.parametrize("name", ["height", "friction_indenting", "friction_acting", "rest_increments"])
 @pytest.mark.parametrize("value", [-1, float("nan"), float("inf")])
 def test_deck_of_numbers_that_are_none_is_refused(name: str, value: float) -> None:
     with pytest.raises(SceneError, match=f"deck: {name.replace('_', ' ')} must be finite and not negative"):
@@ -245,7 +245,7 @@ def test_steps_move_the_actuators_along_the_condition() -> None:
     assert all(float(row[3]) == 0.0 for row in still)
     assert len(moves) == 2 * (1 + condition.time.size)  # each is followed by a rest
     values = np.array([[float(row[3]) for row in rows] for rows in moves]).reshape(len(moves), -1, 2)
-    indented = np.array([0.0, DECK.indentation])
+    indented = np.array([0.0, DECK.height])
     stimulus = np.stack([condition.tangential, condition.normal], axis=-1)[0]
     wanted = [np.tile(indented, (4, 1)), indented + stimulus]
     assert np.allclose(values, [wanted[0], wanted[0], wanted[1], wanted[1]], rtol=WRITTEN, atol=0.0)

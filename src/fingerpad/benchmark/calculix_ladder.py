@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..calculix.case import Case
-from ..calculix.crosscheck import calculix_outcome, differences, on_deck, prepared
+from ..calculix.crosscheck import calculix_outcome, deck_inputs, differences, on_deck
 from ..prediction.edges import mesh_device
 from ..scene.device import Condition
 from ..scene.readout import Readout
@@ -21,10 +21,10 @@ def calculix_ladder(
     """A row for each coarsening of the skin's mesh but the finest, from coarse to fine: seconds of CalculiX, and errors
     of its scores against its own on the finest mesh. A further condition costs it as much as the first.
 
-    Raises what `crosscheck.prepared` raises, CalculixError if a deck fails or takes longer
+    Raises what `crosscheck.deck_inputs` raises, CalculixError if a deck fails or takes longer
     than limit [s], and MeshError if a rung has no mesh.
     """
-    fine, settings = prepared(scene, case)
+    fine, settings = deck_inputs(scene, case)
     climbed = []
     for factor in sorted(factors, reverse=True):
         other = on_deck(fine, factor)

@@ -70,13 +70,13 @@ def plain_ladder(
     edges = edge_intervals(scene)
     condensed = condense_scene(scene, edges)
     indented = indent_device(scene, condensed.section, None, Interface.SHEAR)
-    depth = float(indented.state.actuator[0, 1])
+    height = float(indented.state.actuator[0, 1])
     for factor in factors:
         other = scene.coarsened(factor)
         problem = indented.problem
         counts = round(PATH * indentation_increments(other, problem)), stimulus_increments(other, problem)
         section = mesh_section(other, edges)
-        (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, depth, counts))
+        (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, height, counts))
         seconds, nodes = (cold, cold, cold), last.position.shape[0]
         yield _row(scene.kinematics, PLAIN_LADDER, factor, section.unknowns, nodes, seconds, _errors(found, reference))
 

@@ -28,12 +28,12 @@ from ..tissue.mesh import SectionMesh
 
 
 def plain_scores(
-    scene: Scene, section: SectionMesh, condition: Condition, indentation: float, increments: tuple[int, int]
+    scene: Scene, section: SectionMesh, condition: Condition, height: float, increments: tuple[int, int]
 ) -> tuple[CondensedSection, list[dict[str, Any]]]:
-    """Score rows of one condition with shear, rigid actuators, and the last condensed section.
+    """The section as it was condensed last, and score rows of one condition with shear; actuators are rigid.
 
-    indentation: height [mm] of the faces after pre-indentation. increments: of pre-indentation, and of each time of
-    the stimulus [1]. Raises MeshError, CondensationError, ContactError.
+    height: of the faces above the pad's lowest point after pre-indentation [mm]. increments: of pre-indentation, and of
+    each time of the stimulus [1]. Raises MeshError, CondensationError, ContactError.
     """
     skips = replace(scene.model.skips, halved_condensation=False, inactive_nodes=False)
     scene = scene.with_model(skips=skips)
@@ -41,7 +41,7 @@ def plain_scores(
     acting = contact_problem(scene, condensed, None, Interface.SHEAR)
     problem = pressing_problem(scene, acting)
     state = rest(problem, touching_height(problem))
-    pressed = np.tile([0.0, indentation], (len(problem.row.positions), 1))
+    pressed = np.tile([0.0, height], (len(problem.row.positions), 1))
     targets = [pressed, *(pressed + condition.moves)]
     states: list[ContactState] = []
     for target, count in zip(targets, [increments[0], *[increments[1]] * condition.time.size], strict=True):

@@ -14,7 +14,7 @@ from ..tissue.actuator_body import body_of
 from ..tissue.condensation import condense_section
 from .case import Case
 from .contact_model import ContactModel
-from .crosscheck import Outcome, calculix_outcome, fingerpad_outcome, on_deck, prepared
+from .crosscheck import Outcome, calculix_outcome, deck_inputs, fingerpad_outcome, on_deck
 from .deformed_crosscheck import deformed_outcome
 
 
@@ -33,10 +33,10 @@ class BothSides:
 def both_sides(scene: Scene, condition: str, case: Case, folder: Path, limit: float) -> BothSides:
     """Solve a condition with CalculiX in a folder, each side on a mesh of its own.
 
-    limit: seconds the deck may take. Raises what `prepared` raises, CalculixError if CalculiX does not
+    limit: seconds the deck may take. Raises what `deck_inputs` raises, CalculixError if CalculiX does not
     solve it, and SceneError, MeshError or CondensationError if either side cannot be set up.
     """
-    fine, settings = prepared(scene, case)
+    fine, settings = deck_inputs(scene, case)
     deck, own = on_deck(fine, case.coarsening), on_deck(fine, case.fingerpad_coarsening)
     deck_section, section, body = mesh_device(deck), mesh_device(own), body_of(own)
     stimulus = scene.device.condition(condition)

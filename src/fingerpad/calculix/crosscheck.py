@@ -38,13 +38,13 @@ from ..tissue.receptors import arc_length, receptor_gradient
 from .case import Case, Edges
 from .contact_model import ContactModel
 from .deck import DeckSettings, input_deck
-from .depth import indented_height
+from .height import indented_height
 from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched
 from .run import Printed, read_printed, run
 
 # source: the change of strain no longer moves in its fourth digit (measured)
-INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]
-STIMULUS_INCREMENTS = 32  # of fingerpad's side, a segment [1]
+OWN_INDENTATION_INCREMENTS = 80  # of fingerpad's side [1]
+OWN_STIMULUS_INCREMENTS = 32  # of fingerpad's side, a segment [1]
 # of a deck's mesh; source: chosen; CalculiX's own convergence, down to 1.4 times these sizes, is in docs/accuracy.md
 DECK_EDGE_SIZE = 0.03  # mm
 DECK_EDGE_ZONE = 0.015  # mm around an edge, half an element
@@ -83,8 +83,8 @@ def sharpened(scene: Scene) -> Scene:
     return replace(scene, device=replace(scene.device, actuators=actuators))
 
 
-def prepared(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:
-    """The case's scene with the shipped mesh, and the settings of its deck.
+def deck_inputs(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:
+    """What a case's decks are made of: its scene, still with the shipped mesh, and their settings.
 
     Raises SceneError as `DeckSettings`; to indent fully, what `mesh_device` and `indented_height` raise.
     """
@@ -95,11 +95,11 @@ def prepared(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:
     indenting = friction if case.friction_from is FrictionFrom.TOUCH else 0.0
     if case.law is not None:
         scene = scene.with_model(tissue=replace(scene.model.tissue, law=case.law))
-    depth = case.indentation
-    if depth == "full":
-        depth = indented_height(scene, mesh_device(scene), Interface.SHEAR if indenting else Interface.FRICTIONLESS)
+    height = case.indentation
+    if height == "full":
+        height = indented_height(scene, mesh_device(scene), Interface.SHEAR if indenting else Interface.FRICTIONLESS)
     return scene, DeckSettings(
-        indentation=depth,
+        height=height,
         friction_indenting=indenting,
         friction_acting=friction,
         pressure_slope=case.pressure_slope,
@@ -177,7 +177,7 @@ def differences(found: Outcome, reference: Outcome) -> dict[str, float]:
 
 def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
     """Displacements (n_actuators, 2) [mm] of the actuators: pre-indented, then at the stimulus's times."""
-    indented = np.tile([0.0, settings.indentation], (condition.normal.shape[1], 1))
+    indented = np.tile([0.0, settings.height], (condition.normal.shape[1], 1))
     return [indented, *(indented + condition.moves)]
 
 
@@ -193,10 +193,10 @@ def _own_states(
     """States after pre-indentation and at the stimulus's end, by fingerpad's own law of contact."""
     indented, *stimulus = targets(condition, settings)
     first = replace(problem, friction=settings.friction_indenting)
-    before = follow(first, rest(first, touching_height(first)), indented, INDENTATION_INCREMENTS)
+    before = follow(first, rest(first, touching_height(first)), indented, OWN_INDENTATION_INCREMENTS)
     state = switch_friction(before) if settings.friction_acting > settings.friction_indenting else before
     for target in stimulus:
-        state = follow(problem, state, target, STIMULUS_INCREMENTS)
+        state = follow(problem, state, target, OWN_STIMULUS_INCREMENTS)
     return before, state
 
 

@@ -49,17 +49,17 @@ FRICTIONLESS = 1.0e-8  # friction [1] of a contact whose friction is switched on
 class DeckSettings:
     """How a deck indents, holds contact and divides its steps.
 
-    indentation: height [mm] of the faces above the pad's lowest point. friction_indenting, friction_acting: [1] during
-    pre-indentation and during the stimulus. pressure_slope, stick_slope: penalties [MPa/mm], pressure over penetration
-    and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step. rest_increments: of
-    a step at rest after each of them, or none: CalculiX looks only at the start of an increment where the surfaces
-    face each other, and in which direction.
+    height: of the faces above the pad's lowest point after pre-indentation [mm]. friction_indenting, friction_acting:
+    during pre-indentation and during the stimulus [1]. pressure_slope, stick_slope: penalties [MPa/mm], pressure over
+    penetration and shear over elastic slip. indentation_increments, stimulus_increments: increments of a step [1].
+    rest_increments: of a step at rest after each of them, or none [1]: CalculiX looks only at the start of an increment
+    where the surfaces face each other, and in which direction.
 
     Raises SceneError if a slope or a number of increments is not positive, another number negative or not finite, or
     friction falls after pre-indentation.
     """
 
-    indentation: float
+    height: float
     friction_indenting: float
     friction_acting: float
     pressure_slope: float
@@ -72,7 +72,7 @@ class DeckSettings:
         for name in ("pressure_slope", "stick_slope", "indentation_increments", "stimulus_increments"):
             if not 0 < getattr(self, name) < math.inf:
                 raise SceneError(f"deck: {plain(name)} must be positive and finite, found {getattr(self, name)}")
-        for name in ("indentation", "friction_indenting", "friction_acting", "rest_increments"):
+        for name in ("height", "friction_indenting", "friction_acting", "rest_increments"):
             if not 0 <= getattr(self, name) < math.inf:
                 raise SceneError(f"deck: {plain(name)} must be finite and not negative, found {getattr(self, name)}")
         if self.friction_acting < self.friction_indenting:
@@ -321,9 +321,9 @@ def _contact(scene: Scene, settings: DeckSettings) -> list[str]:
 
 def _steps(scene: Scene, condition: Condition, settings: DeckSettings) -> list[str]:
     count = len(scene.device.actuators.positions)
-    moves = [("pre-indentation", [(0.0, settings.indentation)] * count)]
+    moves = [("pre-indentation", [(0.0, settings.height)] * count)]
     for time, displaced in zip(condition.time, condition.moves.tolist(), strict=True):
-        moves.append((f"stimulus at time {time:g}", [(x, settings.indentation + y) for x, y in displaced]))
+        moves.append((f"stimulus at time {time:g}", [(x, settings.height + y) for x, y in displaced]))
     switched = settings.friction_acting != settings.friction_indenting
     switch = ["*CHANGE FRICTION, INTERACTION=SKIN_ON_ACTUATOR", *_friction(settings.friction_acting, settings)]
     step = f"*STEP{', NLGEOM' if scene.kinematics is Kinematics.FINITE else ''}, INC={LARGEST_COUNT}"

@@ -18,8 +18,8 @@ from ..tissue.compliance import CondensedBody
 from ..tissue.mesh import SectionMesh
 from .contact_model import ContactModel
 from .crosscheck import (
-    INDENTATION_INCREMENTS,
-    STIMULUS_INCREMENTS,
+    OWN_INDENTATION_INCREMENTS,
+    OWN_STIMULUS_INCREMENTS,
     Outcome,
     outcome_of,
     softness,
@@ -48,8 +48,8 @@ def deformed_outcome(
         raise ContactError("with finite kinematics penalties follow a frictionless pre-indentation")
     indenting = _rubbing(scene, settings.friction_indenting)
     indented, *stimulus = targets(condition, settings)
-    last = settings.indentation / INDENTATION_INCREMENTS
-    pressed = press_to(settings.indentation - last, indenting, section, body, Interface.SHEAR)
+    last = settings.height / OWN_INDENTATION_INCREMENTS
+    pressed = press_to(settings.height - last, indenting, section, body, Interface.SHEAR)
     finger = pressed_finger(_rubbing(scene, settings.friction_acting), section, body, pressed, Interface.SHEAR)
     # a normal that turned from the stimulus on would move what was pressed without
     turning = finger.problem.turning and settings.friction_indenting > 0.0
@@ -64,7 +64,7 @@ def deformed_outcome(
     problem = replace(problem, friction=settings.friction_acting)
     for target in stimulus:
         # tissue linearised anew would be without the penalties' springs
-        reached, tissue = move(tissue, problem, reached, target, STIMULUS_INCREMENTS, patience=MAX_CORRECTIONS)
+        reached, tissue = move(tissue, problem, reached, target, OWN_STIMULUS_INCREMENTS, patience=MAX_CORRECTIONS)
     if contact is ContactModel.PENALTIES and reached.tangents > 0:
         raise ContactError("corrections do not settle, and new tangents would be without the penalties' springs")
     ends = before, reached
@@ -76,5 +76,5 @@ def deformed_outcome(
 def _rubbing(scene: Scene, friction: float) -> Scene:
     """The scene with that friction [1], and as many increments of pre-indentation as the cross-check needs."""
     contact = replace(scene.model.contact, friction=friction)
-    numerics = replace(scene.model.numerics, indentation_increments=INDENTATION_INCREMENTS)
+    numerics = replace(scene.model.numerics, indentation_increments=OWN_INDENTATION_INCREMENTS)
     return scene.with_model(contact=contact, numerics=numerics)

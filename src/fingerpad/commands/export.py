@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from ..calculix.case import PRESSURE_SLOPE, REST_INCREMENTS, STICK_SLOPE, STIMULUS_INCREMENTS
 from ..calculix.deck import DeckSettings, input_deck, kinematics_told
-from ..calculix.depth import indented_height
+from ..calculix.height import indented_height
 from ..files import write_text
 from ..prediction.edges import mesh_device
 from ..scene.contact_law import FrictionFrom
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> None:
     acting = law.coefficient(touching)
     indenting = acting if law.friction_from is FrictionFrom.TOUCH else 0.0
     settings = DeckSettings(
-        indentation=0.0,  # until it is known how deep
+        height=0.0,  # until it is known how deep
         friction_indenting=indenting,
         friction_acting=acting,
         pressure_slope=options.pressure_slope,
@@ -81,7 +81,7 @@ def run(options: argparse.Namespace) -> None:
     with progress(STEPS, scene.device.name) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()
-        settings = replace(settings, indentation=indented_height(scene, section, touching))
+        settings = replace(settings, height=indented_height(scene, section, touching))
         bar.update()
     write_text(output, input_deck(scene, section, condition, settings))
     print(f"written: {output}. {kinematics_told(scene.model.tissue)}")

@@ -1,4 +1,4 @@
-"""How deep a deck is to be indented, which it prescribes: as deep as fingerpad's criterion ends pre-indentation."""
+"""The height to which a deck raises the actuators: where fingerpad's criterion ends pre-indentation."""
 
 from __future__ import annotations
 
