@@ -7,7 +7,8 @@ from typing import Any
 
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import condense_scene, predicted_rows
-from ..readouts.accuracy import case_of, relative_errors
+from ..readouts.accuracy import relative_changes, relative_errors, scores_by_case
+from ..scene.readout import Readout
 from ..scene.scene import Scene
 
 
@@ -22,26 +23,21 @@ def increment_rows(
     """
     condensed = condense_scene(scene, edge_intervals(scene))
     errors = relative_errors(stated)
-    numerics = scene.model.numerics
-    first: dict[tuple[str, ...], float] = {}
-    for multiple in (1, *multiples):
-        rows = predicted_rows(scene.with_model(numerics=numerics.with_increments(multiple)), condensed)
-        scores = {case_of(row): float(row["score"]) for row in rows}
-        if not first:
-            first = scores
-            continue
-        for readout in dict.fromkeys(case[-1] for case in scores):
-            own = [case for case in errors if case in scores and case[-1] == readout]
+    usual = scores_by_case(predicted_rows(scene, condensed))
+    for multiple in multiples:
+        other = scene.with_model(numerics=scene.model.numerics.with_increments(multiple))
+        changes = relative_changes(scores_by_case(predicted_rows(other, condensed)), usual)
+        for readout in Readout:
+            own = [case for case in errors if case in changes and case[-1] == readout]
             if not own:
                 continue
-            changes = {case: abs(scores[case] / first[case] - 1.0) for case in own}
             ratios = [changes[case] / errors[case] for case in own]
             yield {
                 "device": scene.device.name,
-                "readout": readout,
+                "readout": str(readout),
                 "times_the_increments": multiple,
                 "scores": len(own),
-                "largest_change": f"{max(changes.values()):.1e}",
+                "largest_change": f"{max(changes[case] for case in own):.1e}",
                 "largest_change_over_stated_error": round(max(ratios), 2),
                 "beyond_stated_error": sum(ratio > 1.0 for ratio in ratios),
             }

@@ -10,12 +10,12 @@ from ..contact.linear_solution import indent_device
 from ..contact.problem import indentation_increments, stimulus_increments
 from ..contact.solution import Solution
 from ..errors import SceneError
-from ..prediction.edges import edge_intervals
+from ..prediction.edges import edge_intervals, mesh_device
 from ..prediction.scoring import Condensed, Meshed, condense_scene, prepared, pressed_device, read_out, rows_at
+from ..readouts.accuracy import relative_changes, scores_by_case
 from ..readouts.roughness import score_rows
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
-from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.mesh import SectionMesh, mesh_section
@@ -76,8 +76,8 @@ def plain_ladder(
         problem = indented.problem
         counts = round(PATH * indentation_increments(other, problem)), stimulus_increments(other, problem)
         section = mesh_section(other, edges)
-        (last, found), cold = fewest(1, partial(plain_scores, other, section, condition, height, counts))
-        seconds, nodes = (cold, cold, cold), last.position.shape[0]
+        found, cold = fewest(1, partial(plain_scores, other, section, condition, height, counts))
+        seconds, nodes = (cold, cold, cold), contact_tractions(section, other).weight.size
         yield _row(scene.kinematics, PLAIN_LADDER, factor, section.unknowns, nodes, seconds, _errors(found, reference))
 
 
@@ -88,7 +88,7 @@ def _climbed(
     condensed, cold = fewest(repeats, partial(prepare, scene))
     solve, pressing = fewest(repeats, partial(pressed_device, scene, condensed, Interface.SHEAR))
     found, stimulating = fewest(repeats, partial(_scores, scene, condensed, solve, condition))
-    section = mesh_section(scene, edge_intervals(scene))
+    section = mesh_device(scene)
     seconds = cold + pressing + stimulating, pressing + stimulating, stimulating
     return found, seconds, section, contact_tractions(section, scene).weight.size
 
@@ -98,7 +98,7 @@ def _prepared(scene: Scene) -> Condensed | Meshed:
 
 
 def _prepared_first_order(scene: Scene) -> Condensed:
-    return condense_first_order(scene, mesh_section(scene, edge_intervals(scene)))
+    return condense_first_order(scene, mesh_device(scene))
 
 
 def _scores(
@@ -108,11 +108,9 @@ def _scores(
 
 
 def _errors(found: Sequence[Mapping[str, Any]], reference: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """Error of each read-out's score against the reference's [1]."""
-    case = ("condition", "interface", "readout")
-    wanted = {tuple(row[key] for key in case): float(row["score"]) for row in reference if row["score"] != ""}
-    errors = {row["readout"]: abs(row["score"] / wanted[tuple(row[key] for key in case)] - 1.0) for row in found}
-    return {f"error_{readout}": errors[readout] for readout in Readout}
+    """Columns with the error of each read-out's score against the reference's [1], of one condition."""
+    changes = relative_changes(scores_by_case(found), scores_by_case(reference))
+    return {f"error_{readout}": change for (*_, readout), change in changes.items()}
 
 
 def _row(

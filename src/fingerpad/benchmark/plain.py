@@ -22,15 +22,14 @@ from ..readouts.strain import read_receptors
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
-from ..tissue.compliance import CondensedSection
 from ..tissue.condensation import condense_section
 from ..tissue.mesh import SectionMesh
 
 
 def plain_scores(
     scene: Scene, section: SectionMesh, condition: Condition, height: float, increments: tuple[int, int]
-) -> tuple[CondensedSection, list[dict[str, Any]]]:
-    """The section as it was condensed last, and score rows of one condition with shear; actuators are rigid.
+) -> list[dict[str, Any]]:
+    """Score rows of one condition with shear; actuators are rigid.
 
     height: of the faces above the pad's lowest point after pre-indentation [mm]. increments: of pre-indentation, and of
     each time of the stimulus [1]. Raises MeshError, CondensationError, ContactError.
@@ -57,4 +56,4 @@ def plain_scores(
     readouts = read_receptors(condensed.receptor_strain(forces), condensed.arc, settling=condition.settling).readouts
     resampling = resampling_to_grid(condensed.arc, scene.model.gabor.spacing)
     read = filtered_readouts(resampling, readouts, scene.model.gabor)
-    return condensed, score_rows(scene, condition, Interface.SHEAR, read)
+    return score_rows(scene, condition, Interface.SHEAR, read)

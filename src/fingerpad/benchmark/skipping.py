@@ -14,7 +14,7 @@ from ..fields.recovery import recover_displacement
 from ..fields.states import states_fields
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import condense_scene, predicted_rows, prepared
-from ..readouts.accuracy import case_of, relative_error
+from ..readouts.accuracy import relative_changes, relative_error, scores_by_case
 from ..readouts.strain import read_receptors
 from ..scene.contact_law import Interface
 from ..scene.numerics import Skips
@@ -24,8 +24,6 @@ from ..tissue.mesh import SectionMesh, mesh_section
 from .timing import fewest
 
 Row = dict[str, Any]
-
-
 MIRRORED = ("halved_condensation", "mirrored_half")  # of rows that mirror alone
 NOT_FINITE = ("halved_condensation", "frictionless_path")  # nothing is condensed at rest, and every path is followed
 
@@ -56,8 +54,7 @@ def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -
     switches = [switch.name for switch in fields(Skips) if _finds_something(switch.name, scene)]
     on, *off = _in_turn([scene, *(_without(scene, switch) for switch in switches)], repeats)
     for switch, other in zip(switches, off, strict=True):
-        # without a stimulus the score is zero, whatever is skipped
-        moved = max((abs(other.scores[case] / score - 1.0) for case, score in on.scores.items() if score), default=0.0)
+        moved = max(relative_changes(other.scores, on.scores).values(), default=0.0)
         yield {
             "kinematics": str(scene.kinematics),
             "device": scene.device.name,
@@ -137,4 +134,4 @@ def _measured(scene: Scene, edges: FloatArray) -> _Measured:
     """Set-up and conditions of one scene, once."""
     condensed, setup = fewest(1, partial(prepared, scene, edges))
     rows, conditions = fewest(1, partial(predicted_rows, scene, condensed))
-    return _Measured(setup, conditions, {case_of(row): row["score"] for row in rows})
+    return _Measured(setup, conditions, scores_by_case(rows))

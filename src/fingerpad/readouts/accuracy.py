@@ -78,7 +78,7 @@ def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping
     how many times the unknowns the reference has [1]. Raises KeyError if the reference lacks a score.
     """
     known = {_of(row, REFERENCED): float(row["times_unknowns"]) for row in reference}
-    finer = {case_of(row): float(row["score"]) for row in reference}
+    finer = scores_by_case(reference)
     table = []
     for row in scores:
         if has_error(row) and float(row["score"]) > 0.0 and _of(row, REFERENCED) in known:
@@ -105,6 +105,23 @@ def relative_error(row: Mapping[str, Any]) -> float:
 def relative_errors(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, ...], float]:
     """`relative_error` [1] of each case (`case_of`) in rows of the score table that has one."""
     return {case_of(row): error for row in rows if not math.isnan(error := relative_error(row))}
+
+
+def scores_by_case(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, ...], float]:
+    """Score of each case (`case_of`) in rows of the score table, also as text, that has one."""
+    return {case_of(row): float(row["score"]) for row in rows if _is_scored(row)}
+
+
+def relative_changes(
+    scores: Mapping[tuple[str, ...], float], reference: Mapping[tuple[str, ...], float]
+) -> dict[tuple[str, ...], float]:
+    """|score / reference - 1| [1] of each case; of none whose reference is zero, as at rest. Raises KeyError if the
+    reference lacks a case.
+
+    >>> relative_changes({("a",): 1.5, ("rest",): 0.0}, {("a",): 1.0, ("rest",): 0.0})
+    {('a',): 0.5}
+    """
+    return {case: abs(score / reference[case] - 1.0) for case, score in scores.items() if reference[case]}
 
 
 def error_in_proportion(score: float, usual: float, error: float) -> float:
