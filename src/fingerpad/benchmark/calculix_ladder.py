@@ -19,10 +19,11 @@ def calculix_ladder(
     scene: Scene, condition: Condition, factors: Sequence[float], case: Case, folder: Path, limit: float
 ) -> list[dict[str, Any]]:
     """A row for each coarsening of the skin's mesh but the finest, from coarse to fine: seconds of CalculiX, and errors
-    of its scores against its own on the finest mesh. A further condition costs it as much as the first.
+    of its scores against its own on the finest mesh. All columns of seconds are the same, as a further condition costs
+    it as much as the first.
 
-    Raises what `crosscheck.deck_inputs` raises, CalculixError if a deck fails or takes longer
-    than limit [s], and MeshError if a rung has no mesh.
+    Raises what `crosscheck.deck_inputs` raises, CalculixError if a deck fails or takes longer than limit [s], and
+    MeshError if a mesh cannot be had.
     """
     fine, settings = deck_inputs(scene, case)
     climbed = []

@@ -84,7 +84,7 @@ def row_of(scene: Scene, count: int) -> Scene:
 
 
 def _with_increments_of(scene: Scene, other: Scene) -> Scene:
-    """Another scene, in as many increments as a scene."""
+    """The other scene, in as many increments as the first."""
     counts = scene.model.numerics
     numerics = replace(
         other.model.numerics,

@@ -1,4 +1,4 @@
-"""What increments leave in the scores."""
+"""How far scores move when load increments are made smaller."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Run time against error: one condition, with shear, on ladders of meshes, by fingerpad and by others."""
+"""Run time against error: one condition, with shear, on ladders of ever finer meshes, by fingerpad and by others."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ from .plain import plain_scores
 from .timing import fewest, peak_memory
 
 Row = dict[str, Any]
-PATH = 1.8  # ways from first touch to the outermost face [1] that pre-indentation takes; source: devices (measured)
+# pre-indentation's whole path over the way from first touch to the outermost face, which the number of increments
+# divides [1]; source: devices (measured)
+PATH = 1.8
 
 
 def reference_rows(scene: Scene, condition: Condition, coarsening: float) -> list[Row]:
@@ -52,7 +54,7 @@ def own_ladder(
 def first_order_ladder(
     scene: Scene, condition: Condition, factors: Sequence[float], reference: Sequence[Mapping[str, Any]], repeats: int
 ) -> Iterator[Row]:
-    """The same with first-order elements; small kinematics. Raises as `own_ladder`."""
+    """`own_ladder` with first-order elements (`condense_first_order`), for small kinematics. Raises as `own_ladder`."""
     for factor in factors:
         found, seconds, section, nodes = _climbed(scene.coarsened(factor), condition, _prepared_first_order, repeats)
         unknowns = 2 * int(section.mesh.nvertices)
@@ -62,8 +64,10 @@ def first_order_ladder(
 def plain_ladder(
     scene: Scene, condition: Condition, factors: Sequence[float], reference: Sequence[Mapping[str, Any]]
 ) -> Iterator[Row]:
-    """The same by a solver that factorises the whole section anew for every increment. How deep to press and where the
-    mesh is fine it is told, at no cost. Raises SceneError if the actuators deform, and as `own_ladder`.
+    """`own_ladder` by a solver that factorises the whole section anew for every increment (`plain_scores`), so that a
+    further condition or stimulus costs it as much as the first. To which height to press, and where the mesh must be
+    fine, it is told; the seconds to find them are not counted. Raises SceneError if the actuators deform, and as
+    `own_ladder`.
     """
     if scene.device.actuators.body is not None:
         raise SceneError(f"{scene.device.name}: the plain solver knows rigid actuators only")
@@ -84,7 +88,7 @@ def plain_ladder(
 def _climbed(
     scene: Scene, condition: Condition, prepare: Callable[[Scene], Condensed | Meshed], repeats: int
 ) -> tuple[list[Row], tuple[float, float, float], SectionMesh, int]:
-    """Score rows of one rung; cold, warm and stimulus' seconds; its mesh and contact nodes."""
+    """On one mesh of a ladder: score rows, seconds as of `own_ladder` (cold, warm, stimulus), mesh, contact nodes."""
     condensed, cold = fewest(repeats, partial(prepare, scene))
     solve, pressing = fewest(repeats, partial(pressed_device, scene, condensed, Interface.SHEAR))
     found, stimulating = fewest(repeats, partial(_scores, scene, condensed, solve, condition))

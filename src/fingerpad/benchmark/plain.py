@@ -1,7 +1,8 @@
 """A plain solver to measure against: the whole section, factorised anew for every increment, by the same laws.
 
-It shares mesh, elements and contact laws with the library, and nothing that makes the library fast: no halves, no
-condensation kept, no patch, no shared pre-indentation.
+It shares mesh, elements and contact laws with the library, and nothing that makes the library fast: neither half of a
+section that mirrors, nor a condensation kept over increments, nor a patch of the nodes near contact, nor a
+pre-indentation shared by conditions.
 """
 
 from __future__ import annotations

@@ -68,8 +68,10 @@ def skip_rows(scene: Scene, stated: Sequence[Mapping[str, Any]], repeats: int) -
 
 
 def always_rows(scene: Scene, repeats: int) -> Iterator[Row]:
-    """What is left out whatever the switches say, or is not left out, as a ratio `of` something. Raises as
-    `skip_rows`.
+    """Rows of what no switch turns on or off: what the full field, which is left out, and one of both read-outs, which
+    are always computed, cost, and how many nodes lie in dorsal tissue; each as a ratio `of` what its row says.
+
+    Raises as `skip_rows`.
     """
     edges = edge_intervals(scene)
     condensed, section = condense_scene(scene, edges), mesh_section(scene, edges)

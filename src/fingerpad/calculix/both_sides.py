@@ -1,4 +1,4 @@
-"""Both sides of a case: a condition that CalculiX has solved, and what solves it by fingerpad's laws of contact."""
+"""Both sides of a case: what CalculiX finds for a condition, and what solves it by fingerpad's laws of contact."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from .deformed_crosscheck import deformed_outcome
 
 @dataclass(frozen=True)
 class BothSides:
-    """calculix: its outcome. fingerpad: what solves the same by a law of contact, or raises ContactError. unknowns: of
-    the deck [1]. seconds: that CalculiX took [s].
+    """calculix: its outcome. fingerpad: solves the same condition by the law of contact that it is given, or raises
+    ContactError. unknowns: of the deck [1]. seconds: that CalculiX took [s].
     """
 
     calculix: Outcome
@@ -33,8 +33,8 @@ class BothSides:
 def both_sides(scene: Scene, condition: str, case: Case, folder: Path, limit: float) -> BothSides:
     """Solve a condition with CalculiX in a folder, each side on a mesh of its own.
 
-    limit: seconds the deck may take. Raises what `deck_inputs` raises, CalculixError if CalculiX does not
-    solve it, and SceneError, MeshError or CondensationError if either side cannot be set up.
+    limit: seconds the deck may take. Raises what `deck_inputs` raises, CalculixError if CalculiX does not solve it, and
+    SceneError, MeshError or CondensationError if either side cannot be set up.
     """
     fine, settings = deck_inputs(scene, case)
     deck, own = on_deck(fine, case.coarsening), on_deck(fine, case.fingerpad_coarsening)

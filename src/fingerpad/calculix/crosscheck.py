@@ -144,7 +144,7 @@ def fingerpad_outcome(
     settings: DeckSettings,
     contact: ContactModel,
 ) -> Outcome:
-    """Outcome of the same path on the condensed maps of undeformed tissue. Raises ContactError if it cannot be
+    """Outcome of the deck's path by fingerpad, on the condensed undeformed finger. Raises ContactError if it cannot be
     followed, or the turning normal is asked of a deformable body or of sharp edges, MeshError as `contact_problem`.
     """
     problem = replace(contact_problem(scene, section, body, Interface.SHEAR), friction=settings.friction_acting)
@@ -203,7 +203,10 @@ def _own_states(
 def _turning_states(
     problem: ContactProblem, weight: FloatArray, condition: Condition, settings: DeckSettings
 ) -> tuple[PenaltyState, PenaltyState]:
-    """The same by the penalty law. weight: (n,) length of skin of each node [mm]."""
+    """States after pre-indentation and at the stimulus's end, by the penalty law, whose normal turns.
+
+    weight: (n,) length of skin of each node [mm].
+    """
     indented, *stimulus = targets(condition, settings)
     law = PenaltyLaw(settings.pressure_slope, settings.stick_slope, settings.friction_acting)
     first = replace(law, friction=settings.friction_indenting)

@@ -1,6 +1,7 @@
 """A scene as an input deck in Abaqus keywords, which CalculiX runs unchanged.
 
-Two laws of tissue Abaqus or CalculiX alone takes for what they are meant (`kinematics_told`).
+Of the tissue's laws, hencky is meant for Abaqus and green for CalculiX: each takes the other's for another law
+(`kinematics_told`).
 
 The deck holds the section's own second-order triangles (CPE6), the layers' materials, the bone, and the actuators:
 rigid ones as elements all of whose nodes are prescribed, deformable ones as elastic strips on a prescribed base. The

@@ -127,8 +127,9 @@ def coarse_section(scene: Scene) -> SectionMesh:
 
 
 def _coarsened(scene: Scene, covering: Scene, most_contact: int, most_unknowns: float) -> SectionMesh:
-    """The section of a scene on a mesh that is coarsened until it has no more unknowns, nor nodes that may come into
-    contact with the row of the covering scene; or as far as elements allow and each actuator of that row has a node.
+    """The section of a scene on the first of ever coarser meshes with no more than so many unknowns, and so many nodes
+    that may come into contact with the covering scene's row; if there is none, on the coarsest one that can be had on
+    which each actuator of that row has a node.
 
     Raises MeshError if no mesh can be had.
     """
@@ -168,7 +169,7 @@ def condensed_group(number: int) -> CondensedSection:
 
 
 def outcome(number: int, section: CondensedSection | FingerpadError) -> Outcome:
-    """The outcome of one scene on its group's condensed finger, or on why there is none."""
+    """The outcome of one scene. section: its group's condensed finger, or the error for which there is none."""
     scene = random_scene(number)
     (condition,) = scene.device.conditions
     result: Solution | FingerpadError

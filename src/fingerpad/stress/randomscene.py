@@ -104,7 +104,7 @@ def random_scene(number: int) -> Scene:
 
 
 def _law(rng: np.random.Generator, friction: float, group: Scene, span: float) -> ContactLaw:
-    """That friction, with what else contact is told, for a row of that span [mm]."""
+    """A law of contact with that friction [1], all else of it drawn for a row of that span [mm]."""
     pad = group.model.finger.pad
     softest = min(layer.material.modulus for layer in pad)
     return replace(
