@@ -781,7 +781,7 @@ def test_one_actuator_that_leaves_the_skin_on_the_way_is_named() -> None:
 
 
 def test_a_time_that_might_as_well_be_read_is_told_where_it_scores_otherwise() -> None:
-    """Slippery pins that slide to and almost as far fro; twice the change scores otherwise, a twenty-fifth more does not."""
+    """Slippery pins that slide to and almost as far fro; twice the change scores otherwise, 4 % more does not."""
     given = scene("device2")
     section, _ = condensed("device2")
     resampling = resampling_to_grid(section.arc, given.model.gabor.spacing)
