@@ -73,7 +73,7 @@ def test_a_plain_solver_switches_friction_at_the_same_time() -> None:
     given, condition = condensed("device2")[0], base.device.conditions[-1]
     pressed = indent_device(base, given, None, Interface.SHEAR)
     height = float(pressed.state.actuator[0, 1])
-    _, rows = plain_scores(base, section("device2"), condition, height, (2, 2))
+    rows = plain_scores(base, section("device2"), condition, height, (2, 2))
     own = stimulate(base, pressed, condition)
     read = filtered_readouts(
         resampling_to_grid(given.arc, base.model.gabor.spacing), own.reading.readouts, base.model.gabor

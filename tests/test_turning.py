@@ -110,15 +110,17 @@ def test_friction_holds_its_cone_across_the_turned_normal() -> None:
 
 
 def test_penalties_that_stiffen_go_to_it() -> None:
-    """The penalty law solves the same contact in another way: what is between them is 1 over its slopes."""
+    """The penalty law solves the same contact in another way: what is between them is 1 over its slopes, and what slid
+    before it touched, of which little is left after so many increments (test_penalty).
+    """
     problem, weight = rounded_block(FRICTION)
-    state = pressed(problem, 40)
-    state = follow(problem, state, state.actuator + np.array([[WAY, 0.0]]), 40)
+    state = pressed(problem, 160)
+    state = follow(problem, state, state.actuator + np.array([[WAY, 0.0]]), 160)
     apart = []
     for stiffer in (4.0, 16.0):
         law = PenaltyLaw(500.0 * stiffer, 500.0 * stiffer, FRICTION)
-        other = follow_penalties(problem, weight, law, untouched(problem), lift(problem, 0.0, DEPTH), 40)
-        other = follow_penalties(problem, weight, law, other, lift(problem, WAY, DEPTH), 40)
+        other = follow_penalties(problem, weight, law, untouched(problem), lift(problem, 0.0, DEPTH), 160)
+        other = follow_penalties(problem, weight, law, other, lift(problem, WAY, DEPTH), 160)
         apart.append(np.linalg.norm(other.force - state.force) / np.linalg.norm(state.force))
     assert apart[1] < 0.4 * apart[0]
     assert apart[1] < 0.01

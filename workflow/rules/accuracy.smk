@@ -18,7 +18,7 @@ rule accuracy:
 rule honesty:
     input:
         scores="results/scores.csv",
-        references=[f"results/{each}/{name}/reference.csv" for each in KINEMATICS for name in DEVICES_WITH[each]],
+        references=[f"results/{each}/{name}/reference.csv" for each, name in COMPUTED],
     output:
         table="results/accuracy/scores.csv",
     log:
@@ -33,9 +33,7 @@ rule honesty:
 
 rule reference:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
     output:
         scores="results/{kinematics}/{device}/reference.csv",
     log:
@@ -56,9 +54,7 @@ rule reference:
 
 rule increments:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         scores="results/scores.csv",
     output:
         table="results/accuracy/increments.csv",

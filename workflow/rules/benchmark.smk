@@ -37,7 +37,7 @@ rule benchmark_steps:
         runtime=60,
     params:
         code=code("benchmark_steps.py"),
-        scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each]],
+        scenes=[scored(name, each) for each, name in COMPUTED],
         repeats={"small": 9, "finite": 3},
     script:
         "../scripts/benchmark_steps.py"

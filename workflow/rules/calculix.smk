@@ -98,9 +98,7 @@ rule calculix_orders:
 
 rule calculix_condition:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
     output:
         scores="results/calculix_orders/{kinematics}/{device}/{condition}.csv",
         deck=directory("results/calculix_orders/{kinematics}/{device}/{condition}"),

@@ -76,6 +76,7 @@ DEVICES_WITH = {
     str(each): [name for name in DEVICES if each in SCENE[name].computed] for each in Kinematics
 }  # names of the devices that are predicted with those kinematics
 KINEMATICS = [each for each, names in DEVICES_WITH.items() if names]
+COMPUTED = [(each, name) for each in KINEMATICS for name in DEVICES_WITH[each]]
 MODES = {ending: str(each) for each, ending in MODE_ENDING.items()}  # kinematics by the ending of figures' names
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
@@ -123,6 +124,19 @@ def compared_file(wildcards):
 def recordings_of(wildcards):
     """The files with measured displacements that the wildcard device's scene file names, if any."""
     return RECORDINGS[scene_of(wildcards).device.name]
+
+
+# inputs of jobs that read one scene, and of those that read all; `ancient`, as a rule's parameters say what it depends on
+SCENE_FILES = {
+    "config": ancient(CONFIG),
+    "device": ancient(device_file),
+    "recordings": ancient(recordings_of),
+}
+ALL_SCENE_FILES = {
+    "config": ancient(CONFIG),
+    "devices": ancient(DEVICE_FILES),
+    "recordings": ancient(ALL_RECORDINGS),
+}
 
 
 def files_with(kinematics):

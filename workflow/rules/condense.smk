@@ -5,9 +5,7 @@
 
 rule condense:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/small/{device}/mesh.npz",
     output:
         condensed="results/small/{device}/condensed.npz",
@@ -34,9 +32,7 @@ rule condense:
 
 rule condense_body:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
     output:
         body="results/bodies/{device}.npz",
     log:

@@ -25,9 +25,7 @@ rule ensemble:
 
 rule ensemble_member:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         ensemble=ancient(ENSEMBLE),
         schemas=ancient(SCHEMA_FILES),
     output:

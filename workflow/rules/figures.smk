@@ -41,9 +41,7 @@ rule finite_maps:
 
 rule fields:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/{kinematics}/{device}/mesh.npz",
         body=body_of,
         pressed=pressed_of,
@@ -156,9 +154,7 @@ rule figure_kinematics:
 
 rule figure_section:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         mesh=f"results/small/{DEVICES[0]}/mesh.npz",
     output:
         png="results/figures/section.png",
@@ -180,9 +176,7 @@ rule figure_section:
 
 rule figure_stimuli:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
     output:
         png="results/figures/stimuli.png",
         pdf="results/figures/stimuli.pdf",
@@ -199,9 +193,7 @@ rule figure_stimuli:
 
 rule figure_map:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         fields=lambda w: f"results/{w.kinematics}/{device_with_dispersion(w).name}/fields.npz",
         solutions=distinct_solutions_of,
     output:

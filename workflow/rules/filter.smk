@@ -5,9 +5,7 @@
 
 rule filter:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         resampling="results/{kinematics}/{device}/resampling.npz",
         solution=solution_of,
     output:

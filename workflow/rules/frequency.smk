@@ -16,9 +16,7 @@ rule frequency:
 
 rule vibrate:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/small/{device}/mesh.npz",
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
@@ -46,9 +44,7 @@ rule vibrate:
 
 rule frequency_variants:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/small/{device}/mesh.npz",
         condensed="results/small/{device}/condensed.npz",
         body=body_of,

@@ -4,9 +4,7 @@
 
 rule mesh:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
     output:
         edges="results/{kinematics}/{device}/edges.csv",
         mesh="results/{kinematics}/{device}/mesh.npz",

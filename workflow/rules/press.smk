@@ -6,9 +6,7 @@
 
 rule press:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/finite/{device}/mesh.npz",
         body=body_of,
     output:
@@ -29,9 +27,7 @@ rule press:
 
 rule stimulate:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/finite/{device}/mesh.npz",
         body=body_of,
         pressed="results/finite/{device}/{interface}/pressed.npz",
@@ -53,9 +49,7 @@ rule stimulate:
 
 rule indentation:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
         bodies=[f"results/bodies/{name}.npz" for name in DEVICES if SCENE[name].device.actuators.body],
         pressed=[

@@ -6,9 +6,7 @@
 
 rule readouts:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         meshes=expand("results/small/{device}/mesh.npz", device=DEVICES),
         condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
         solutions=[

@@ -5,9 +5,7 @@
 
 rule score:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         solution=solution_of,
         filtered="results/{kinematics}/{device}/{condition}/{interface}/filtered.npz",
         resampling="results/{kinematics}/{device}/resampling.npz",
@@ -38,9 +36,7 @@ rule score:
 
 rule check:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         edges="results/{kinematics}/{device}/edges.csv",
         solutions=solutions_of,
         filtered=filtered_of,
@@ -63,11 +59,9 @@ rule check:
 
 rule scores:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         scores=cases("results/{kinematics}/{device}/{condition}/{interface}/score.csv"),
-        checks=[f"results/{each}/{name}/check.csv" for each in KINEMATICS for name in DEVICES_WITH[each]],
+        checks=[f"results/{each}/{name}/check.csv" for each, name in COMPUTED],
     output:
         table="results/scores.csv",
     log:

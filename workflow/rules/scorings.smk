@@ -5,7 +5,7 @@
 # results/frictions.csv, results/figures/phases.{png,pdf}
 
 # what friction of zero means is a question where displacements are known without it
-SLIPPERY = [name for name in DEVICES_WITH["small"] if Interface.FRICTIONLESS in SCENE[name].device.interfaces()]
+SLIPPERY = [name for name in DEVICES_WITH[Kinematics.SMALL] if Interface.FRICTIONLESS in SCENE[name].device.interfaces()]
 PHASED = [name for name in DEVICES if "phases" in device_documents()[name]["stimulus"]]
 
 
@@ -18,9 +18,7 @@ rule scorings:
 
 rule other_scores:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
-        recordings=ancient(ALL_RECORDINGS),
+        **ALL_SCENE_FILES,
         filtered=cases("results/{kinematics}/{device}/{condition}/{interface}/filtered.npz"),
         scores="results/scores.csv",
         ratings=DATA / "ratings.csv",
@@ -39,7 +37,7 @@ rule other_scores:
         code=code("other_scores.py"),
         cases=predicted(),
         conditions=KNOWN,
-        scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each]],
+        scenes=[scored(name, each) for each, name in COMPUTED],
     script:
         "../scripts/other_scores.py"
 
@@ -63,7 +61,7 @@ rule phases:
         runtime=20,
     params:
         code=code("phases.py"),
-        scenes=[scored(name, each) for each in KINEMATICS for name in DEVICES_WITH[each] if name in PHASED],
+        scenes=[scored(name, each) for each, name in COMPUTED if name in PHASED],
         written=as_written(PHASED),
     script:
         "../scripts/phases.py"

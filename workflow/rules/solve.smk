@@ -5,9 +5,7 @@
 
 rule solve:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         condensed="results/small/{device}/condensed.npz",
         body=body_of,
     output:

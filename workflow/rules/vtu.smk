@@ -13,9 +13,7 @@ rule vtu:
 
 rule field_output:
     input:
-        config=ancient(CONFIG),
-        device=ancient(device_file),
-        recordings=ancient(recordings_of),
+        **SCENE_FILES,
         mesh="results/{kinematics}/{device}/mesh.npz",
         body=body_of,
         pressed=pressed_of,

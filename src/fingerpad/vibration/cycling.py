@@ -23,7 +23,7 @@ from ..contact.patch import Patch
 from ..contact.path import advance, drifting_to
 from ..errors import CycleError
 from ..scene.device import CROSSING, Cycle
-from ..tissue.compliance import CondensedSection
+from ..tissue.compliance import CondensedSection, displaced
 from .creep import Creep
 from .speed import SLOWLY, frequency_name
 
@@ -95,7 +95,7 @@ def vibrate(indented: Indented, creep: Creep, cycle: Cycle, frequency: float, st
         noise = NOISE * float(np.linalg.norm(strain[-1]))
         if number > 1 and all(_repeated(*each, noise) for each in zip(watched, then, strict=True)):
             problems = [replace(stepping.problem, free=each.free) for each in moments]
-            moves = [(stepping.problem.compliance @ each.state.force.ravel()).reshape(-1, 2) for each in moments]
+            moves = [displaced(stepping.problem.compliance, each.state.force) for each in moments]
             skin = np.array([each.free + moved for each, moved in zip(moments, moves, strict=True)])
             return Vibration(problems, [each.state for each in moments], skin, strain)
         if number > 0:  # the first cycle is another than all that follow
