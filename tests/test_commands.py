@@ -31,7 +31,7 @@ from matplotlib.figure import Figure
 
 import fingerpad.commands.robustness as varying
 from conftest import Project, coarsened
-from fingerpad.api import predict
+from fingerpad.api import forces, predict, vibrate
 from fingerpad.arrays import FloatArray
 from fingerpad.checkout import find_checkout, model_for
 from fingerpad.cli import COMMANDS, FAILED, INTERRUPTED, UNSOLVED, main
@@ -41,7 +41,6 @@ from fingerpad.commands.predict import ONE_TABLE
 from fingerpad.commands.score_table import _contact, as_table, named
 from fingerpad.commands.vibrate import add as add_vibrate
 from fingerpad.commands.vibrate import as_table as vibrations
-from fingerpad.commands.vibrate import asked as vibrated_at
 from fingerpad.contact.linear_solution import Indented
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import ContactError, MeshError, ProcessError, SceneError, UsageError
@@ -78,6 +77,7 @@ from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device, checked_document
 from fingerpad.scene.variation import shared_out, variants
 from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.vibration.forecast import at_frequencies
 from scenes import condensed, scene, solve, solved
 
 ROOT = Path(__file__).parents[1]
@@ -280,6 +280,36 @@ def test_times_of_cycles_are_periods(coarse: Path) -> None:
     assert table.loc[~is_cycle, "time_unit"].isna().all()
     assert set(table.loc[is_cycle, "time_unit"]) == {"periods"}
     assert table["time"].dropna().between(2.0, 3.0).all()
+
+
+def test_tables_can_be_grouped_by_what_is_varied_and_by_caveats(coarse: Path) -> None:
+    """Lists in them are tuples; ranges are as good as lists; two processes compute what one does."""
+    device, vary = "config/devices/device2.yaml", {"stimulus.phases": [[0, 90], [0, 180]]}
+    table = predict(device, error=False, vary=vary)
+    assert [*table.groupby("stimulus.phases").size().index] == [(0, 90), (0, 180)]
+    assert table.groupby("caveats").size().index.map(type).unique().tolist() == [tuple]
+    assert predict(device, error=False, vary=vary, cores=2).equals(table)
+    assert variants({"stimulus.amplitude": range(1, 3)}) == [{"stimulus.amplitude": 1}, {"stimulus.amplitude": 2}]
+
+
+def test_forces_and_vibrations_in_python_are_those_that_commands_print(
+    coarse: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    device, name = "config/devices/device2.yaml", "alternate_000"
+    pressed = forces(device, error=False, conditions=[name])
+    assert main(["forces", device, "--condition", name, "--no-error", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert pressed["normal_N_per_mm"].tolist() == [row["normal_N_per_mm"] for row in rows]
+    assert pressed["error_N_per_mm"].isna().all()
+    swung = vibrate(device, [20.0], conditions=[name])
+    assert main(["vibrate", device, "--condition", name, "--frequency", "20", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert swung["score"].tolist() == [row["score"] for row in rows]
+    assert set(swung["frequency_hz"]) == {0.0, 20.0}
+    with pytest.raises(UsageError, match=r"frequency: found 0\.01; allowed: 0\.1 to 1000 \[Hz\]"):
+        vibrate(device, [0.01])
+    with pytest.raises(UsageError, match="conditions: found 'alternate_000'; allowed: a list of names"):
+        forces(device, conditions=name)
 
 
 def test_one_device_is_predicted_at_a_time() -> None:
@@ -1556,16 +1586,16 @@ def test_check_measures_a_middle_pin_from_the_mid_line() -> None:
 def test_frequencies_that_are_asked_for_take_the_place_of_the_files() -> None:
     """Each once, from the lowest; a file without any needs them."""
     given = scene("device2")
-    assert vibrated_at(given, None).device.frequencies == given.device.frequencies
-    assert vibrated_at(given, [60.0, 25.0, 60.0]).device.frequencies == (25.0, 60.0)
+    assert at_frequencies(given, []).device.frequencies == given.device.frequencies
+    assert at_frequencies(given, [60.0, 25.0, 60.0]).device.frequencies == (25.0, 60.0)
     silent = replace(given, device=replace(given.device, frequencies=()))
-    assert vibrated_at(silent, [25.0]).device.frequencies == (25.0,)
-    with pytest.raises(UsageError, match=r"found no stimulus\.frequency_hz; give it, or --frequency HZ"):
-        vibrated_at(silent, None)
+    assert at_frequencies(silent, [25.0]).device.frequencies == (25.0,)
+    with pytest.raises(UsageError, match=r"found no frequency; give one, or stimulus\.frequency_hz in the device file"):
+        at_frequencies(silent, [])
 
 
 def test_a_vibration_without_a_prediction_is_a_dash_and_why_is_told_once() -> None:
-    given = vibrated_at(scene("device2"), [25.0])
+    given = at_frequencies(scene("device2"), [25.0])
     row = {"interface": "shear", "condition": "a", "unit": "mm2"}
     rows = [
         row | {"readout": readout, "frequency_hz": hertz, "score": score, "caveats": caveats}
@@ -1584,7 +1614,7 @@ def test_a_vibration_without_a_prediction_is_a_dash_and_why_is_told_once() -> No
 
 def test_caveats_of_vibrations_say_which_frequencies_they_are_about() -> None:
     """Each once, those that differ in a share as one."""
-    given = vibrated_at(scene("device2"), [25.0])
+    given = at_frequencies(scene("device2"), [25.0])
     row = {"interface": "shear", "condition": "a", "unit": "mm2", "readout": "strain", "score": 0.1}
     rows = [
         row | {"frequency_hz": hertz, "caveats": caveats}

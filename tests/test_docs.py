@@ -176,5 +176,5 @@ def test_the_page_of_outputs_names_what_is_written() -> None:
     named = set(re.findall(r"`([\w/]+)`", (ROOT / "docs" / "outputs.md").read_text(encoding="utf-8")))
     arrays = {field.name for kind in (Solution, FilteredReadouts) for field in fields(kind)}
     arrays = arrays - {"reading", "certificate"} | {f"certificate/{field.name}" for field in fields(Certificate)}
-    columns = {*COLUMNS, *phases.COLUMNS, *frictions.COLUMNS, *api.NUMBERS, *ranking.RANKS}
+    columns = {*COLUMNS, *phases.COLUMNS, *frictions.COLUMNS, *api.PREDICTED, *api.FORCES, *ranking.RANKS}
     assert arrays | columns | set(response_rows(scene("device2"))[0]) <= named

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from fingerpad.errors import MissingResultError
-from fingerpad.results import needed, results_root, scenes
+from fingerpad.errors import FingerpadError, MissingResultError
+from fingerpad.results import needed, results_root, scene_of_case, scenes
+from scenes import scene
 
 CONFIG = Path(__file__).parents[1] / "config"
 
@@ -57,3 +58,18 @@ def test_of_nested_folders_with_results_the_nearest_is_taken(tmp_path: Path) -> 
     (inner / "deep").mkdir()
     (inner / "deep" / "results").touch()
     assert results_root(inner / "deep") == inner.resolve()
+
+
+def test_a_case_that_there_is_not_is_told_with_those_that_there_are() -> None:
+    known = {name: scene(name) for name in ("device2", "device3")}
+    assert scene_of_case(known, "device2", "alternate_090", "frictionless") is known["device2"]
+    for case, told in (
+        (("device9", "alternate_090", "shear"), r"device: found 'device9'; allowed: device2, device3; did you mean"),
+        (("device2", "high_090", "shear"), "device2: no condition 'high_090'; allowed: alternate_000, "),
+        (
+            ("device3", "alternate_090", "frictionless"),
+            r"device3: found the interface 'frictionless'; allowed: shear \(",
+        ),
+    ):
+        with pytest.raises(FingerpadError, match=told):
+            scene_of_case(known, *case)

@@ -503,7 +503,7 @@ def test_vibrations_have_the_caveats_of_their_scene_and_of_what_is_read() -> Non
         frequency_rows(Scene(each, device), over, creeping(), [None], Interface.SHEAR)[0]
         for each, over in ((given.model, condensed), (model, strained))
     )
-    assert plain["caveats"] == []
+    assert plain["caveats"] == ()
     strain, filtered = told["caveats"]
     assert strain.startswith("receptors are strained by up to")
     assert filtered.startswith("the filter's wavelength is 1.3 receptor elements")

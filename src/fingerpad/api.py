@@ -1,8 +1,8 @@
-"""What a notebook or a script of one's own asks for."""
+"""What a notebook or a script of one's own asks for: tables of a device file, as the commands print them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -13,13 +13,19 @@ from .checkout import model_for, schemas_for
 from .csvrows import listed
 from .errors import UsageError
 from .guess import hint
-from .prediction.forecast import forecast
+from .prediction.forces import ERROR, NORMAL, TANGENTIAL, force_rows
 from .prediction.ranking import RANKS
+from .prediction.side_by_side import forecasts
+from .scene.scene import Scene
 from .scene.tissue_law import Kinematics
 from .scene.validation import check_device, require_effect
 from .scene.variation import NO_VALUES, variants
+from .vibration.forecast import at_frequencies, vibration_forecast
 
-NUMBERS = ("score", "score_error", "indentation_mm", "force_N_per_mm", "sliding_share", "time")
+# columns of numbers, which are NaN where they are not known
+PREDICTED = ("score", "score_error", "indentation_mm", "force_N_per_mm", "sliding_share", "time")
+FORCES = ("time", "x_mm", NORMAL, TANGENTIAL, ERROR)
+VIBRATED = ("score", "inertia")
 
 
 def predict(
@@ -30,34 +36,100 @@ def predict(
     schemas: str | PathLike[str] | None = None,
     vary: Mapping[str, Sequence[Any]] = NO_VALUES,
     conditions: Sequence[str] = (),
+    cores: int = 1,
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank`, `first_rank`, `last_rank`,
-    `indentation_mm`, `force_N_per_mm`, `sliding_share`, `time`, `time_unit` and `caveats` (see `forecast`).
+    `indentation_mm`, `force_N_per_mm`, `sliding_share`, `time`, `time_unit` and `caveats` (see `forecast`), a tuple of
+    sentences; `note` has the same as one text, or says why there is no score.
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
-    column in front. error: whether to solve a coarser scene as well, for `score_error`. kinematics: "small" or
-    "finite". conditions: names of those that are predicted alone, on a mesh made for them (default: all). config: the
-    config.yaml beside the device file's folder if not given, or else that of the checkout around the working folder, as
-    are schemas. Numbers that are not known are NaN, and such ranks NA. Raises SceneError, and UsageError if there is no
-    such checkout or there are no such kinematics, if what is varied has no effect (`require_effect`), if conditions are
-    a text, and if the device is no path.
+    column in front, in which lists are tuples. error: whether to solve a coarser scene as well, for `score_error`.
+    kinematics: "small" or "finite". conditions: names of those that are predicted alone, on a mesh made for them
+    (default: all). config: the config.yaml beside the device file's folder if not given, or else that of the checkout
+    around the working folder, as are schemas. cores: how many combinations are solved at once, each by a process of its
+    own; a script then needs `if __name__ == "__main__":`. Numbers that are not known are NaN, and such ranks NA. Raises
+    SceneError, and UsageError if there is no such checkout or there are no such kinematics, if what is varied has no
+    effect (`require_effect`), if conditions are a text, and if the device is no path; and ProcessError if a process
+    ends early.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
+    cases = [(values, _checked(device, config, schemas, kinematics, values)) for values in variants(vary)]
+    require_effect([values for values, _ in cases], [scene for _, scene in cases])
+    tasks = [(scene.with_asked(_names(conditions)), error) for _, scene in cases]
+    tables = zip(cases, forecasts(tasks, cores), strict=True)
+    rows = [_hashable(values) | row for (values, _), table in tables for row in table]
+    return _table(rows, PREDICTED).astype(dict.fromkeys(RANKS, "Int64"))
+
+
+def forces(
+    device: str | PathLike[str],
+    error: bool = True,
+    kinematics: str = "small",
+    config: str | PathLike[str] | None = None,
+    schemas: str | PathLike[str] | None = None,
+    conditions: Sequence[str] = (),
+) -> pd.DataFrame:
+    """Forces with which every actuator acts on the skin [N per mm of finger], at every time of every condition of a
+    device file: the columns that `force_rows` names. Parameters and errors are those of `predict`.
+
+    >>> pressed = forces("config/devices/device2.yaml", error=False, conditions=["alternate_000"]).query("time == 0")
+    >>> pressed["normal_N_per_mm"].min() > 0.0
+    np.True_
+    """
+    scene = _checked(device, config, schemas, kinematics, NO_VALUES)
+    return _table(force_rows(scene.with_asked(_names(conditions)), error), FORCES)
+
+
+def vibrate(
+    device: str | PathLike[str],
+    frequencies: Iterable[float] = (),
+    config: str | PathLike[str] | None = None,
+    schemas: str | PathLike[str] | None = None,
+    conditions: Sequence[str] = (),
+) -> pd.DataFrame:
+    """Scores of a device file's conditions as vibrations, slow and at some frequencies [Hz], or those in the file: the
+    columns of results/frequency.csv, then `caveats`. Other parameters and errors are those of `predict`; UsageError
+    also if displacements are given in time, if there is no frequency, and if one is out of range.
+    """
+    scene = _checked(device, config, schemas, Kinematics.SMALL, NO_VALUES).with_asked(_names(conditions))
+    return _table(vibration_forecast(at_frequencies(scene, tuple(frequencies))), VIBRATED)
+
+
+def _checked(
+    device: str | PathLike[str],
+    config: str | PathLike[str] | None,
+    schemas: str | PathLike[str] | None,
+    kinematics: str,
+    values: Mapping[str, Any],
+) -> Scene:
+    """The scene of a device file with some values in place of those in files. Raises SceneError, UsageError."""
     if not isinstance(device, str | PathLike):
         raise UsageError(f"device: found {device!r}; allowed: the path of one device file")
-    if isinstance(conditions, str):
-        raise UsageError(f"conditions: found {conditions!r}; allowed: a list of names{hint(f'[{conditions!r}]')}")
     if kinematics not in list(Kinematics):
         raise UsageError(f"kinematics: found {kinematics!r}; allowed: {listed(Kinematics)}")
     model = model_for(Path(device), Path(config) if config else None)
-    folder = schemas_for(Path(schemas) if schemas else None)
-    cases = [(values, check_device(Path(device), folder, model, values)) for values in variants(vary)]
-    require_effect([values for values, _ in cases], [scene for _, scene in cases])
-    rows = [
-        values | row
-        for values, scene in cases
-        for row in forecast(scene.with_asked(conditions).with_kinematics(Kinematics(kinematics)), error)
-    ]
-    return pd.DataFrame(rows).astype(dict.fromkeys(NUMBERS, "float64") | dict.fromkeys(RANKS, "Int64"))
+    scene = check_device(Path(device), schemas_for(Path(schemas) if schemas else None), model, values)
+    return scene.with_kinematics(Kinematics(kinematics))
+
+
+def _names(conditions: Sequence[str]) -> Sequence[str]:
+    """Names of conditions. Raises UsageError if they are a text."""
+    if isinstance(conditions, str):
+        raise UsageError(f"conditions: found {conditions!r}; allowed: a list of names{hint(f'[{conditions!r}]')}")
+    return conditions
+
+
+def _hashable(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values whose lists are tuples, so that tables can be grouped by them."""
+    return {key: _frozen(value) for key, value in values.items()}
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+
+
+def _table(rows: Sequence[Mapping[str, Any]], numbers: Iterable[str]) -> pd.DataFrame:
+    """Rows as a table with some columns of numbers."""
+    return pd.DataFrame(rows).astype(dict.fromkeys(numbers, "float64"))

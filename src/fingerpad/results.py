@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 from .checkout import OWN, Checkout
-from .errors import MissingResultError
+from .errors import MissingResultError, UsageError
+from .guess import closest, hint
 from .scene.device_names import known_devices
 from .scene.scene import Scene
 from .scene.validation import check_device
@@ -42,3 +44,16 @@ def scenes() -> dict[str, Scene]:
     config, devices = folder / "config.yaml", folder / "devices"
     files = {name: devices / f"{name}.yaml" for name in known_devices(devices)}
     return {name: check_device(path, checkout.schemas, config) for name, path in files.items()}
+
+
+def scene_of_case(known: Mapping[str, Scene], device: str, condition: str, interface: str) -> Scene:
+    """The scene of a case, by its names. Raises UsageError if there is no such device, SceneError if it has no such
+    condition or is not predicted at such an interface; both name those that there are.
+    """
+    if device not in known:
+        meant = hint(closest(device, known), "'")
+        raise UsageError(f"device: found {device!r}; allowed: {', '.join(known)}{meant}")
+    scene = known[device]
+    scene.device.condition(condition)
+    scene.device.interface(interface)
+    return scene

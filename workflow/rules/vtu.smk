@@ -1,6 +1,6 @@
 # Full fields of a condition for ParaView: displacement, strain, stress, layer, contact tractions.
 # fields.vtu is the end of the stimulus; fields.pvd is the path there: pre-indented and at each time of the stimulus.
-# Not part of `all`: ask for one file, or for all of small kinematics with `snakemake vtu` (16 MB a condition and interface).
+# Not part of `all`: ask for one file, or for all of small kinematics with `snakemake vtu` (of each condition and interface 8 MB for the pre-indented state, each time, and the end).
 # REQUIRED INPUTS: results/{kinematics}/{device}/mesh.npz, results/{kinematics}/{device}/{condition}/{interface}/solution.npz;
 # with finite kinematics results/finite/{device}/{interface}/pressed.npz, and results/bodies/{device}.npz for deformable actuators.
 # OUTPUTS: fields.vtu, fields.pvd and states/ beside the solution

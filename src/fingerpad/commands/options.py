@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from ..checkout import find_checkout, model_for, schemas_for
-from ..csvrows import listed
 from ..errors import UsageError
 from ..files import require_folder
 from ..guess import closest, hint
@@ -109,12 +108,7 @@ def add_kinematics(parser: argparse.ArgumentParser, what: str) -> None:
 def checked_case(options: argparse.Namespace) -> tuple[Scene, Condition, Interface]:
     """The scene, condition and interface of the options. Raises SceneError, UsageError."""
     scene = asked_scene(options)
-    condition, interface = scene.device.condition(options.condition), Interface(options.interface)
-    if interface not in scene.device.interfaces():
-        why = "the device controls force, or `interfaces` in its file skips the frictionless case"
-        allowed = f"{listed(scene.device.interfaces())} ({why})"
-        raise UsageError(f"{scene.device.name}: found the interface '{interface}'; allowed: {allowed}")
-    return scene, condition, interface
+    return scene, scene.device.condition(options.condition), scene.device.interface(options.interface)
 
 
 def checked_scene(device: Path, options: argparse.Namespace, values: Mapping[str, Any] = NO_VALUES) -> Scene:

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
-from ..errors import UsageError
 from ..scene.scene import Scene
-from ..vibration.forecast import steps, vibration_forecast
+from ..vibration.forecast import at_frequencies, steps, vibration_forecast
 from ..vibration.frequency import without_caveats
 from ..vibration.speed import SLOWLY, frequency_name
 from .options import add_conditions, add_device, add_forms, add_scene_options, checked_scene
 from .printing import aligned, caveats_told, in_order, print_rows, require_scores, titled
 from .progress import progress
 
-LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
 DESCRIPTION = """\
 Score the conditions of a device as vibrations, as `snakemake frequency` does, without running it: on tissue that
 creeps, with small kinematics. Where the tissue's mass matters there is no prediction, and a note says up to which
@@ -40,6 +37,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         action="extend",
         type=hertz,
         nargs="+",
+        default=[],
         metavar="HZ",
         help="frequencies (default: the file's frequency_hz)",
     )
@@ -60,31 +58,12 @@ def hertz(text: str) -> float:
 
 def run(options: argparse.Namespace) -> None:
     """Vibrate the device, and print all scores once they are there. Raises ContactError if there is none."""
-    scene = asked(checked_scene(options.device, options).with_asked(options.conditions), options.frequency)
+    scene = checked_scene(options.device, options).with_asked(options.conditions)
+    scene = at_frequencies(scene, options.frequency)
     with progress(steps(scene), scene.device.name) as bar:
         rows = vibration_forecast(scene, bar.update)
     print_rows(options, without_caveats(rows) if options.csv else rows, lambda: as_table(scene, rows))
     require_scores(rows)
-
-
-def asked(scene: Scene, frequencies: Sequence[float] | None) -> Scene:
-    """The scene with other frequencies [Hz], if there are any. Raises UsageError if it has none, or cannot have one,
-    and SceneError if a condition has no actuator at its peak where it is read.
-    """
-    device = scene.device
-    if not device.cycles:
-        raise UsageError(
-            f"{device.name}: found displacements that are given in time; allowed: a stimulus of kind phased or"
-            " alternating, which can be a vibration (alternating, relative_to: leader, absolute 0: every second"
-            " actuator rests)"
-        )
-    if frequencies is None and not device.frequencies:
-        raise UsageError(f"{device.name}: found no stimulus.frequency_hz; give it, or --frequency HZ")
-    for frequency in frequencies or ():
-        if not LOWEST <= frequency <= HIGHEST:
-            raise UsageError(f"--frequency: found {frequency:g}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
-    wanted = tuple(sorted(set(frequencies))) if frequencies else device.frequencies
-    return replace(scene, device=replace(device, frequencies=wanted))
 
 
 def as_table(scene: Scene, rows: Sequence[Mapping[str, Any]]) -> str:

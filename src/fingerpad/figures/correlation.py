@@ -50,6 +50,7 @@ from .style import (
 
 ROW_HEIGHT, LEGEND_HEIGHT = 40.0, 22.0  # mm
 STATISTICS_WIDTH = 22  # characters in a line beside a panel
+BESIDE = 11.0  # of statistics from their panel, past half a number below its end [pt]
 MOST_NAMES = 8  # conditions' names that fit a panel's height
 TICKS = 4  # along a score's axis, at most
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
@@ -135,7 +136,7 @@ def correlation_panel(
         axes.locator_params(axis="y", nbins=TICKS)
         axes.set_ylabel(f"Perceived roughness\n({row['rating_kind']})")
     axes.annotate(
-        statistics(row, x.size), (1.0, 1.0), xycoords="axes fraction", xytext=(6.0, 0.0), textcoords="offset points",
+        statistics(row, x.size), (1.0, 1.0), xycoords="axes fraction", xytext=(BESIDE, 0.0), textcoords="offset points",
         va="top", linespacing=1.35,
     )  # fmt: skip
 

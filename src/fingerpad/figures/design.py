@@ -37,6 +37,7 @@ BAR = 0.7  # width of a score's bar, of the distance between both [1]
 NOTE = (0.79, 0.93)  # where the note stands, of the figure [1]
 LOCATOR = MaxNLocator(4, steps=[1.0, 2.0, 2.5, 5.0, 10.0])  # of vertical axes: intervals at most, and their lengths [1]
 PLACES = {"before": 0.0, "now": 1.0}  # of both scores [1]
+SLIGHT = 0.01  # of a vertical axis [1] below zero that is not shown; source: splines undershoot by less
 PNG_LEVEL = 1  # of 9; source: fewest seconds (measured), for a picture that is read where it is made
 
 
@@ -195,6 +196,7 @@ def _hold(axes: Axes, lines: list[Line2D], headroom: float = 1.0) -> None:
     x, y = np.hstack([np.asarray(line.get_data(), dtype=float) for line in lines])
     shown = y[(x >= start) & (x <= stop)]
     low, high = min(0.0, float(np.nanmin(shown))), headroom * float(np.nanmax(shown))
+    low = low if -low > SLIGHT * high else 0.0
     ticks = np.asarray(LOCATOR.tick_values(low, high))
     ticks = ticks[np.searchsorted(ticks, low, "right") - 1 : np.searchsorted(ticks, high) + 1]
     if axes.get_ylim() != (ticks[0], ticks[-1]):

@@ -67,12 +67,13 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
         room = "\n" * (named.count("\n") + 1)
         for number, conditions in enumerate(own):
             panels = next(unused)
-            for axes, condition in zip(panels, conditions, strict=False):
+            below = len(own[number + 1]) if number + 1 < len(own) else 0
+            for column, (axes, condition) in enumerate(zip(panels, conditions, strict=False)):
                 _draw(axes, device, condition)
+                if column >= below:
+                    axes.set_xlabel("Actuator")
                 label = styles.series[device.name, condition.name].label
                 axes.set_title(f"{room if number == 0 else ''}{label}", loc="left", fontweight="normal")
-                if number == len(own) - 1:
-                    axes.set_xlabel("Actuator")
             for axes in panels[len(conditions) :]:
                 axes.remove()
             if number == 0:
@@ -82,7 +83,8 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
                 )  # fmt: skip
                 title.set_in_layout(False)  # its room is that of the panels' titles, whose first lines are empty
     figure.supylabel("Displacement (µm)", fontsize=TEXT, y=1.0 - 0.5 * sum(heights) / height)
-    handles = [Patch(label=label, **LOOKS[kind]) for kind, label in LABELS.items()]
+    drawn = {kind for device in devices for kind in _directions(device)}
+    handles = [Patch(label=label, **LOOKS[kind]) for kind, label in LABELS.items() if kind in drawn]
     legend_below(figure, handles, _caption(devices))
     return figure
 

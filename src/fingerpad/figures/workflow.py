@@ -38,7 +38,7 @@ LETTER_PLACE = (-30.0, 14.0)  # of letters from panels' upper left corners, besi
 HEADINGS = ("1  At the receptors", "2  Gabor-filtered", "3  Area")
 LONG = 6  # characters of a condition's name beyond which names stand upright
 HEADROOM = 1.45  # of the bars' axis over the tallest bar [1]
-MOST_NUMBERS, MOST_NAMES = 5, 12  # conditions whose scores fit above their bars, and whose names below
+MOST_NUMBERS, MOST_NAMES = 3, 12  # conditions whose scores fit above their bars, and whose names below
 NUMBERS = "Small strain. Above bars: scores and their stated errors of discretisation."
 LINES = "Small strain. Lines on bars: the scores' stated errors of discretisation."
 
@@ -60,7 +60,9 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
         receptors, filtered, bars = row
         kernel = f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm"
         headings = HEADINGS if readout is Readout.STRAIN else ("", "", "")
-        for axes, heading, text in zip(row, headings, ("", kernel, "under |filtered|, over this span"), strict=True):
+        for axes, heading, text in zip(
+            row, headings, ("", kernel, "under |filtered|, over the span at left"), strict=True
+        ):
             subtitle(axes, heading, text)
         for axes in (receptors, filtered):
             draw_faces(axes, entry.faces)

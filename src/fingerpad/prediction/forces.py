@@ -25,7 +25,7 @@ def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = la
     """Forces with which every actuator acts on the skin, at every time of every condition that the device is predicted
     in: `kinematics, device, condition, interface, time, time_unit, is_read, actuator` (from 1, at the left), `x_mm` (of
     the row before it moves); per mm of finger `normal_N_per_mm` (into the skin), `tangential_N_per_mm` (to the right)
-    and `error_N_per_mm`, the estimated discretisation error of either; `note`; `caveats`, a list of sentences.
+    and `error_N_per_mm`, the estimated discretisation error of either; `note`; `caveats`, a tuple of sentences.
 
     The first time of a condition is that of pre-indentation; `is_read` marks the one at which it is scored. What cannot
     be solved has one row, without a time, and a note that says why. error: whether to solve once more, more coarsely;

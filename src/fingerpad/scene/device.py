@@ -322,6 +322,15 @@ class Device:
         meant = hint(closest(name, names), "'")
         raise SceneError(f"{self.name}: no condition '{name}'; allowed: {', '.join(names)}{meant}")
 
+    def interface(self, name: str) -> Interface:
+        """The interface of that name. Raises SceneError if the device is not predicted with it."""
+        if name not in self.interfaces():
+            why = "the device controls force, or `interfaces` in its file skips the frictionless case"
+            raise SceneError(
+                f"{self.name}: found the interface '{name}'; allowed: {', '.join(self.interfaces())} ({why})"
+            )
+        return Interface(name)
+
     def first_with_stimulus_of(self, name: str) -> Condition:
         """The first condition with the same stimulus. Raises SceneError if there is no condition of that name."""
         wanted = self.condition(name)

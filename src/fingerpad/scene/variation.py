@@ -44,9 +44,9 @@ def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
 
 
 def _plain(value: Any) -> Any:
-    """A value as a scene file may hold it: arrays and tuples as lists, numpy's numbers as Python's, words as texts."""
+    """A value as a scene file may hold it: sequences as lists, numpy's numbers as Python's, words as text."""
     plain = value.tolist() if hasattr(value, "tolist") else value.value if isinstance(value, Enum) else value
-    return [_plain(each) for each in plain] if isinstance(plain, list | tuple) else plain
+    return [_plain(each) for each in plain] if isinstance(plain, list | tuple | range) else plain
 
 
 def _is_plain(value: Any) -> bool:

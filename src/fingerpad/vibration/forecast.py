@@ -2,15 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from threadpoolctl import threadpool_limits
 
+from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..scene.scene import Scene
 from .frequency import vibration_rows
+
+LOWEST, HIGHEST = 0.1, 1000.0  # frequency [Hz]; source: as in the schema of `frequency_hz`
+
+
+def at_frequencies(scene: Scene, frequencies: Sequence[float]) -> Scene:
+    """The scene with other frequencies [Hz], if there are any. Raises UsageError if it has none, or cannot have one,
+    and SceneError if a condition has no actuator at its peak where it is read.
+    """
+    device = scene.device
+    if not device.cycles:
+        raise UsageError(
+            f"{device.name}: found displacements that are given in time; allowed: a stimulus of kind phased or"
+            " alternating, which can be a vibration (alternating, relative_to: leader, absolute 0: every second"
+            " actuator rests)"
+        )
+    if not frequencies and not device.frequencies:
+        raise UsageError(f"{device.name}: found no frequency; give one, or stimulus.frequency_hz in the device file")
+    for frequency in frequencies:
+        if not LOWEST <= frequency <= HIGHEST:
+            raise UsageError(f"frequency: found {frequency:g}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
+    wanted = tuple(sorted(set(frequencies))) or device.frequencies
+    return replace(scene, device=replace(device, frequencies=wanted))
 
 
 def vibration_forecast(scene: Scene, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:

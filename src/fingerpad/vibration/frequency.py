@@ -50,7 +50,7 @@ class Outcome:
 def vibration_rows(
     scene: Scene, section: SectionMesh, condensed: Condensed, step: Callable[[], object] = lambda: None
 ) -> list[dict[str, Any]]:
-    """Rows of the frequency table of a scene, of slow cycles first, with `caveats` (a list of sentences) behind, which
+    """Rows of the frequency table of a scene, of slow cycles first, with `caveats` (sentences) behind, which
     the note joins. section, condensed: of the scene. step: called after what each speed needs is condensed, and after
     each row pair. Raises MeshError, CondensationError.
     """
@@ -188,7 +188,7 @@ def _row(
         "unit": SCORE_UNIT,
         "inertia": outcome.inertia,
         "note": "; ".join(outcome.caveats),
-        "caveats": outcome.caveats,
+        "caveats": tuple(outcome.caveats),
     }
 
 
