@@ -47,16 +47,15 @@ rule stimulate:
         "../scripts/stimulate.py"
 
 
+PRESSED = [(name, each) for name in DEVICES_WITH[Kinematics.FINITE] for each in SCENE[name].device.interfaces()]
+
+
 rule indentation:
     input:
         **ALL_SCENE_FILES,
         condensed=expand("results/small/{device}/condensed.npz", device=DEVICES),
         bodies=[f"results/bodies/{name}.npz" for name in DEVICES if SCENE[name].device.actuators.body],
-        pressed=[
-            f"results/finite/{name}/{interface}/pressed.npz"
-            for name in DEVICES_WITH[Kinematics.FINITE]
-            for interface in SCENE[name].device.interfaces()
-        ],
+        pressed=[f"results/finite/{name}/{interface}/pressed.npz" for name, interface in PRESSED],
     output:
         table="results/indentation.csv",
     log:
@@ -65,6 +64,7 @@ rule indentation:
         ENVIRONMENT
     params:
         code=code("indentation.py"),
+        cases=PRESSED,
         scenes=support.fingerprint(
             [
                 (

@@ -6,6 +6,7 @@ from fingerpad.contact.force_curve import curve_rows, small_strain_curve
 from fingerpad.contact.problem import contact_problem
 from fingerpad.finite.pressing import Pressed
 from fingerpad.jobs import run
+from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
@@ -13,11 +14,19 @@ from fingerpad.tissue.compliance import CondensedBody, CondensedSection
 
 
 def main(
-    config: Path, devices: list[Path], condensed: list[Path], bodies: list[Path], pressed: list[Path], table: Path
+    config: Path,
+    devices: list[Path],
+    condensed: list[Path],
+    bodies: list[Path],
+    pressed: list[Path],
+    cases: list[tuple[str, Interface]],
+    table: Path,
 ) -> None:
-    """Follow the small-strain curves, read the others, write all. bodies, pressed: of the devices that have them."""
+    """Follow the small-strain curves, read the others, write all. bodies: of the devices that have one. cases: device
+    and interface of every `pressed`.
+    """
     rows = []
-    curves = {(path.parent.parent.name, path.parent.name): path for path in pressed}
+    curves = dict(zip(cases, pressed, strict=True))
     actuators = {path.stem: path for path in bodies}
     for path, section in zip(devices, condensed, strict=True):
         scene = load_scene(config, path)

@@ -60,9 +60,8 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
         receptors, filtered, bars = row
         kernel = f"λ = {gabor.wavelength(readout):g} mm, \N{GREEK SMALL LETTER SIGMA} = {gabor.sigma:g} mm"
         headings = HEADINGS if readout is Readout.STRAIN else ("", "", "")
-        for axes, heading, text in zip(
-            row, headings, ("", kernel, "under |filtered|, over the span at left"), strict=True
-        ):
+        details = ("", kernel, "under |filtered|, over the span at left")
+        for axes, heading, text in zip(row, headings, details, strict=True):
             subtitle(axes, heading, text)
         for axes in (receptors, filtered):
             draw_faces(axes, entry.faces)
