@@ -15,15 +15,15 @@ import pytest
 
 from fingerpad.digraph import layers, placed, read_dot, reduced
 from fingerpad.figures.rules import rules_figure
+from fingerpad.perception.ratings import RatingKind
 from fingerpad.perception.wording import OPEN_SLOPE, p_text
 from fingerpad.report.captions import Results, Words, rules_words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
 from fingerpad.report.tables import (
-    CORRELATION_COLUMNS,
     accuracy_grid,
     accuracy_summary,
-    correlation_bodies,
+    correlation_listing,
     score_grid,
     score_notes,
     score_with_error,
@@ -412,10 +412,19 @@ def test_devices_that_come_in_parts_are_one_body(results: Results) -> None:
 
 def test_correlations_without_a_prediction_stand_with_their_device(results: Results) -> None:
     titles = {scene.device.name: scene.device.title for scene in results.scenes}
-    bodies = correlation_bodies(results.correlations, titles)
-    assert len({body.title for body in bodies}) == len(bodies)
-    assert sum(len(body.rows) for body in bodies) == len(results.correlations)
-    assert all(len(cells) + 1 == len(CORRELATION_COLUMNS) for body in bodies for _, cells in body.rows)
+    listing = correlation_listing(results.correlations, titles)
+    assert len({body.title for body in listing.bodies}) == len(listing.bodies)
+    assert sum(len(body.rows) for body in listing.bodies) == len(results.correlations)
+    assert all(len(cells) + 1 == len(listing.columns) for body in listing.bodies for _, cells in body.rows)
+
+
+def test_a_column_in_which_nothing_stands_is_left_out(results: Results) -> None:
+    """As p of surrogate ratings; measured ones have it."""
+    titles = {scene.device.name: scene.device.title for scene in results.scenes}
+    measured = [{**row, "rating_kind": RatingKind.MEASURED.label} for row in results.correlations]
+    columns = [correlation_listing(rows, titles).columns for rows in (results.correlations, measured)]
+    assert set(columns[1]) - set(columns[0]) == {"p of R²"}
+    assert "n" in columns[0]
 
 
 def test_notes_of_scores_stand_once_with_all_that_they_are_about(results: Results) -> None:

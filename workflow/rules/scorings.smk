@@ -5,7 +5,9 @@
 # results/frictions.csv, results/figures/phases.{png,pdf}
 
 # what friction of zero means is a question where displacements are known without it
-SLIPPERY = [name for name in DEVICES_WITH[Kinematics.SMALL] if Interface.FRICTIONLESS in SCENE[name].device.interfaces()]
+SLIPPERY = [
+    name for name in DEVICES_WITH[Kinematics.SMALL] if Interface.FRICTIONLESS in SCENE[name].device.interfaces()
+]
 PHASED = [name for name in DEVICES if "phases" in device_documents()[name]["stimulus"]]
 
 

@@ -17,11 +17,10 @@ from ..words import KINEMATICS_NAME
 from .captions import Results, Words, words
 from .provenance import Provenance
 from .tables import (
-    CORRELATION_COLUMNS,
     Row,
     accuracy_grid,
     accuracy_summary,
-    correlation_bodies,
+    correlation_listing,
     score_grid,
     score_notes,
 )
@@ -71,8 +70,7 @@ def report(
         notes=score_notes(results.scores, titles),
         accuracy=accuracy_grid(results.scores, titles),
         accuracy_summary=accuracy_summary(results.scores),
-        correlation_columns=CORRELATION_COLUMNS,
-        correlations=correlation_bodies(results.correlations, titles),
+        correlations=correlation_listing(results.correlations, titles),
         surrogates=any(row["rating_kind"] == RatingKind.SURROGATE.label for row in results.correlations),
         claims=claims,
         verdicts={KINEMATICS_NAME[Kinematics(each)]: counts for each, counts in verdict_counts(claims).items()},

@@ -35,6 +35,14 @@ class Grid:
     bodies: tuple[Body, ...]
 
 
+@dataclass(frozen=True)
+class Listing:
+    """A table with one row of headings, that of the rows' names first, and a body for each device."""
+
+    columns: tuple[str, ...]
+    bodies: tuple[Body, ...]
+
+
 def score_with_error(row: Row) -> str:
     """A row's score and its stated error, in the unit that `score_label` names."""
     scale, _ = SCORE_SCALE[Readout(row["readout"])]
@@ -89,8 +97,10 @@ def accuracy_summary(scores: Sequence[Row]) -> str:
     )
 
 
-def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -> list[Body]:
-    """The table of correlations, headed by CORRELATION_COLUMNS. correlations: rows of correlations.csv."""
+def correlation_listing(correlations: Sequence[Row], titles: Mapping[str, str]) -> Listing:
+    """The table of correlations, with those of CORRELATION_COLUMNS in which there is something. correlations: rows of
+    correlations.csv.
+    """
     found: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
     for row in correlations:
         cells = (
@@ -106,7 +116,14 @@ def correlation_bodies(correlations: Sequence[Row], titles: Mapping[str, str]) -
             row["note"] or NOTHING,
         )
         found.setdefault(_titled(titles, row), []).append((INTERFACE_NAME[Interface(row["interface"])], cells))
-    return [Body(title, tuple(rows)) for title, rows in found.items()]
+    every = [cells for rows in found.values() for _, cells in rows]
+    kept = [number for number, column in enumerate(zip(*every, strict=True)) if any(cell != NOTHING for cell in column)]
+    bodies = tuple(
+        Body(title, tuple((name, tuple(cells[number] for number in kept)) for name, cells in rows))
+        for title, rows in found.items()
+    )
+    first, *others = CORRELATION_COLUMNS
+    return Listing((first, *(others[number] for number in kept)), bodies)
 
 
 CORRELATION_COLUMNS = (
