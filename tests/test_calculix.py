@@ -47,7 +47,7 @@ from fingerpad.scene.tissue_law import Kinematics, Law, TissueLaw
 from fingerpad.store import load
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
-from fingerpad.tissue.mesh import SectionMesh, element_nodes, mesh_section, nominal_edges
+from fingerpad.tissue.mesh import SectionMesh, element_nodes, mesh_section, nominal_edges, nominal_mesh
 from scenes import CONFIG, scene
 from scripts import calculix_condition, calculix_orders
 from scripts.calculix import main
@@ -209,7 +209,7 @@ def large_case() -> Decked:
     large = finite(on_deck(sharpened(scene("device2")), 2.0), Law.NEO_HOOKEAN)
     sizes = {"growth": 1.2, "receptor_size": 0.6, "nail_size": 3.0, "largest_size": 3.0}
     large = large.with_model(numerics=replace(large.model.numerics, **sizes))
-    return Decked(large, mesh_section(large, nominal_edges(large.device.actuators)), replace(SETTINGS, height=0.8))
+    return Decked(large, nominal_mesh(large), replace(SETTINGS, height=0.8))
 
 
 CASES = {"small": small_case, "finite": large_case}

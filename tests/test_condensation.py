@@ -17,7 +17,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.tissue.condensation import condense, condense_ordered, condense_section, section_stiffness
 from fingerpad.tissue.elasticity import mesh_dofs, unit_loads
 from fingerpad.tissue.factors import Factors, factorise
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import nominal_mesh
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
 from scenes import condensed, scene, section, solved
@@ -137,7 +137,7 @@ def test_factors_that_leave_a_residual_are_a_named_error(monkeypatch: pytest.Mon
 
     monkeypatch.setattr("fingerpad.tissue.condensation.factorise", off)
     with pytest.raises(CondensationError, match="equilibrium residual"):
-        condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+        condense_section(nominal_mesh(base), base)
 
 
 SPRINGS = csc_matrix(

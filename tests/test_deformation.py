@@ -21,7 +21,7 @@ from fingerpad.finite.deformation import Elements, elements_of, internal_force, 
 from fingerpad.finite.hyperelasticity import Tissue, tissue_of
 from fingerpad.scene.tissue_law import Law
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs, stiffness
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import nominal_mesh
 from forms import LAWS, forms
 from scenes import scene
 
@@ -49,7 +49,7 @@ class Section:
 @cache
 def section(law: Law) -> Section:
     coarse = uniform(scene("device2"), SPACING)
-    mesh = mesh_section(coarse, nominal_edges(coarse.device.actuators))
+    mesh = nominal_mesh(coarse)
     finger = coarse.model.finger
     materials = [layer.material for layer in finger.layers]
     basis = displacement_basis(mesh.mesh)

@@ -35,7 +35,7 @@ from fingerpad.scene.device import Condition
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.compliance import CondensedSection
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import nominal_mesh
 from scenes import scene
 
 COARSER = 3.0  # times the shipped sizes and strides
@@ -49,7 +49,7 @@ def base() -> Scene:
 
 @pytest.fixture(scope="module")
 def finger(base: Scene) -> PressedFinger:
-    section = mesh_section(base, nominal_edges(base.device.actuators))
+    section = nominal_mesh(base)
     return press_finger(base, section, None, Interface.FRICTIONLESS)
 
 
@@ -143,7 +143,7 @@ def test_pressing_is_refused_by_its_checks(
     base: Scene, monkeypatch: pytest.MonkeyPatch, check: str, kind: type[ContactError]
 ) -> None:
     """Each is asked, and what it raises is told with device and interface."""
-    section = mesh_section(base, nominal_edges(base.device.actuators))
+    section = nominal_mesh(base)
     monkeypatch.setattr(fingerpad.finite.pressing, check, refusing(kind))
     with pytest.raises(kind, match="device=device1, interface=frictionless, pre-indentation: refused"):
         press(base, section, None, Interface.FRICTIONLESS)
@@ -171,7 +171,7 @@ def test_what_corrections_left_is_told_by_certificates(base: Scene, finger: Pres
 def test_tissue_that_jumps_is_not_pressed_further(base: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fingerpad.finite.deformed, "is_far", lambda *_: True)
     with pytest.raises(SnapError):
-        press(base, mesh_section(base, nominal_edges(base.device.actuators)), None, Interface.FRICTIONLESS)
+        press(base, nominal_mesh(base), None, Interface.FRICTIONLESS)
 
 
 def test_a_correction_that_jumps_is_made_again_with_new_tangents(
@@ -221,7 +221,7 @@ def test_finite_receptors_read_logarithmic_strain(base: Scene, finger: PressedFi
     """Stretched by exp(0.3) along x and then turned by 2 rad, tissue is strained by 0.3, but for rounding; its linear
     strain is 0.35 without the turn, and -1.56 with it.
     """
-    place = mesh_section(base, nominal_edges(base.device.actuators)).mesh.doflocs
+    place = nominal_mesh(base).mesh.doflocs
     rotation = np.array([[np.cos(2.0), -np.sin(2.0)], [np.sin(2.0), np.cos(2.0)]])
     displacement = np.zeros(finger.dofs.size)
     displacement[finger.dofs] = rotation @ np.diag([np.exp(0.3), 1.0]) @ place - place
@@ -259,7 +259,7 @@ def test_a_stroke_that_cannot_be_followed_says_how_the_rest_goes_on(base: Scene,
 @pytest.mark.parametrize("interface", list(Interface))
 def test_moves_far_from_the_pressed_state_run_on_tissue_linearised_there(base: Scene, interface: Interface) -> None:
     """They end where new tangents lead from move to move, which are more."""
-    section = mesh_section(base, nominal_edges(base.device.actuators))
+    section = nominal_mesh(base)
     finger = press_finger(base, section, None, interface)
     way = 0.03 * np.array([[1.0, 1.0], [-1.0, 1.0], [1.0, 1.0], [-1.0, 1.0]])  # to the sides, and into the skin [mm]
     reached, tissue = finger.start, finger.tissue

@@ -12,7 +12,7 @@ from fingerpad.closedforms.equilibrium import linear_equilibrium
 from fingerpad.scene.finger import Material
 from fingerpad.scene.readout import Side
 from fingerpad.tissue.elasticity import displacement_basis, facet_strain, mesh_dofs, node_dofs, stiffness
-from fingerpad.tissue.mesh import element_nodes, mesh_section, nominal_edges
+from fingerpad.tissue.mesh import element_nodes, nominal_mesh
 from fingerpad.tissue.receptors import receptor_strain
 from scenes import scene
 
@@ -42,7 +42,7 @@ def test_receptors_lie_in_elements_of_the_side_they_are_read_on(side: Side) -> N
     """What moves where that layer does not reach strains none of them; its own nodes strain every one."""
     base = scene("device2").coarsened(4.0)
     base = base.with_model(readout=replace(base.model.readout, side=side))
-    section = mesh_section(base, nominal_edges(base.device.actuators))
+    section = nominal_mesh(base)
     own = np.unique(element_nodes(section.mesh)[section.layer == base.model.receptor_layer(side)])
     others = np.setdiff1d(np.arange(section.mesh.doflocs.shape[1]), own)
     _, strain = receptor_strain(section, base)

@@ -18,7 +18,7 @@ from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.finger import Material
 from fingerpad.scene.tissue_law import Kinematics, Law
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import nominal_mesh
 from scenes import scene
 
 SKIN = [Material(0.08, 0.48)]
@@ -84,7 +84,7 @@ def test_pressing_a_device_ends_where_tissue_is_no_longer_elliptic() -> None:
     base = scene("device2").coarsened(5.0).with_kinematics(Kinematics.FINITE)
     law = replace(base.model.contact, criterion=Criterion.DEPTH, depth=2.5)
     deep = base.with_model(contact=law, tissue=replace(base.model.tissue, law=Law.HENCKY))
-    section = mesh_section(deep, nominal_edges(deep.device.actuators))
+    section = nominal_mesh(deep)
     said = r"device=device2, interface=frictionless, pre-indentation: the tissue's law is no longer elliptic"
     with pytest.raises(EllipticityError, match=said):
         press(deep, section, None, Interface.FRICTIONLESS)
@@ -94,7 +94,7 @@ def test_pressing_a_device_ends_where_tissue_is_no_longer_elliptic() -> None:
 def test_tissue_that_is_not_elliptic_is_an_error(law: Law) -> None:
     """The finger sheared evenly, by little and by much: the error names the place and what to try."""
     given = scene("device2").coarsened(5.0)
-    section = mesh_section(given, nominal_edges(given.device.actuators))
+    section = nominal_mesh(given)
     basis = displacement_basis(section.mesh)
     skin = tissue_of(law, EXPONENT, SKIN, np.zeros((section.mesh.t.shape[1], 1), dtype=int))
     elements: Elements = elements_of(basis, skin, np.arange(basis.N))

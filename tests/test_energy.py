@@ -20,7 +20,7 @@ from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import nominal_mesh
 from scenes import scene
 
 COARSER = 2.0  # times the shipped sizes
@@ -35,7 +35,7 @@ LEFT = {
 
 def small(pressed: Scene, interface: Interface) -> tuple[FloatArray, float, float]:
     """Force against height, stored and dissipated energy [N] of pre-indentation."""
-    section = condense_section(mesh_section(pressed, nominal_edges(pressed.device.actuators)), pressed)
+    section = condense_section(nominal_mesh(pressed), pressed)
     state = indent_device(pressed, section, None, interface).state
     force = state.force.ravel()
     curve = small_strain_curve(pressed, contact_problem(pressed, section, None, interface))
@@ -44,7 +44,7 @@ def small(pressed: Scene, interface: Interface) -> tuple[FloatArray, float, floa
 
 def finite(pressed: Scene, interface: Interface) -> tuple[FloatArray, float, float]:
     """The same of tissue that deforms much."""
-    section = mesh_section(pressed, nominal_edges(pressed.device.actuators))
+    section = nominal_mesh(pressed)
     found = press(pressed, section, None, interface)
     elements = whole_part(pressed, section).elements
     dofs = node_dofs(displacement_basis(section.mesh))

@@ -21,7 +21,7 @@ from fingerpad.scene.contact_law import FrictionFrom, Interface
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import nominal_mesh
 from scenes import condensed, scene, section
 
 COARSER = 3.0  # times the shipped sizes and strides
@@ -87,7 +87,7 @@ def test_deformed_tissue_is_pressed_as_without_friction_and_then_rubs() -> None:
     """With finite strain, where the normal turns only if friction acts from first touch."""
     base = scene("device2").coarsened(COARSER).with_kinematics(Kinematics.FINITE)
     base = rubbing_from(base, FrictionFrom.STIMULUS)
-    mesh = mesh_section(base, nominal_edges(base.device.actuators))
+    mesh = nominal_mesh(base)
     rubbing, smooth = (press(base, mesh, None, each) for each in Interface)
     assert np.array_equal(rubbing.state.force, smooth.state.force)
     assert np.array_equal(rubbing.displacement, smooth.displacement)

@@ -16,12 +16,20 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow, Condition
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.tissue import mesh as mesh_of
+from fingerpad.tissue import strip
 from fingerpad.tissue.actuator_body import condense_body
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
-from fingerpad.tissue.mesh import load_section, merged, mesh_section, mesh_strip, nominal_edges, save_section
+from fingerpad.tissue.mesh import (
+    load_section,
+    merged,
+    mesh_section,
+    nominal_edges,
+    nominal_mesh,
+    save_section,
+)
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
+from fingerpad.tissue.strip import mesh_strip
 from scenes import scene, section, solved
 
 DEVICES = ("device1", "device2", "device3")
@@ -161,8 +169,8 @@ def test_thick_bodies_have_higher_elements_far_from_the_face(thickness: float, m
         base, device=replace(base.device, actuators=replace(row, body=replace(row.body, thickness=thickness)))
     )
     sizes, answers = [], []
-    for near in (mesh_of.NEAR, np.inf):
-        monkeypatch.setattr(mesh_of, "NEAR", near)
+    for near in (strip.NEAR, np.inf):
+        monkeypatch.setattr(strip, "NEAR", near)
         body = condense_body(given)
         sizes.append(mesh_strip(given.device.actuators, base.model.numerics).t.shape[1])
         along = np.tile(np.eye(2), (body.coordinate.size, 1))  # the face moves as a whole
@@ -173,7 +181,7 @@ def test_thick_bodies_have_higher_elements_far_from_the_face(thickness: float, m
 
 
 def test_a_body_of_too_many_elements_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(mesh_of, "MAX_ELEMENTS", 100)
+    monkeypatch.setattr(strip, "MAX_ELEMENTS", 100)
     base = scene("device3")
     with pytest.raises(MeshError, match=r"actuator's body needs more than 100 elements; try a thinner body"):
         mesh_strip(base.device.actuators, base.model.numerics)
@@ -209,7 +217,7 @@ def test_other_layers_and_outlines_mesh_too() -> None:
         replace(finger, width=20.0, height=14.0),
     ):
         other = base.with_model(finger=changed)
-        mesh = mesh_section(other, nominal_edges(other.device.actuators))
+        mesh = nominal_mesh(other)
         assert set(np.unique(mesh.layer)) == set(range(6))
 
 
@@ -222,7 +230,7 @@ def test_thicknesses_may_have_any_number_of_digits() -> None:
         for layer, thickness in zip(finger.pad, (1.0 / 3.0, 0.01, 4.0 / 3.0, 3.0), strict=True)
     )
     changed = base.with_model(finger=replace(finger, pad=pad))
-    mesh = mesh_section(changed, nominal_edges(changed.device.actuators))
+    mesh = nominal_mesh(changed)
     x, y = mesh.mesh.p[:, mesh.mesh.t]
     twice_areas = np.abs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]))
     assert twice_areas.min() > 1e-8  # mm²; a sliver of rounding would have 1e-11
@@ -258,7 +266,7 @@ def test_a_mesh_too_large_is_a_named_error() -> None:
     numerics = replace(base.model.numerics, edge_size=0.0003, face_size=0.0003)
     fine = base.with_model(numerics=numerics)
     with pytest.raises(MeshError, match="more than 500000 elements"):
-        mesh_section(fine, nominal_edges(fine.device.actuators))
+        nominal_mesh(fine)
 
 
 def test_an_interface_that_is_out_of_reach_has_no_say_where_edges_are(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -55,7 +55,7 @@ from fingerpad.scene.stimuli import CYCLE_STEPS, phased
 from fingerpad.tissue.actuator_body import condense_body
 from fingerpad.tissue.compliance import MIRROR, CondensedSection
 from fingerpad.tissue.condensation import condense_section
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import mesh_section, nominal_edges, nominal_mesh
 from fingerpad.tissue.reach import contact_tractions
 from scenes import condensed, scene, section, solve, solved
 
@@ -165,7 +165,7 @@ def test_pre_indentation_ends_at_the_depth_or_the_force_that_is_asked_for(interf
 def test_a_row_that_cannot_be_covered_is_pressed_as_hard_as_is_asked() -> None:
     """Pins so far apart that the outer ones touch nothing: the middle one bears what there is."""
     base, still = row_of(5, 3.8, 0.3, [0.0] * 5)
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     with pytest.raises(
         CriterionError,
         match=r"contact\.criterion: (touch, )?depth or force .* may need less indentation",
@@ -360,7 +360,7 @@ def test_rows_that_are_never_covered_say_what_helps(row: tuple[int, float, float
     """
     wide, _ = row_of(*row, [0.0] * row[0])
     wide = wide.with_model(numerics=replace(wide.model.numerics, contact_margin=1.0))
-    found = condense_section(mesh_section(wide, nominal_edges(wide.device.actuators)), wide)
+    found = condense_section(nominal_mesh(wide), wide)
     with pytest.raises(CriterionError, match="may need less indentation, as a narrower row does") as failure:
         indent_device(wide, found, None, Interface.SHEAR)
     assert ("never touched at once" in str(failure.value)) is not solved_by_touch
@@ -378,7 +378,7 @@ def test_where_close_faces_are_covered_does_not_hang_on_rounding() -> None:
     """Skin that touches one of two faces side by side is on the other one, too, not above it by 1e-16 mm."""
     base, _ = row_of(6, 1.53, 1.5, [0.0] * 6, edge_radius=0.0)
     base = base.coarsened(2.0)
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     heights = []
     for mirrored_half, inactive_nodes in ((True, True), (True, False), (False, True)):
         asked = ending(base, Criterion.FULL, mirrored_half)
@@ -393,7 +393,7 @@ def test_actuators_that_all_touch_at_once_are_pressed_no_further(increments: int
     """By the first step, however long increments are, they would go past where each touches."""
     base, still = row_of(2, 3.0, 2.0, [0.0] * 2)
     base = base.with_model(numerics=replace(base.model.numerics, indentation_increments=increments))
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     touching = ending(base, Criterion.TOUCH)
     solution = solve_condition(touching, found, None, still, Interface.SHEAR)
     assert np.all(solution.pressing[0] > 0.0)
@@ -489,7 +489,7 @@ def test_pins_are_covered_the_deeper_the_wider_until_they_abut(count: int) -> No
     depths = []
     for gap in (0.1, 0.05, 0.03, 0.02, 0.01, 0.0):
         base, still = row_of(count, 1.0, 1.0 - gap, [0.0] * count)
-        found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+        found = condense_section(nominal_mesh(base), base)
         depths.append(solve_condition(base, found, None, still, Interface.SHEAR).depth)
     assert np.all(np.diff(depths) > 0.0)
     assert depths[-1] < 1.1 * depths[0]  # as much as the faces are wider
@@ -500,7 +500,7 @@ def test_pins_are_covered_the_deeper_the_wider_until_they_abut(count: int) -> No
 def test_touch_ends_where_the_last_pin_bears_something(count: int, interface: Interface) -> None:
     base, still = row_of(count, 1.2, 0.8, [0.0] * count)
     base = ending(base, Criterion.TOUCH)
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     solution = solve_condition(base, found, None, still, interface)
     assert np.all(solution.pressing[0] > 0.0)
     if count == 3:  # one or two touch from the start
@@ -512,7 +512,7 @@ def test_touch_ends_where_the_last_pin_bears_something(count: int, interface: In
 def test_round_pins_are_pressed_until_contact_reaches_the_middle_of_each() -> None:
     """They have no flat face to cover: outer ones touch first with their inner flanks, and then go deeper."""
     base, still = row_of(4, 2.5, 1.0, [0.0] * 4, edge_radius=0.5)
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     covered, touching = (
         solve_condition(ending(base, each), found, None, still, Interface.SHEAR)
         for each in (Criterion.FULL, Criterion.TOUCH)
@@ -529,7 +529,7 @@ def test_round_pins_are_pressed_in_about_as_many_increments_as_flat_ones() -> No
     counts = {}
     for share in (0.45, 0.5):
         base, _ = row_of(4, 2.5, 1.0, [0.0] * 4, edge_radius=share)
-        found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+        found = condense_section(nominal_mesh(base), base)
         problem = contact_problem(base, found, None, Interface.SHEAR)
         passed: list[ContactState] = []
         indent(
@@ -542,7 +542,7 @@ def test_round_pins_are_pressed_in_about_as_many_increments_as_flat_ones() -> No
 def test_skin_that_is_handed_over_keeps_actuators_in_order() -> None:
     """One node of the left pin has come to lie over the right one, and the next to its right has not: both go."""
     base, _ = row_of(2, 1.0, 0.9, [0.0, 0.0])
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     problem = contact_problem(base, found, None, Interface.SHEAR)
     state = rest(problem, 2.0)
     last = int(np.flatnonzero(state.given == 0)[-1])
@@ -596,7 +596,7 @@ def test_skin_that_presses_into_the_neighbour_of_its_actuator_is_refused(share: 
 def test_light_forces_are_met_as_well(force: float, interface: Interface) -> None:
     base, still = row_of(1, 1.0, 0.8, [0.0])
     base = ending(base, Criterion.FORCE, force=force)
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     borne = solve_condition(base, found, None, still, interface).pressing[0].sum()
     assert borne == pytest.approx(force, rel=END_TOLERANCE)
 
@@ -764,7 +764,7 @@ def test_pins_that_abut_and_move_together_are_one(stroke: float, interface: Inte
     """Skin slides from one face to the next. What the corners between them leave is as small as they are, 2e-3 mm."""
     row, condition = row_of(4, 1.0, 1.0, [stroke] * 4, edge_radius=0.0)
     wide, same = row_of(1, 4.0, 4.0, [stroke], edge_radius=0.0)
-    mesh = mesh_section(row, nominal_edges(row.device.actuators))
+    mesh = nominal_mesh(row)
     many, one = (
         solve_condition(pressed, condense_section(mesh, pressed), None, moved, interface)
         for pressed, moved in (
@@ -800,7 +800,7 @@ def test_a_stimulus_through_the_tissue_is_refused(interface: Interface) -> None:
 def test_work_of_friction_is_measured_by_the_largest_force_so_far() -> None:
     """Where the skin was left nothing presses, and rounding of the work is no error; more than that is."""
     base = scene("device2").coarsened(3.0)
-    found = condense_section(mesh_section(base, nominal_edges(base.device.actuators)), base)
+    found = condense_section(nominal_mesh(base), base)
     problem = contact_problem(base, found, None, Interface.SHEAR)
     pressed = indented_state(base, problem)
     left = follow(problem, pressed, np.full_like(pressed.actuator, -0.1), 8)  # down and aside

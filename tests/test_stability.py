@@ -26,7 +26,7 @@ from fingerpad.stress.randomscene import STILL
 from fingerpad.tissue.compliance import CondensedBody
 from fingerpad.tissue.elasticity import displacement_basis, node_dofs
 from fingerpad.tissue.factors import factorise
-from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
+from fingerpad.tissue.mesh import SectionMesh, nominal_mesh
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.skin import crossing, require_uncrossed, skin_of
 from scenes import scene
@@ -59,7 +59,7 @@ def arch(width: float, nail: float) -> Scene:
 
 
 def pressed(given: Scene, height: float) -> Pressed:
-    section = mesh_section(given, nominal_edges(given.device.actuators))
+    section = nominal_mesh(given)
     return press_to(height, given, section, None, Interface.FRICTIONLESS)
 
 
@@ -141,7 +141,7 @@ def test_a_face_softer_than_what_it_presses_does_not_hold_it(softer: float, unst
 def coarse() -> tuple[SectionMesh, np.ndarray]:
     """A coarse section and the unknowns of its nodes."""
     given = scene("device2").coarsened(5.0)
-    section = mesh_section(given, nominal_edges(given.device.actuators))
+    section = nominal_mesh(given)
     assert contact_tractions(section, given).weight.size > 0
     return section, node_dofs(displacement_basis(section.mesh))
 

@@ -22,7 +22,7 @@ from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.actuator_body import body_of
 from fingerpad.tissue.compliance import MIRROR
 from fingerpad.tissue.condensation import condense_section
-from fingerpad.tissue.mesh import mesh_section, nominal_edges
+from fingerpad.tissue.mesh import mesh_section, nominal_edges, nominal_mesh
 from scenes import condensed, scene
 
 # Gaps are solved to 1e-9 of the indentation of some 2 mm
@@ -130,7 +130,7 @@ def test_deformed_halves_of_a_row_that_does_not_mirror_meet(positions: tuple[flo
     outline and bone. The mesh of the mirrored row is the mirror image.
     """
     row = ActuatorRow(positions, 0.6, 0.1)
-    found, image = (mesh_section(base, nominal_edges(base.device.actuators)) for base in aside(row))
+    found, image = (nominal_mesh(base) for base in aside(row))
     ends = found.mesh.doflocs[:, found.mesh.facets[:, found.mesh.boundary_facets()]]
     assert not np.all(ends[0] == 0.0, axis=0).any()
     assert not found.mirrors
@@ -164,8 +164,7 @@ def test_a_mesh_of_deformed_tissue_is_fine_where_a_row_aside_lies_and_there_alon
 def test_tissue_deformed_aside_mirrors_what_is_deformed_on_the_other_side() -> None:
     """A row of two pins to the right of the finger's middle, and its mirror image, each on a mesh of its own."""
     found, image = (
-        press(base, mesh_section(base, nominal_edges(base.device.actuators)), None, Interface.SHEAR)
-        for base in aside(ActuatorRow((-0.4, 1.6), 1.2, 0.15))
+        press(base, nominal_mesh(base), None, Interface.SHEAR) for base in aside(ActuatorRow((-0.4, 1.6), 1.2, 0.15))
     )
     assert found.section.position[:, 0].mean() > 0.0
     assert np.abs(found.state.actuator - image.state.actuator[::-1] * MIRROR).max() < LENGTH

@@ -27,9 +27,10 @@ from ..scene.numerics import Numerics
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics, Law, TissueLaw
 from ..tissue.elasticity import lame, mesh_dofs
-from ..tissue.mesh import SectionMesh, element_nodes, mesh_strip
+from ..tissue.mesh import SectionMesh, element_nodes
 from ..tissue.reach import contact_tractions
 from ..tissue.receptors import receptor_strain
+from ..tissue.strip import mesh_strip
 from ..words import plain
 
 ARC_STEP = np.deg2rad(5.0)  # rad; angle of a rigid edge's one element; source: its chord is 1e-3 radii off

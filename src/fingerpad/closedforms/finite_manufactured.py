@@ -19,7 +19,7 @@ from ..arrays import FloatArray
 from ..finite.hyperelasticity import tissue_of
 from ..scene.scene import Scene
 from ..tissue.elasticity import displacement_basis, node_dofs
-from ..tissue.mesh import mesh_section, nominal_edges
+from ..tissue.mesh import nominal_mesh
 from .comparison import EXACT_ORDER, Comparison, compare_fields, on_spacings
 from .energy import first_stress
 from .equilibrium import equilibrium
@@ -53,7 +53,7 @@ def large_gradient(place: FloatArray) -> FloatArray:
 def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     """Errors of displacement and gradient in L2 on elements of at most that size [mm]."""
     same = uniform(scene, spacing)
-    section = mesh_section(same, nominal_edges(same.device.actuators))
+    section = nominal_mesh(same)
     materials, law = scene.model.finger.materials, scene.model.tissue
     tissue = tissue_of(law.law, law.ogden_exponent, materials, section.layer[:, None])
     basis = displacement_basis(section.mesh)

@@ -17,7 +17,7 @@ from ..arrays import FloatArray
 from ..scene.scene import Scene
 from ..tissue.condensation import section_stiffness
 from ..tissue.elasticity import displacement_basis, lame, mesh_dofs
-from ..tissue.mesh import mesh_section, nominal_edges
+from ..tissue.mesh import nominal_mesh
 from .comparison import EXACT_ORDER, Comparison, compare_fields, on_spacings
 from .equilibrium import linear_equilibrium
 
@@ -48,7 +48,7 @@ def rows(scene: Scene) -> list[Comparison]:
 def manufactured(scene: Scene, spacing: float) -> list[Comparison]:
     """Errors in L2 and in energy on elements of at most that size [mm]."""
     same = uniform(scene, spacing)
-    section = mesh_section(same, nominal_edges(same.device.actuators))
+    section = nominal_mesh(same)
     matrix, dofs = section_stiffness(section, scene), mesh_dofs(section.mesh)
     basis = displacement_basis(section.mesh, order=EXACT_ORDER)
     finger = scene.model.finger

@@ -11,7 +11,7 @@ from ..checkout import model_for
 from ..prediction.caveats import device_caveats, skin_rises, stimulus_caveats
 from ..scene.contact_law import Criterion
 from ..scene.scene import Scene
-from ..tissue.mesh import mesh_section, nominal_edges
+from ..tissue.mesh import nominal_mesh
 from ..words import several
 from .options import add_device, add_picture, add_scene_options, checked_scene, picture_of
 from .printing import whose
@@ -56,7 +56,7 @@ def run(options: argparse.Namespace) -> None:
         from ..figures.style import letters_without_a_glyph, save_as  # noqa: PLC0415
 
         with progress(STEPS, scene.device.name) as bar:
-            section = mesh_section(scene, nominal_edges(scene.device.actuators))
+            section = nominal_mesh(scene)
             bar.update()
             figure = section_figure(scene.model, section, [scene.device])
             bar.update()

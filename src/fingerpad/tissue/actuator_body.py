@@ -10,7 +10,7 @@ from ..scene.scene import Scene
 from .compliance import CondensedBody
 from .condensation import condense
 from .elasticity import displacement_basis, node_dofs, stiffness, unit_loads
-from .mesh import mesh_strip
+from .strip import mesh_strip
 
 BODY_FINER = 2.0  # times [1] smaller elements of actuators' bodies than of skin; source: decision 24
 

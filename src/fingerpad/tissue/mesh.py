@@ -1,4 +1,4 @@
-"""Mesh of the finger's section and of a deformable actuator: second-order, conforming to every layer interface.
+"""Mesh of the finger's section: second-order, conforming to every layer interface.
 
 The section is meshed in logical coordinates (s, zeta): s runs along the outline from the pad's lowest point to the
 dorsal mid-line, zeta from the skin (0) to the bone. Down to the finger's parallel depth zeta is the depth [mm] along
@@ -9,7 +9,6 @@ from one grid, each for the edges as it sees them; where they see the same they 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from itertools import pairwise
@@ -32,11 +31,6 @@ from .compliance import MIRROR
 MAX_ELEMENTS = 500_000  # [1]; source: 5 GB of memory, and half as many again as the finest reference needs
 MAX_REFINEMENTS = 30  # halvings of the longest edge [1]; source: 2^-30 mm is far below any size asked for
 ROUNDED = 9  # decimals of a length [mm]; keeps rounding from telling equal edges apart
-NEAR = 0.25  # depth in a body, of its width [1], to which its elements are as at the edges; source: HIGHEST
-# Height of a body's elements over its width times growth [1]; source: pucks 0.7 to 12 times as thick as wide then press
-# and shear as on elements of one height to 0.4 % (measured)
-HIGHEST = 0.2
-JOINED = 8  # decimals of a length [mm]; nodes that agree in them are one
 SIZE_SLACK = 1e-9  # relative [1]; keeps rounding from deciding whether an element is refined
 LINE_SLACK = 10.0**-ROUNDED  # mm; keeps rounding from deciding on which side of a line a node lies
 NODES = ElementTriP2.doflocs.T  # (2, 6) of a reference triangle [1]: corners, then midpoints of sides 0-1, 1-2, 2-0
@@ -157,55 +151,9 @@ def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
     return _joined(scene, outline, halves[0], halves[-1])
 
 
-def mesh_strip(row: ActuatorRow, numerics: Numerics) -> MeshTri2:
-    """Mesh of one deformable actuator's body: a strip on its base, face at y = 0, centred on x = 0, and placed as the
-    body says.
-
-    Graded towards both ends of the face like the skin. Raises MeshError if the row is rigid, more than MAX_ELEMENTS are
-    asked for, or its body is turned inside out or has another face or base than the strip.
-    """
-    if row.body is None:
-        raise MeshError("a rigid actuator has no body to mesh")
-    half = row.width / 2.0
-    count = int(np.ceil(np.log1p(numerics.growth * half / numerics.edge_size) / np.log1p(numerics.growth)))
-    distance = numerics.edge_size * np.expm1(np.arange(count + 1) * np.log1p(numerics.growth)) / numerics.growth
-    across = half * (1.0 - distance[::-1] / distance[-1])
-    down = -_depths(row.body.thickness, row.width, numerics)[::-1]
-    if 4 * across.size * down.size > MAX_ELEMENTS:
-        raise MeshError(
-            f"the mesh of an actuator's body needs more than {MAX_ELEMENTS} elements; try a thinner body, or a larger"
-            " numerics.edge_size"
-        )
-    right = MeshTri.init_tensor(across, down)
-    # mirrored with its diagonals; joined here, as scikit-fem's + warns of its own arrays' order
-    points = np.hstack([right.p, right.p * MIRROR[:, None]]).round(JOINED)
-    _, kept, joined = np.unique(points, axis=1, return_index=True, return_inverse=True)
-    triangles = joined.ravel()[np.hstack([right.t, right.t + right.p.shape[1]])]
-    strip = MeshTri2.from_mesh(MeshTri(np.ascontiguousarray(points[:, kept]), triangles))
-    mesh = replace(strip, doflocs=row.body.placed(*strip.doflocs))
-    y = strip.doflocs[1]
-    face, base = y == y.max(), y == y.min()
-    if not (
-        np.array_equal(mesh.doflocs[:, face], strip.doflocs[:, face])
-        and np.array_equal(mesh.doflocs[1, base], strip.doflocs[1, base])
-    ):
-        raise MeshError("actuator body: its face must lie where the strip's does, and its base as deep")
-    _require_valid(mesh, "actuator body")
-    return mesh
-
-
-def _depths(thickness: float, width: float, numerics: Numerics) -> FloatArray:
-    """Depths (n_rows + 1,) [mm] of a strip's rows: as high as elements at the edges; where the face is far, in a body
-    that is thick for its width, higher row by row by `growth`, to a share of the width.
-    """
-    near, size = NEAR * width, numerics.edge_size
-    if thickness <= near:
-        return np.flip(thickness * np.linspace(1.0, 0.0, max(2, math.ceil(thickness / size)) + 1))
-    depths: list[float] = np.linspace(0.0, near, math.ceil(near / size) + 1).tolist()
-    while depths[-1] < thickness:
-        size = min(size * (1.0 + numerics.growth), HIGHEST * numerics.growth * width)
-        depths.append(depths[-1] + size)
-    return np.asarray(depths) * (thickness / depths[-1])
+def nominal_mesh(scene: Scene) -> SectionMesh:
+    """`mesh_section`, fine where edges lie under undeformed skin (`nominal_edges`)."""
+    return mesh_section(scene, nominal_edges(scene.device.actuators))
 
 
 def save_section(path: Path, section: SectionMesh) -> None:
@@ -384,7 +332,7 @@ def _joined(scene: Scene, outline: _Outline, right: MeshTri, left: MeshTri) -> S
         receptor_facets=receptor_facets[np.argsort(s[facet_nodes[receptor_facets]])],
         fixed=np.flatnonzero(zeta == zeta.max()),
     )
-    _require_valid(mesh, "section mesh")
+    require_valid(mesh, "section mesh")
     return section
 
 
@@ -401,7 +349,7 @@ def _layers(finger: Finger, s: FloatArray, zeta: FloatArray, nail: float) -> np.
     return index
 
 
-def _require_valid(mesh: MeshTri2, name: str) -> None:
+def require_valid(mesh: MeshTri2, name: str) -> None:
     """Raise MeshError if the map of any element has a non-positive Jacobian at its corners or midpoints."""
     gradient = mesh.mapping().DF(NODES)  # scikit-fem's own determinants end in an error of theirs where one is zero
     determinant = gradient[0, 0] * gradient[1, 1] - gradient[0, 1] * gradient[1, 0]
