@@ -13,8 +13,8 @@ from ..scene.scene import Scene
 from .edges import edge_intervals
 from .scoring import prepared, read_out, solve_scene
 
-# Coefficients [1]; source: zero, of lubricated and of dry skin, and what lies between: a pad that is carried by 20 um
-# asks for some 0.005
+# Coefficients of friction [1]; source: none at all, lubricated and dry skin, and steps between them, closest where pins
+# that move by 20 um begin to carry the skin along, near 0.005
 FRICTIONS = (0.0, 0.001, 0.002, 0.005, 0.01, 0.05, 0.1, 0.3, 0.6, 1.0)
 COLUMNS = ("kinematics", "device", "condition", "readout", "score", "unit")
 

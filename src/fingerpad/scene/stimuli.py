@@ -32,8 +32,8 @@ CYCLE_STEPS = 64  # [1]; source: scores are within 0.2 % of those with 128 for D
 # ASSUME: stimulus.playback: cycle is read in the one after SETTLING, as friction remembers how the first one began
 SETTLING = 2  # [1]; source: changes of strain of waves that differ in time alone are within 0.8 %, not 6 % as with 1
 
-# Decimals of a phase from the peak [deg], to which phases of 60 and 300 degrees are one; source: 64 times up to 360
-# each come with a rounding of 4e-12
+# Decimals to which a phase's distance from the peak [deg] is rounded, so that 60 and 300 degrees are one stimulus;
+# source: 64 steps of up to 360 degrees are rounded by 4e-12
 FOLDED = 9
 
 
