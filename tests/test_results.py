@@ -68,7 +68,7 @@ def test_a_case_that_there_is_not_is_told_with_those_that_there_are() -> None:
         (("device2", "high_090", "shear"), "device2: no condition 'high_090'; allowed: alternate_000, "),
         (
             ("device3", "alternate_090", "frictionless"),
-            r"device3: found the interface 'frictionless'; allowed: shear \(",
+            r"device3: found the interface 'frictionless'; allowed: 'shear' \(",
         ),
     ):
         with pytest.raises(FingerpadError, match=told):

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..arrays import ComplexArray, FloatArray
+from ..csvrows import listed
 from ..errors import SceneError
 from ..guess import closest, hint
 from ..requirements import require, require_positive
@@ -326,9 +327,7 @@ class Device:
         """The interface of that name. Raises SceneError if the device is not predicted with it."""
         if name not in self.interfaces():
             why = "the device controls force, or `interfaces` in its file skips the frictionless case"
-            raise SceneError(
-                f"{self.name}: found the interface '{name}'; allowed: {', '.join(self.interfaces())} ({why})"
-            )
+            raise SceneError(f"{self.name}: found the interface '{name}'; allowed: {listed(self.interfaces())} ({why})")
         return Interface(name)
 
     def first_with_stimulus_of(self, name: str) -> Condition:
