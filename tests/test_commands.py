@@ -301,13 +301,18 @@ def test_forces_and_vibrations_in_python_are_those_that_commands_print(
     rows = json.loads(capsys.readouterr().out)
     assert pressed["normal_N_per_mm"].tolist() == [row["normal_N_per_mm"] for row in rows]
     assert pressed["error_N_per_mm"].isna().all()
-    swung = vibrate(device, [20.0], conditions=[name])
+    swung = vibrate(device, np.array([20]), conditions=[name])
     assert main(["vibrate", device, "--condition", name, "--frequency", "20", "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert swung["score"].tolist() == [row["score"] for row in rows]
     assert set(swung["frequency_hz"]) == {0.0, 20.0}
-    with pytest.raises(UsageError, match=r"frequency: found 0\.01; allowed: 0\.1 to 1000 \[Hz\]"):
-        vibrate(device, [0.01])
+    for wrong, told in (
+        ([0.01], r"frequency: found 0\.01; allowed: 0\.1 to 1000 \[Hz\]"),
+        (["fast"], "frequency: found fast; allowed: "),
+        (20.0, r"frequencies: found 20\.0; allowed: a list of numbers \[Hz\]"),
+    ):
+        with pytest.raises(UsageError, match=told):
+            vibrate(device, wrong)  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="conditions: found 'alternate_000'; allowed: a list of names"):
         forces(device, conditions=name)
 

@@ -75,8 +75,8 @@ def forces(
     device file: the columns that `force_rows` names. Parameters and errors are those of `predict`.
 
     >>> pressed = forces("config/devices/device2.yaml", error=False, conditions=["alternate_000"]).query("time == 0")
-    >>> pressed["normal_N_per_mm"].min() > 0.0
-    np.True_
+    >>> bool(pressed["normal_N_per_mm"].min() > 0.0)
+    True
     """
     scene = _checked(device, config, schemas, kinematics, NO_VALUES)
     return _table(force_rows(scene.with_asked(_names(conditions)), error), FORCES)
@@ -93,8 +93,11 @@ def vibrate(
     columns of results/frequency.csv, then `caveats`. Other parameters and errors are those of `predict`; UsageError
     also if displacements are given in time, if there is no frequency, and if one is out of range.
     """
+    if isinstance(frequencies, str) or not isinstance(frequencies, Iterable):
+        raise UsageError(f"frequencies: found {frequencies!r}; allowed: a list of numbers [Hz]")
     scene = _checked(device, config, schemas, Kinematics.SMALL, NO_VALUES).with_asked(_names(conditions))
-    return _table(vibration_forecast(at_frequencies(scene, tuple(frequencies))), VIBRATED)
+    wanted = [each.item() if hasattr(each, "item") else each for each in frequencies]  # numpy's numbers as Python's
+    return _table(vibration_forecast(at_frequencies(scene, wanted)), VIBRATED)
 
 
 def _checked(

@@ -28,7 +28,7 @@ from ..contact.ownership import given_as
 from ..contact.patch import Patch
 from ..contact.path import SolveIncrement
 from ..contact.stability import unstable_directions
-from ..errors import CondensationError, InvertedError, SnapError
+from ..errors import CondensationError, ContactError, InvertedError, SnapError
 from ..tissue.compliance import displaced
 from ..tissue.condensation import condense_ordered
 from ..tissue.factors import Factors
@@ -180,14 +180,17 @@ def solve_deformed_increment(
             ends.append(displacement[free])
             displacement[free] = accelerated(steps, ends)
     except InvertedError as error:
-        reason = SnapError(WOULD_SNAP) if unstable else InvertedError(f"{error}; {LESS}")
-        raise NotConvergedError(float("inf"), reason) from error
+        raise NotConvergedError(float("inf"), _why(unstable, InvertedError(f"{error}; {LESS}"))) from error
     except CondensationError as error:
-        raise NotConvergedError(float("inf"), SnapError(WOULD_SNAP) if unstable else None) from error
+        raise NotConvergedError(float("inf"), _why(unstable)) from error
     except NotConvergedError as failure:
-        raise NotConvergedError(failure.residual, SnapError(WOULD_SNAP) if unstable else failure.reason) from failure
-    left = changes[-1] / LOOSER  # as it compares with the tolerance of contact
-    raise NotConvergedError(left, SnapError(WOULD_SNAP) if unstable else None)
+        raise NotConvergedError(failure.residual, _why(unstable, failure.reason)) from failure
+    raise NotConvergedError(changes[-1] / LOOSER, _why(unstable))  # as it compares with the tolerance of contact
+
+
+def _why(unstable: bool, otherwise: ContactError | None = None) -> ContactError | None:
+    """Why an increment failed: tissue that is unstable on the way overshoots, and may be turned inside out by that."""
+    return SnapError(WOULD_SNAP) if unstable else otherwise
 
 
 def _linearised_step(
@@ -218,7 +221,7 @@ def _require_near(
     (size,) [mm] much farther than the actuators, by `length` [mm] under a load of `scale` [mm].
     """
     if is_far(float(np.abs(moved).max()), length, scale) or _is_unstable(problem, found, tangent):
-        raise NotConvergedError(found.residual, SnapError(WOULD_SNAP))
+        raise NotConvergedError(found.residual, _why(unstable=True))
 
 
 def is_far(moved: float, length: float, load: float) -> bool:

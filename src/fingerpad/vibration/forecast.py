@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
+from ..requirements import is_number
 from ..scene.scene import Scene
 from .frequency import vibration_rows
 
@@ -31,8 +32,8 @@ def at_frequencies(scene: Scene, frequencies: Sequence[float]) -> Scene:
     if not frequencies and not device.frequencies:
         raise UsageError(f"{device.name}: found no frequency; give one, or stimulus.frequency_hz in the device file")
     for frequency in frequencies:
-        if not LOWEST <= frequency <= HIGHEST:
-            raise UsageError(f"frequency: found {frequency:g}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
+        if not (is_number(frequency) and LOWEST <= frequency <= HIGHEST):
+            raise UsageError(f"frequency: found {frequency}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
     wanted = tuple(sorted(set(frequencies))) or device.frequencies
     return replace(scene, device=replace(device, frequencies=wanted))
 
