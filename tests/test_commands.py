@@ -1047,6 +1047,40 @@ def test_predict_takes_values_in_turn(
     )
 
 
+WIDE_ON_NARROW = {"actuators.pitch": [1.2, 2.0], "actuators.width": [1.0, 1.5]}  # 1.5 mm do not fit on 1.2 mm
+
+
+def test_combinations_that_cannot_be_are_left_out_and_said(
+    checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    taken: list[Scene] = []
+    monkeypatch.setattr(side_by_side, "forecast", lambda scene, *given: taken.append(scene) or quick)
+    vary = [f"--vary={key}={','.join(map(str, values))}" for key, values in WIDE_ON_NARROW.items()]
+    assert main(["predict", *vary, "config/devices/device2.yaml"]) == 0
+    said = capsys.readouterr().out
+    assert [scene.device.actuators.width for scene in taken] == [1.0, 1.0, 1.5]
+    assert "device2, small strain: 3 variants" in said
+    assert "left out: config/devices/device2.yaml with actuators.pitch 1.2, actuators.width 1.5: actuators:" in said
+
+    assert main(["predict", "--csv", *vary, "config/devices/device2.yaml"]) == 0  # where programs read no such lines
+    told = capsys.readouterr()
+    assert "left out" not in told.out
+    assert "left out: config/devices/device2.yaml with actuators.pitch 1.2, actuators.width 1.5" in told.err
+
+    with pytest.warns(UserWarning, match=r"left out: .*with actuators\.pitch 1\.2, actuators\.width 1\.5: actuators:"):
+        table = predict("config/devices/device2.yaml", vary=WIDE_ON_NARROW)
+    assert len(table) == 3 * len(quick)
+
+
+def test_a_value_that_is_in_no_possible_combination_is_an_error(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(side_by_side, "forecast", lambda *given: pytest.fail("nothing is computed"))
+    vary = ["--vary", "actuators.pitch=0.5,2.0", "--vary", "actuators.width=1.0,1.5"]
+    assert main(["predict", *vary, "config/devices/device2.yaml"]) == FAILED
+    assert "device2.yaml with actuators.pitch 0.5, actuators.width 1.0: actuators: neigh" in capsys.readouterr().err
+
+
 def test_predict_draws_scores_against_what_is_varied(
     checkout: Path, quick: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

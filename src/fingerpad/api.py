@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
@@ -18,7 +19,7 @@ from .prediction.ranking import RANKS
 from .prediction.side_by_side import forecasts
 from .scene.scene import Scene
 from .scene.tissue_law import Kinematics
-from .scene.validation import check_device, require_effect
+from .scene.validation import check_device, possible
 from .scene.variation import NO_VALUES, variants
 from .vibration.forecast import at_frequencies, vibration_forecast
 
@@ -43,7 +44,8 @@ def predict(
     sentences; `note` has the same as one text, or says why there is no score.
 
     vary: values to take in turn in place of those at some keys of the scene files, in all combinations; each key is a
-    column in front, in which lists are tuples. error: whether to solve a coarser scene as well, for `score_error`.
+    column in front, in which lists are tuples. Combinations that cannot be are left out, with a warning, if each of
+    their values is possible in another one. error: whether to solve a coarser scene as well, for `score_error`.
     kinematics: "small" or "finite". conditions: names of those that are predicted alone, on a mesh made for them
     (default: all). config: the config.yaml beside the device file's folder if not given, or else that of the checkout
     around the working folder, as are schemas. cores: how many combinations are solved at once, each by a process of its
@@ -55,8 +57,9 @@ def predict(
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
-    cases = [(values, _checked(device, config, schemas, kinematics, values)) for values in variants(vary)]
-    require_effect([values for values, _ in cases], [scene for _, scene in cases])
+    cases, refused = possible(variants(vary), lambda values: _checked(device, config, schemas, kinematics, values))
+    for why in refused:
+        warnings.warn(f"left out: {why}", stacklevel=2)
     tasks = [(scene.with_asked(_names(conditions)), error) for _, scene in cases]
     tables = zip(cases, forecasts(tasks, cores), strict=True)
     rows = [_hashable(values) | row for (values, _), table in tables for row in table]

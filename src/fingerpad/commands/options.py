@@ -169,8 +169,8 @@ def add_variation(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="KEY=VALUE[,VALUE]",
-        help="take these values in turn, in place of the one in the files; with several keys, all combinations; the end"
-        " says in how many of them which scores exceed which others by more than their errors",
+        help="take these values in turn, in place of the one in the files; with several keys, all combinations that can"
+        " be; the end says in how many of them which scores exceed which others by more than their errors",
     )
 
 

@@ -18,7 +18,7 @@ from ..prediction.side_by_side import forecasts
 from ..scene.scene import Scene
 from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
-from ..scene.validation import require_effect
+from ..scene.validation import possible
 from ..scene.variation import unit_of
 from .options import (
     add_conditions,
@@ -80,16 +80,16 @@ def run(options: argparse.Namespace) -> None:
     picture = picture_of(options)
     key = _drawn_key(options.devices, varied) if picture else ""
     is_text = not (options.json or options.csv)
-    devices = _scenes(options, kinematics, varied)
+    devices = [_scenes(device, options, kinematics, varied) for device in options.devices]
     rows: list[dict[str, Any]] = []
     predictions: list[list[dict[str, Any]]] = []
-    total = sum(steps(scene, error) for own in devices for scene in own)
+    tasks = [(scene, error) for cases, _ in devices for _, scene in cases]
     try:
-        with progress(total) as bar:
-            solved = forecasts([(scene, error) for own in devices for scene in own], options.cores, bar.update)
-            for own in devices:
+        with progress(sum(steps(*task) for task in tasks)) as bar:
+            solved = forecasts(tasks, options.cores, bar.update)
+            for cases, refused in devices:
                 tables: dict[str, list[dict[str, Any]]] = {}
-                for scene, values in zip(own, varied, strict=True):
+                for values, scene in cases:
                     bar.set_description(scene.device.name)
                     predicted = tables[named(values)] = next(solved)
                     predictions.append(predicted)
@@ -100,10 +100,12 @@ def run(options: argparse.Namespace) -> None:
                         bar.write(("\n" if rows else "") + as_table(scene, predicted, values))
                     sys.stdout.flush()
                     rows += found
-                if is_text and len(varied) > 1:
-                    title = f"{own[0].device.name}, {kinematics} strain: {len(varied)} variants"
+                if is_text and len(cases) > 1:
+                    title = f"{cases[0][1].device.name}, {kinematics} strain: {len(cases)} variants"
                     said = orders(tables) if error else ["orders need errors: leave out --no-error"]
                     bar.write("\n".join(["", title, *said]))
+                for why in refused:
+                    bar.write(f"left out: {why}", file=sys.stdout if is_text else sys.stderr)
             if is_text and len(predictions) > 1:
                 bar.write(f"\n{ONE_TABLE}")
     finally:
@@ -113,26 +115,22 @@ def run(options: argparse.Namespace) -> None:
     if picture:
         files = options.devices[0], model_for(options.devices[0], options.config)
         unit = unit_of(key, {file: read_yaml(file) for file in files})
-        _draw(picture, key, unit, [values[key] for values in varied], devices[0], predictions)
+        cases, _ = devices[0]
+        _draw(picture, key, unit, [values[key] for values, _ in cases], [scene for _, scene in cases], predictions)
         if is_text:
             print(f"drawn: {picture}")
 
 
 def _scenes(
-    options: argparse.Namespace, kinematics: Kinematics, varied: Sequence[Mapping[str, Any]]
-) -> list[list[Scene]]:
-    """The scenes of each device, one for each of the values that are varied. Raises SceneError, and UsageError where a
-    value has no effect.
-    """
-    devices = [
-        [
+    device: Path, options: argparse.Namespace, kinematics: Kinematics, varied: Sequence[Mapping[str, Any]]
+) -> tuple[list[tuple[Mapping[str, Any], Scene]], list[str]]:
+    """The scenes of a device's combinations of values, and why others are left out. Raises as `possible`."""
+    return possible(
+        varied,
+        lambda values: (
             checked_scene(device, options, values).with_asked(options.conditions).with_kinematics(kinematics)
-            for values in varied
-        ]
-        for device in options.devices
-    ]
-    require_effect(varied, [scene for own in devices for scene in own])
-    return devices
+        ),
+    )
 
 
 def _draw(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import operator
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -73,13 +73,12 @@ def check_device(path: Path, schema_dir: Path, config_path: Path, values: Mappin
     except SceneError:
         _require_no_model(path)
         raise
-    where = _named(path, own)
-    with _located(where, schema, "stimulus"):
+    with _located(_named(path, own), schema, "stimulus"):
         device = build_device(path, document)
-    with _located(where, schema, "actuators"):
+    with _located(_named(path, values), schema, "actuators"):
         scene = Scene(with_contact(model, document), device)
     if not values:  # what is varied may end pre-indentation otherwise
-        report(where, _idle_preloads(document, schema, scene.model.contact.criterion))
+        report(path, _idle_preloads(document, schema, scene.model.contact.criterion))
     return scene
 
 
@@ -97,6 +96,28 @@ def _idle_preloads(document: dict[str, Any], schema: Schema, criterion: Criterio
             about = schema["properties"]["contact"]["properties"][key]["description"]
             found = f"a value without effect, as contact.criterion is {criterion}"
             yield problem(2, f"contact.{key}", found, f"one beside contact.criterion: {key}", about=about)
+
+
+def possible(
+    varied: Sequence[Mapping[str, Any]], checked: Callable[[Mapping[str, Any]], Scene]
+) -> tuple[list[tuple[Mapping[str, Any], Scene]], list[str]]:
+    """Combinations of values with their scenes, and why others have none, as a wide pin has none on a narrow pitch.
+
+    checked: the scene with some values. Raises its SceneError if one of the values is in no combination that has a
+    scene, and UsageError as `require_effect`.
+    """
+    found: list[tuple[Mapping[str, Any], Scene]] = []
+    refused: list[tuple[Mapping[str, Any], SceneError]] = []
+    for values in varied:
+        try:
+            found.append((values, checked(values)))
+        except SceneError as error:
+            refused.append((values, error))
+    for values, error in refused:
+        if not (found and all(any(value == others[key] for others, _ in found) for key, value in values.items())):
+            raise error
+    require_effect([values for values, _ in found], [scene for _, scene in found])
+    return found, [str(error) for _, error in refused]
 
 
 def require_effect(varied: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> None:
