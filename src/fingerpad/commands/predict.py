@@ -122,8 +122,8 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _scenes(
-    device: Path, options: argparse.Namespace, kinematics: Kinematics, varied: Sequence[Mapping[str, Any]]
-) -> tuple[list[tuple[Mapping[str, Any], Scene]], list[str]]:
+    device: Path, options: argparse.Namespace, kinematics: Kinematics, varied: Sequence[dict[str, Any]]
+) -> tuple[list[tuple[dict[str, Any], Scene]], list[str]]:
     """The scenes of a device's combinations of values, and why others are left out. Raises as `possible`."""
     return possible(
         varied,

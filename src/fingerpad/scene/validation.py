@@ -99,25 +99,25 @@ def _idle_preloads(document: dict[str, Any], schema: Schema, criterion: Criterio
 
 
 def possible(
-    varied: Sequence[Mapping[str, Any]], checked: Callable[[Mapping[str, Any]], Scene]
-) -> tuple[list[tuple[Mapping[str, Any], Scene]], list[str]]:
+    varied: Sequence[dict[str, Any]], checked: Callable[[Mapping[str, Any]], Scene]
+) -> tuple[list[tuple[dict[str, Any], Scene]], list[str]]:
     """Combinations of values with their scenes, and why others have none, as a wide pin has none on a narrow pitch.
 
     checked: the scene with some values. Raises its SceneError if one of the values is in no combination that has a
     scene, and UsageError as `require_effect`.
     """
-    found: list[tuple[Mapping[str, Any], Scene]] = []
-    refused: list[tuple[Mapping[str, Any], SceneError]] = []
+    found: list[tuple[dict[str, Any], Scene]] = []
+    refused: list[tuple[dict[str, Any], SceneError]] = []
     for values in varied:
         try:
             found.append((values, checked(values)))
         except SceneError as error:
             refused.append((values, error))
-    for values, error in refused:
+    for values, why in refused:
         if not (found and all(any(value == others[key] for others, _ in found) for key, value in values.items())):
-            raise error
+            raise why
     require_effect([values for values, _ in found], [scene for _, scene in found])
-    return found, [str(error) for _, error in refused]
+    return found, [str(why) for _, why in refused]
 
 
 def require_effect(varied: Sequence[Mapping[str, Any]], scenes: Sequence[Scene]) -> None:
