@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from numpy.typing import NDArray
+from scipy.optimize import nnls
 from scipy.stats import kendalltau
 
 from fingerpad.errors import RatingError
@@ -20,7 +21,7 @@ from fingerpad.perception.correlation import (
     is_turned,
     tau_range,
 )
-from fingerpad.perception.extremes import rating_range
+from fingerpad.perception.extremes import rating_range, unit
 from fingerpad.perception.order import order_matrix, up_sets
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.readouts.comparison import classes
@@ -217,6 +218,39 @@ def test_a_long_chain_is_not_too_much() -> None:
 )
 def test_range_of_a_chain_of_three_in_closed_form(score: list[float], expected: tuple[float, float]) -> None:
     assert rating_range(np.array(score), CHAIN).r2 == pytest.approx(expected, abs=DECIMALS)
+
+
+@pytest.mark.parametrize(
+    ("device", "lowest_r2", "largest_r"), [("device1", 0.55, 0.2), ("device2", 0.75, 0.5), ("device3", 0.75, 0.5)]
+)
+def test_no_scores_correlate_very_well_or_weakly_with_every_rating_in_the_stated_order(
+    device: str, lowest_r2: float, largest_r: float
+) -> None:
+    """What the page on claims says that an order cannot support: exact bounds, as tight as they are written.
+
+    With unit generators e of the ratings, the lowest r of a score x is at one of them, and highest where x points at
+    the point of their hull nearest to zero, whose distance it is. The largest |r| is at least that at some e; the least
+    of it over x is 1 / |z| at the farthest corner z of the polytope |<e, z>| <= 1, found among all its corners.
+    """
+    at_most = stated_matrix(device)
+    generators = unit(up_sets(at_most).astype(float))
+    heavy = 1e4  # holds the sum of shares at 1
+    shares = nnls(
+        np.vstack([generators.T, np.full(len(generators), heavy)]), np.append(np.zeros(len(generators.T)), heavy)
+    )
+    nearest = generators.T @ shares[0] / shares[0].sum()
+    assert lowest_r2 - 0.01 < nearest @ nearest <= lowest_r2 + 1e-6
+
+    _, sizes, axes = np.linalg.svd(generators)
+    inner = generators @ axes[: int((sizes > 1e-9).sum())].T  # in the space that they span
+    signs = np.array(list(itertools.product([1.0, -1.0], repeat=inner.shape[1])))
+    farthest = 0.0
+    for chosen in itertools.combinations(range(len(inner)), inner.shape[1]):
+        if abs(np.linalg.det(inner[list(chosen)])) > 1e-9:
+            corners = np.linalg.solve(inner[list(chosen)], signs.T)
+            inside = np.abs(inner @ corners).max(axis=0) <= 1.0 + 1e-9
+            farthest = max(farthest, *np.linalg.norm(corners[:, inside], axis=0), 0.0)
+    assert largest_r - 1e-6 <= 1.0 / farthest < largest_r + 0.01
 
 
 def test_range_without_any_order_is_everything() -> None:

@@ -56,6 +56,11 @@ def rises(steps: Sequence[Relation]) -> Holds:
     return all_hold([IS_LESS[step] for step in steps])
 
 
+def misses(steps: Sequence[Relation]) -> Holds:
+    """Whether one of the steps does not rise."""
+    return {Holds.YES: Holds.NO, Holds.NO: Holds.YES, Holds.UNDECIDED: Holds.UNDECIDED}[rises(steps)]
+
+
 def chain_text(chain: Chain) -> str:
     """The chain as it is, right or wrong: `0°: 1.2 < 90°: 1.5 > 180°: 1.3`."""
     texts = [f"{label}: {score.value:.4g}" for label, score in chain]
