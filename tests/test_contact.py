@@ -388,6 +388,29 @@ def test_skin_that_is_given_to_another_actuator_has_the_gap_over_that_one() -> N
         assert found.gap == pytest.approx(other.gap, abs=1e-14)
 
 
+@pytest.mark.parametrize("moves", [1, 2])
+def test_skin_sticks_where_it_was_touched_on_the_way(moves: int) -> None:
+    """A flat face that comes aslant touches a node on springs of 1 N/mm half-way, from rest as after it has come up
+    straight, where the path turns. What it went before is no slip, and what it goes then takes as much force, to the
+    tolerance of contact.
+    """
+    problem = ContactProblem(
+        position=np.array([[0.0, 0.03]]),
+        compliance=np.eye(2),
+        row=ActuatorRow((0.0,), 10.0, 0.0),
+        body=None,
+        friction=1.0,
+        tolerance=1e-9,
+        max_cuts=10,
+    )
+    state = rest(problem, 0.02)
+    if moves == 2:
+        state = follow(problem, rest(problem, 0.0), lift(problem, 0.0, 0.02), 1)
+    state = follow(problem, state, lift(problem, 0.01, 0.04), 1)
+    assert state.status[0] == Status.STICK
+    assert state.force[0] == pytest.approx([0.005, 0.01], rel=1e-8)
+
+
 def two_pins(x: FloatArray) -> ContactProblem:
     """Nodes at x (n,) under two pins; each node moves alone."""
     return ContactProblem(
