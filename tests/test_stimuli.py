@@ -288,6 +288,22 @@ def test_stimuli_that_differ_in_any_part_are_not_solved_as_one(part: str) -> Non
     assert not one.same_stimulus(replace(one, **{part: 2.0 * getattr(one, part)}))
 
 
+def test_stimuli_that_are_read_from_another_time_on_are_not_solved_as_one() -> None:
+    """A cycle that is read after it has settled says something else than the same path that is read anywhere."""
+    path = np.array([[0.02], [-0.02]])
+    one = Condition("one", "one", 0.0, np.array([1.0, 2.0]), path, path)
+    assert not one.same_stimulus(replace(one, settling=1))
+
+
+def test_a_path_up_to_a_time_is_read_there_alone() -> None:
+    """All times before it are settling: on a coarser mesh one of them might have the larger change."""
+    path = np.array([[0.02], [0.01], [-0.03], [0.0]])
+    until = Condition("one", "one", 0.0, np.arange(1.0, 5.0), path, -path).until(1)
+    assert until.time.tolist() == [1.0, 2.0]
+    assert np.array_equal(until.moves, np.stack([-path, path], axis=2)[:2])
+    assert until.settling == 1
+
+
 def test_strokes_are_the_farthest_of_all_conditions() -> None:
     """In either direction, whichever condition goes there."""
     still = np.zeros((1, 2))
