@@ -88,6 +88,17 @@ def test_a_time_that_may_as_well_be_read_is_a_rival(other: list[float], mirrors:
     assert reading.rival_peak == pytest.approx(max(other) if rivals else 1.0)
 
 
+@pytest.mark.parametrize(("beside", "rivals"), [(0.06, False), (0.15, True)])
+def test_a_pattern_that_differs_by_a_tenth_is_another(beside: float, rivals: bool) -> None:
+    """A peak that has faded by 3 % differs from itself by that alone, less than a twentieth, as all within RIVAL do;
+    with some strain at the next receptor by sqrt(0.03^2 + 0.06^2) = 0.07 or by sqrt(0.03^2 + 0.15^2) = 0.15.
+    """
+    exx = np.array([np.zeros(5), [0.0, 1.0, 0.0, 0.0, 0.0], [0.0, 0.97, beside, 0.0, 0.0]])
+    components = np.stack([exx, np.zeros_like(exx), np.zeros_like(exx)], axis=2).reshape(3, -1)
+    reading = read_receptors(components, np.arange(5.0))
+    assert (reading.time, reading.rivalled) == (0, rivals)
+
+
 def test_of_several_rivals_the_most_different_one_counts() -> None:
     """Its score, too, may differ most."""
     exx = np.zeros((4, 5))

@@ -66,6 +66,7 @@ def read_as(strain: np.ndarray, change: np.ndarray) -> FilteredReadouts:
         (moved([[0.0, 0.0, 0.0]], [[0.02, -0.02, 0.02]]), 0.08, 0.02 / 3.0),
         (moved([[0.03, 0.0]], [[0.04, 0.0]]), 0.05, 0.025),  # 3, 4, 5
         (moved([[0.0, 0.0], [0.02, 0.0], [0.01, 0.01]], [[0.0, 0.0]] * 3), 0.02, 0.01),  # the largest of all times
+        (moved([[0.02, 0.02], [0.0, 0.0]], [[0.0, 0.0]] * 2), 0.0, 0.02),  # also where all come back together
     ],
 )
 def test_motions_of_the_drive_in_closed_form(condition: Condition, relative: float, common: float) -> None:
