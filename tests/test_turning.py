@@ -11,6 +11,7 @@ import pytest
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.penalty import PenaltyLaw, follow_penalties, untouched
 from fingerpad.closedforms.blocks import block_contact, lift, refined_block
+from fingerpad.contact.active_set import PatchProblem, _at, _newton_equations, _states
 from fingerpad.contact.formulation import (
     ContactProblem,
     ContactState,
@@ -19,6 +20,7 @@ from fingerpad.contact.formulation import (
     shearing_and_pressing,
     touching_height,
 )
+from fingerpad.contact.patch import patch_of
 from fingerpad.contact.path import follow
 from fingerpad.contact.profile import bend, profile
 from fingerpad.scene.contact_law import ContactLaw, Criterion, FrictionFrom, Interface, TurningNormal
@@ -132,6 +134,39 @@ def test_the_bend_is_the_change_of_the_slope() -> None:
     step = 1e-6
     change = (profile(row, x + step)[1] - profile(row, x - step)[1]) / (2.0 * step)
     assert np.allclose(bend(row, x), change, rtol=1e-8, atol=0.0)
+
+
+@pytest.mark.parametrize("friction", [0.0, FRICTION])
+@pytest.mark.parametrize("turning", [False, True])
+def test_newtons_matrix_is_the_change_of_its_equations(turning: bool, friction: float) -> None:
+    """By central differences, whose error is the square of a step of 1e-5 of the edges' radius, or rounding over it.
+    Without what turning adds increments converge too, but not as Newton's method does.
+    """
+    x, count = np.linspace(-0.44, 0.44, 7), 7
+    problem = ContactProblem(
+        position=np.stack([x, np.zeros(count)], axis=1),
+        compliance=np.kron(np.exp(-np.abs(x[:, None] - x) / 0.3), np.array([[2.0, 0.3], [0.3, 1.0]])),
+        row=ActuatorRow((0.0,), 1.0, 0.2),
+        body=None,
+        friction=friction,
+        tolerance=1e-10,
+        max_cuts=10,
+        turning=turning,
+    )
+    patch = patch_of(problem, np.arange(count), x, None, np.zeros((1, 2)))
+    increment = PatchProblem(problem, patch, problem.position.T, np.zeros(2 * count), 1.0)
+    open_, stick, forward, backward = map(int, Status)
+    states = _states(problem, np.array([forward, open_, stick, backward, stick, open_, backward]))
+    moved, step = 0.01 * np.random.default_rng(0).standard_normal(2 * count), 2e-6
+
+    def equations(moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return _newton_equations(increment, _at(increment, moved, states, x), states)
+
+    matrix, _ = equations(moved)
+    for column, unknown in enumerate(states.unknown):
+        change = np.where(np.arange(2 * count) == unknown, step, 0.0)
+        found = (equations(moved - change)[1] - equations(moved + change)[1]) / (2.0 * step)
+        assert found == pytest.approx(matrix[:, column], abs=1e-8 * np.abs(matrix).max())
 
 
 @pytest.mark.parametrize(
