@@ -388,6 +388,13 @@ def test_skin_that_is_given_to_another_actuator_has_the_gap_over_that_one() -> N
         assert found.gap == pytest.approx(other.gap, abs=1e-14)
 
 
+def test_what_a_path_missed_stays_missed() -> None:
+    """Of equations and of certificates the largest residual so far counts, whatever follows."""
+    problem = touched(0.1, 1.0, 0.5)
+    missed = replace(pressed(problem, 0.01, 2), residual=1e-3)
+    assert follow(problem, missed, missed.actuator + lift(problem, 0.0, 0.001), 1).residual == 1e-3
+
+
 @pytest.mark.parametrize("moves", [1, 2])
 def test_skin_sticks_where_it_was_touched_on_the_way(moves: int) -> None:
     """A flat face that comes aslant touches a node on springs of 1 N/mm half-way, from rest as after it has come up
