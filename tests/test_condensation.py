@@ -16,7 +16,7 @@ from fingerpad.readouts.strain import maximum_principal
 from fingerpad.scene.contact_law import Interface
 from fingerpad.tissue.condensation import condense, condense_ordered, condense_section, section_stiffness
 from fingerpad.tissue.elasticity import mesh_dofs, unit_loads
-from fingerpad.tissue.factors import Factors, factorise
+from fingerpad.tissue.factors import Factors, backward_error, factorise
 from fingerpad.tissue.mesh import nominal_mesh
 from fingerpad.tissue.reach import contact_tractions
 from fingerpad.tissue.receptors import receptor_strain
@@ -138,6 +138,13 @@ def test_factors_that_leave_a_residual_are_a_named_error(monkeypatch: pytest.Mon
     monkeypatch.setattr("fingerpad.tissue.condensation.factorise", off)
     with pytest.raises(CondensationError, match="equilibrium residual"):
         condense_section(nominal_mesh(base), base)
+
+
+def test_a_backward_error_is_what_is_missing_over_what_the_rows_might_bear() -> None:
+    """By the largest sum of a row's magnitudes, here 3 N/mm, and the largest displacement."""
+    springs, field = csc_matrix([[2.0, -1.0], [-1.0, 1.0]]), np.array([0.25, -0.5])
+    missing = np.array([0.03, -0.06])
+    assert backward_error(springs, field, springs @ field + missing) == pytest.approx(0.06 / (3.0 * 0.5), rel=1e-12)
 
 
 SPRINGS = csc_matrix(

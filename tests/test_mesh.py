@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.special import ellipe
+from skfem import MeshTri, MeshTri2
 
 from fingerpad.errors import ContactError, ConvergenceError, CriterionError, MeshError, SceneError
 from fingerpad.prediction import edges
@@ -25,6 +26,7 @@ from fingerpad.tissue.mesh import (
     mesh_section,
     nominal_edges,
     nominal_mesh,
+    require_valid,
     save_section,
 )
 from fingerpad.tissue.reach import contact_tractions
@@ -122,6 +124,31 @@ def test_elements_around_the_nails_corners_are_as_small_as_asked() -> None:
     around = np.isin(triangles, corners).any(axis=0)
     largest = base.model.numerics.nail_size * (1.0 + base.model.numerics.growth)
     assert length[around].max() <= largest < length[names == "nail"].max()
+
+
+def test_the_back_of_the_finger_is_as_coarse_as_its_nail_allows() -> None:
+    """Over the row, too: its skin is near the skin, but not the pad's. Elements there would be half of all."""
+    base, mesh = scene("device2"), section("device2")
+    corners = mesh.mesh.p[:, mesh.mesh.t]
+    length = np.hypot(*(corners - np.roll(corners, 1, axis=1))).max(axis=0)
+    x, y = corners.mean(axis=1)
+    over_row = (y > base.model.finger.height / 2.0) & (np.abs(x) < 1.0)  # some 5 mm from the nail's corners
+    assert length[over_row].min() > base.model.numerics.face_size
+
+
+def test_an_element_that_folds_between_its_corners_is_refused() -> None:
+    """At them its map is upright: twice the area, by its determinant, is a tenth and more; in the middle of its base it
+    is turned inside out.
+    """
+    corners = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    straight = MeshTri2.from_mesh(MeshTri(corners, np.array([[0], [1], [2]])))
+    require_valid(straight, "triangle")
+    bent = {(0.5, 0.0): (0.5, 0.2), (0.0, 0.5): (-0.05, 0.3), (0.5, 0.5): (0.75, 0.3)}
+    folded = replace(straight, doflocs=np.array([bent.get((x, y), (x, y)) for x, y in straight.doflocs.T.tolist()]).T)
+    (a, b), (c, d) = folded.mapping().DF(corners)
+    assert (a * d - b * c).min() > 0.1
+    with pytest.raises(MeshError, match="triangle: 1 inverted elements"):
+        require_valid(folded, "triangle")
 
 
 def test_elements_in_a_zone_beside_edges_are_as_small_as_at_them() -> None:
