@@ -279,6 +279,13 @@ def test_layers_that_reach_below_the_other_side_are_refused() -> None:
         replace(finger, dorsal=thin)
 
 
+def test_sharp_edges_are_sharper_than_any_element_can_tell() -> None:
+    """What stands for them is a small part of the smallest elements, which lie at edges."""
+    base = scene("device2")
+    sharp = replace(base.device.actuators, edge_radius=0.0)
+    assert 0.0 < sharp.corner_radius < 0.1 * base.model.numerics.edge_size
+
+
 def test_touching_actuators_are_no_overlap() -> None:
     """Widths may fill the pitch, though places are rounded."""
     pitch = 0.1
