@@ -11,7 +11,7 @@ import pytest
 from fingerpad.arrays import FloatArray
 from fingerpad.closedforms.blocks import half_plane, lift, pressed
 from fingerpad.contact.active_set import PatchProblem
-from fingerpad.contact.criterion import front
+from fingerpad.contact.criterion import front, missing_of
 from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.formulation import (
     MAX_ITERATIONS,
@@ -29,6 +29,7 @@ from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import Patch, patch_of
 from fingerpad.contact.path import LAST_ITERATIONS, advance, follow
 from fingerpad.contact.profile import profile
+from fingerpad.contact.symmetry import half_of, unfolded
 from fingerpad.errors import ContactError, ConvergenceError, DepthError
 from fingerpad.scene.contact_law import ContactLaw, Criterion, FrictionFrom, TurningNormal
 from fingerpad.scene.device import ActuatorRow
@@ -364,6 +365,23 @@ def test_the_front_of_contact_lies_no_nearer_than_what_touches() -> None:
     assert front(np.arange(4.0), np.array([0.0, 0.0, 1.0, 1.1]), np.arange(4) < 2) == 1.0
 
 
+def test_faces_are_covered_on_half_of_a_row_as_on_all_of_it() -> None:
+    """Skin leaves two faces 0.5 mm beside their middles, on the side where the other one is: to cover 0.9 mm of each
+    0.4 mm are missing. What touches beyond the mid-line is the other face's.
+    """
+    x = np.linspace(-3.5, 3.5, 29)
+    problem = replace(even_skin(np.eye(2 * x.size)), row=ActuatorRow((-2.0, 2.0), 2.0, 0.1))
+    problem = replace(problem, position=np.stack([x, np.zeros(x.size)], axis=1))
+    half = half_of(problem)
+    state, right = rest(half, 0.0), half.position[:, 0]
+    height = np.maximum(1.5 - right, 0.0) ** 1.5 + np.maximum(right - 3.0, 0.0) ** 1.5
+    status = np.where(height == 0.0, Status.STICK, Status.OPEN)
+    state = replace(state, status=status, gap=height + profile(half.row, state.place)[0])
+    law = ContactLaw(0.5, FrictionFrom.TOUCH, TurningNormal.NEVER, Criterion.FULL, 1.0, 1.0)
+    missing = [missing_of(half, state, law, 0.0), missing_of(problem, unfolded(state, half), law, 0.0)]
+    assert missing == pytest.approx([0.4, 0.4], abs=1e-12)
+
+
 def test_skin_that_is_given_to_another_actuator_has_the_gap_over_that_one() -> None:
     """Actuators stand at heights and places of their own. Exact, but for the rounding of lengths of some mm."""
     x = np.linspace(-0.5, 2.5, 13)
@@ -459,6 +477,22 @@ def test_of_skin_that_went_sideways_that_beside_contact_stays() -> None:
     place[last - 1 : last + 1], status[last - 2] = (1.6, 1.8), Status.STICK
     _, found = given_anew(problem, replace(state, place=place, status=status))
     assert found.given[last - 2 : last + 1].tolist() == [0, 0, 1]
+
+
+@pytest.mark.parametrize("touches", [False, True])
+def test_of_skin_that_went_sideways_actuators_stay_in_order(touches: bool) -> None:
+    """An open node of the left pin has come to lie over the right one, and three to its right have not: all of them go,
+    or, where the last of them touches the left pin, none.
+    """
+    problem = two_pins(np.linspace(-0.5, 2.5, 13))
+    state = rest(problem, 0.0)
+    last = int(np.flatnonzero(state.given == 0)[-1])
+    place, status = state.place.copy(), np.full(13, Status.OPEN)
+    place[last - 3] = 1.8
+    status[last] = Status.STICK if touches else Status.OPEN
+    _, found = given_anew(problem, replace(state, place=place, status=status))
+    expected = state.given if touches else np.where(np.arange(13) < last - 3, 0, 1)
+    assert found.given.tolist() == expected.tolist()
 
 
 @pytest.mark.parametrize("lost", [0, 1])
