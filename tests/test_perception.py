@@ -138,10 +138,13 @@ def test_bad_published_values_are_named(tmp_path: Path, row: str, part: str) -> 
 # --- the stated order ----------------------------------------------------------------------------------------------
 
 
-def test_order_matrix_is_the_transitive_closure() -> None:
-    at_most = order_matrix(list("abcd"), frame([("a", "<", "b"), ("b", "=", "c"), ("c", "<", "d")]))
-    expected = [[1, 1, 1, 1], [0, 1, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]]
-    np.testing.assert_array_equal(at_most, np.array(expected, dtype=bool))
+@pytest.mark.parametrize("names", [*itertools.permutations("abcd")])
+def test_order_matrix_is_the_transitive_closure(names: tuple[str, ...]) -> None:
+    """Wherever the conditions that relations go through stand among all."""
+    at_most = order_matrix(names, frame([("a", "<", "b"), ("b", "=", "c"), ("c", "<", "d")]))
+    place = ["abcd".index(name) for name in names]
+    expected = np.array([[1, 1, 1, 1], [0, 1, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]], dtype=bool)
+    np.testing.assert_array_equal(at_most, expected[np.ix_(place, place)])
 
 
 @pytest.mark.parametrize(
@@ -338,6 +341,15 @@ def test_highest_r2_is_that_of_isotonic_regression(seed: int) -> None:
         fits = [isotonic(given, at_most), isotonic(-given, at_most)]
         expected = max(np.var(fit) / np.var(given) for fit in fits)
         assert rating_range(given, at_most).r2[1] == pytest.approx(expected, abs=DECIMALS)
+
+
+def test_a_score_that_falls_throughout_has_its_highest_r_with_two_classes() -> None:
+    """Four in a chain; of the steps 0001, 0011 and 0111, centred, the second has norm 1, the others sqrt(3)/2. With the
+    first the product with the scores is -1, the largest, but r is larger with the second, where it is -1.1.
+    """
+    score = np.array([1.05, 0.05, -0.1, -1.0])
+    found = rating_range(score, np.triu(np.ones((4, 4), dtype=bool)))
+    assert found.r[1] == pytest.approx(-1.1 / np.linalg.norm(score), abs=DECIMALS)
 
 
 def test_slopes_of_two_classes_without_order_have_both_signs_and_no_zero() -> None:
@@ -537,6 +549,12 @@ def test_tau_of_tied_scores_without_errors_is_one_value() -> None:
     score, rating = np.array([1.0, 1.0, 2.0, 3.0, 2.5]), np.array([1.0, 2.0, 3.0, 3.0, 1.0])
     tau = kendalltau(score, rating).statistic
     assert tau_range(classes(score), score, np.zeros(5), rating) == pytest.approx((tau, tau))
+
+
+def test_scores_whose_errors_just_meet_may_have_either_order() -> None:
+    """As wherever scores are compared. Halves are exact."""
+    score, error = np.array([1.0, 2.0]), np.array([0.5, 0.5])
+    assert tau_range(np.arange(2), score, error, np.arange(2.0)) == (-1.0, 1.0)
 
 
 def test_tau_has_no_range_where_errors_are_not_known() -> None:
