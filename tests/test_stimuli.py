@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
 import os
-import random
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -169,9 +169,10 @@ def written(folder: Path, lines: list[str], header: str = HEADER) -> Path:
     return path
 
 
-def test_recording_is_read_in_any_order(tmp_path: Path) -> None:
-    shuffled = random.Random(1).sample(GOOD, len(GOOD))
-    found = read_recording(written(tmp_path, shuffled), 2)
+@pytest.mark.parametrize("lines", [*itertools.permutations(GOOD)])
+def test_recording_is_read_in_any_order(tmp_path: Path, lines: tuple[str, ...]) -> None:
+    """Also where the last time comes first."""
+    found = read_recording(written(tmp_path, [*lines]), 2)
     assert found.time.tolist() == [0.5, 1.0]
     assert found.normal.tolist() == [[0.01, 0.0], [0.0, -0.01]]
     assert found.tangential.tolist() == [[0.0, 0.0], [0.02, 0.0]]
