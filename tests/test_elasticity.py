@@ -9,6 +9,7 @@ import pytest
 
 from fingerpad.closedforms.blocks import block_mesh
 from fingerpad.closedforms.equilibrium import linear_equilibrium
+from fingerpad.errors import SceneError
 from fingerpad.scene.finger import Material
 from fingerpad.scene.readout import Side
 from fingerpad.tissue.elasticity import displacement_basis, facet_strain, mesh_dofs, node_dofs, stiffness
@@ -50,3 +51,11 @@ def test_receptors_lie_in_elements_of_the_side_they_are_read_on(side: Side) -> N
         field = np.zeros(strain.shape[1])
         field[mesh_dofs(section.mesh)[:, nodes]] = np.random.default_rng(0).standard_normal((2, nodes.size))
         assert np.all((strain @ field).reshape(-1, 3).any(axis=1) == strained)
+
+
+@pytest.mark.parametrize("poisson", [-1.0, 0.5])
+def test_tissue_that_has_no_stiffness_to_compute_with_is_refused(poisson: float) -> None:
+    """At either end of Poisson's ratio one of Lamé's constants is infinite."""
+    Material(1.0, 0.999 * poisson)
+    with pytest.raises(SceneError, match=r"poisson must lie between -1 and 0\.5"):
+        Material(1.0, poisson)
