@@ -425,6 +425,13 @@ def test_the_angle_of_many_scores_is_no_less_than_that_of_their_corners(
     assert angle_of_errors(score, np.full(8, 1.0)) == math.pi
 
 
+@pytest.mark.parametrize("r", [-0.5, 0.0, 0.5])
+def test_errors_that_turn_scores_to_the_ratings_or_away_make_r_one_or_minus_one(r: float) -> None:
+    """And no less where they turn them further: pi stands for every angle."""
+    for angle in (2.2, 3.0, math.pi):  # the ratings' own, at most 2.1 from the scores, or from what opposes them
+        assert error_in_r(r, angle) == pytest.approx(1.0 + abs(r), abs=1e-12)
+
+
 def test_errors_move_r_where_it_is_one() -> None:
     """There nothing moves it to the first order, and yet errors of 0.4 in scores 1, 2, 3 bring it down to 0.91."""
     score, error = np.array([1.0, 2.0, 3.0]), np.full(3, 0.4)
