@@ -15,11 +15,11 @@ import fingerpad.finite.deformed_solution
 import fingerpad.finite.pressing
 from fingerpad.contact.advice import left_out
 from fingerpad.contact.certificate import Certificate, certify
-from fingerpad.contact.formulation import ContactProblem, ContactState
+from fingerpad.contact.formulation import ContactProblem, ContactState, rest
 from fingerpad.contact.path import advance
 from fingerpad.errors import ContactError, CrossingError, DepthError, InvertedError, ReachError, SnapError
 from fingerpad.finite.deformation import Elements, internal_force
-from fingerpad.finite.deformed import deformed_state, solver_on
+from fingerpad.finite.deformed import Passed, Tangent, _followed, deformed_state, solver_on
 from fingerpad.finite.deformed_path import HALVINGS, STEPS_BACK, DeformedTissue, Equilibrium, move
 from fingerpad.finite.deformed_solution import (
     PressedFinger,
@@ -31,7 +31,7 @@ from fingerpad.finite.deformed_solution import (
 )
 from fingerpad.finite.pressing import press
 from fingerpad.scene.contact_law import Interface
-from fingerpad.scene.device import Condition
+from fingerpad.scene.device import ActuatorRow, Condition
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.compliance import CondensedSection
@@ -172,6 +172,37 @@ def test_tissue_that_jumps_is_not_pressed_further(base: Scene, monkeypatch: pyte
     monkeypatch.setattr(fingerpad.finite.deformed, "is_far", lambda *_: True)
     with pytest.raises(SnapError):
         press(base, nominal_mesh(base), None, Interface.FRICTIONLESS)
+
+
+def test_on_the_way_skin_drifts_along_the_parabola_through_what_was_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where it would be without forces, here on tissue that does not yield: through its places one increment of contact
+    ago, at the start and at the end, but for rounding of numbers of about one.
+    """
+    problem = ContactProblem(
+        position=np.array([[0.0, 0.0], [1.0, 0.0]]),
+        compliance=np.eye(4),
+        row=ActuatorRow((0.5,), 3.0, 0.0),
+        body=None,
+        friction=0.5,
+        tolerance=1e-9,
+        max_cuts=5,
+    )
+
+    def drifted(way: float) -> np.ndarray:
+        return np.array([[0.1, 0.2], [0.3, 0.4]]) * way + np.array([[0.4, 0.3], [-0.2, 0.1]]) * way**2
+
+    found = list[np.ndarray]()
+
+    def solve(problem: ContactProblem, state: ContactState, actuator: np.ndarray, patch: None) -> Any:
+        found.append(problem.free)
+        return state, patch
+
+    monkeypatch.setattr(fingerpad.finite.deformed, "solve_increment", solve)
+    begin, still = deformed_state(rest(problem, 0.0), np.zeros(4)), np.zeros((2, 2))
+    begin = replace(begin, passed=Passed(0.5, drifted(-0.5), still))
+    tangent, up = Tangent(None, np.zeros((4, 4)), 0.0), np.array([[0.0, 1.0]])
+    _followed(4, problem, tangent, begin, begin.actuator + up, drifted(0.0), drifted(1.0))
+    assert np.array(found) == pytest.approx(np.array([drifted(way) for way in (0.25, 0.5, 0.75, 1.0)]), abs=1e-14)
 
 
 def test_a_correction_that_jumps_is_made_again_with_new_tangents(

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 import fingerpad.vibration.cycling
 from fingerpad.contact.certificate import certify
-from fingerpad.contact.formulation import OPEN
+from fingerpad.contact.formulation import OPEN, ContactState
 from fingerpad.contact.linear_solution import Indented, indent_device
 from fingerpad.contact.path import follow
 from fingerpad.errors import CondensationError, CycleError, DepthError, InertiaError, ReachError, SceneError
@@ -31,7 +31,7 @@ from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.elasticity import mass, mesh_dofs
 from fingerpad.tissue.mesh import SectionMesh
 from fingerpad.vibration.creep import IN_BAND, Creep, answer, condense_creep, creep_times, stiffened
-from fingerpad.vibration.cycling import MAX_CYCLES, Vibration, displacement, vibrate
+from fingerpad.vibration.cycling import MAX_CYCLES, Moment, Vibration, displacement, vibrate
 from fingerpad.vibration.forecast import steps as steps_of
 from fingerpad.vibration.forecast import vibration_forecast
 from fingerpad.vibration.frequency import (
@@ -266,6 +266,19 @@ def test_a_vibration_through_the_tissue_is_refused() -> None:
     for cycle in (normal(5.0), late):
         with pytest.raises(DepthError, match=r"condition=normal, .*, slow: .* mm deep, into 5 mm of tissue"):
             certified_vibration(coarse(), creeping(), pressed(Interface.FRICTIONLESS), cycle, SLOWLY)
+
+
+def test_a_cycle_whose_mean_still_moves_has_not_repeated_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Though its end does, from the first one on: the change is that from the mean. Here it moves in five cycles."""
+    cycles = list[int]()
+
+    def strain(section: CondensedSection, creep: Creep, before: ContactState, moments: list[Moment]) -> np.ndarray:
+        cycles.append(len(moments))
+        return np.array([[max(5.0 - len(cycles), 0.0)]] * (len(moments) - 1) + [[1.0]])
+
+    monkeypatch.setattr(fingerpad.vibration.cycling, "_strain", strain)
+    vibration(Interface.FRICTIONLESS, normal(0.0), SLOWLY, steps=4)
+    assert cycles == [4] * 6
 
 
 def test_cycles_that_do_not_repeat_say_what_helps(monkeypatch: pytest.MonkeyPatch) -> None:
