@@ -34,7 +34,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import ActuatorRow, Condition
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.tissue.compliance import CondensedSection
+from fingerpad.tissue.compliance import CondensedSection, displaced
 from fingerpad.tissue.mesh import nominal_mesh
 from scenes import scene
 
@@ -305,3 +305,7 @@ def test_moves_far_from_the_pressed_state_run_on_tissue_linearised_there(base: S
     far = np.abs(followed.displacement - finger.start.displacement).max()
     # corrections of each move end within 1e-3 of it (measured: 1.8e-4 and 2.4e-4 of all the way)
     assert np.abs(reached.displacement - followed.displacement).max() < 1e-3 * far
+    # and certificates, on the tangent of the pressed state, find the skin where it is
+    found = reached.free + displaced(finger.problem.compliance, reached.state.force)
+    moved = (part.loads.T @ reached.displacement[part.elements.free]).reshape(-1, 2)
+    assert np.abs(found - moved).max() < 1e-3 * far
