@@ -27,7 +27,7 @@ from fingerpad.contact.indentation import SHALLOW, raise_until
 from fingerpad.contact.not_converged import NotConvergedError
 from fingerpad.contact.ownership import given_anew, given_to
 from fingerpad.contact.patch import Patch, patch_of
-from fingerpad.contact.path import LAST_ITERATIONS, advance, follow
+from fingerpad.contact.path import LAST_ITERATIONS, advance, drifting_to, follow
 from fingerpad.contact.profile import profile
 from fingerpad.contact.symmetry import half_of, unfolded
 from fingerpad.errors import ContactError, ConvergenceError, DepthError
@@ -234,6 +234,23 @@ def test_a_halved_increment_is_another(length: float, expected: list[float]) -> 
     reached, _ = advance(problem, rest(problem, 0.0), lift(problem, 0.0, length), 3, None, solve)
     assert tried == pytest.approx(expected)
     assert reached.actuator == pytest.approx(lift(problem, 0.0, length))
+
+
+@pytest.mark.parametrize("power", [1, 2])
+def test_skin_drifts_with_a_power_of_the_way(power: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Evenly, or with the square of it, but for the rounding of numbers below one."""
+    problem, found = touched(0.1, 1.0, 0.5), list[float]()
+
+    def solve(problem: ContactProblem, state: ContactState, actuator: FloatArray, patch: None) -> tuple[object, None]:
+        assert problem.free is not None
+        found.append(float(problem.free[0, 1]))
+        return replace(state, actuator=actuator), None
+
+    monkeypatch.setattr("fingerpad.contact.path.solve_increment", solve)
+    begin, target = rest(problem, 0.0), lift(problem, 0.0, 0.01)
+    drifting = drifting_to(np.full_like(problem.position, 0.8), begin.actuator, target, power)
+    advance(problem, begin, target, 4, None, drifting)
+    assert found == pytest.approx([0.8 * (step / 4.0) ** power for step in range(1, 5)], abs=1e-15)
 
 
 @pytest.mark.parametrize(("lost", "reached"), [(0.22, True), (0.19, False)])
