@@ -19,7 +19,7 @@ from fingerpad.contact.formulation import ContactProblem, ContactState, rest
 from fingerpad.contact.path import advance
 from fingerpad.errors import ContactError, CrossingError, DepthError, InvertedError, ReachError, SnapError
 from fingerpad.finite.deformation import Elements, internal_force
-from fingerpad.finite.deformed import Passed, Tangent, _followed, deformed_state, solver_on
+from fingerpad.finite.deformed import Passed, Tangent, _followed, deformed_state, is_far, solver_on
 from fingerpad.finite.deformed_path import HALVINGS, STEPS_BACK, DeformedTissue, Equilibrium, move
 from fingerpad.finite.deformed_solution import (
     PressedFinger,
@@ -172,6 +172,19 @@ def test_tissue_that_jumps_is_not_pressed_further(base: Scene, monkeypatch: pyte
     monkeypatch.setattr(fingerpad.finite.deformed, "is_far", lambda *_: True)
     with pytest.raises(SnapError):
         press(base, nominal_mesh(base), None, Interface.FRICTIONLESS)
+
+
+@pytest.mark.parametrize(
+    ("moved", "length", "load", "jumped"),
+    [(3.1, 1.0, 2.0, False), (6.2, 1.0, 2.0, True), (0.0005, 0.0, 1.0, False), (0.002, 0.0, 1.0, True)],
+)
+def test_tissue_jumps_where_it_goes_much_farther_than_actuators(
+    moved: float, length: float, load: float, jumped: bool
+) -> None:
+    """Tissue that was followed went 3.1 times as far before it snapped; twice that is a jump. Where actuators stand it
+    may move by a thousandth of the load, as corrections do.
+    """
+    assert is_far(moved, length, load) is jumped
 
 
 def test_on_the_way_skin_drifts_along_the_parabola_through_what_was_before(monkeypatch: pytest.MonkeyPatch) -> None:
