@@ -466,6 +466,14 @@ def two_pins(x: FloatArray) -> ContactProblem:
     )
 
 
+def test_hats_reach_to_the_next_nodes_of_an_actuator() -> None:
+    """Those of its outermost nodes, which have one neighbour, as far to the other side."""
+    sides, shares = two_pins(np.array([-0.5, -0.2, 0.4, 1.6, 2.0])).hats
+    assert sides == pytest.approx(np.array([[-0.3, -0.3, -0.6, -0.4, -0.4], [0.3, 0.6, 0.6, 0.4, 0.4]]))
+    assert shares[0] == pytest.approx([0.5, 1.0 / 3.0, 0.5, 0.5, 0.5])
+    assert shares.sum(axis=0) == pytest.approx(np.ones(5))
+
+
 def test_skin_that_is_given_to_another_actuator_does_not_touch_it_yet() -> None:
     """And promises nothing over it; the other nodes stay as they are."""
     problem, ones = two_pins(np.linspace(-0.5, 2.5, 13)), np.ones((13, 2))

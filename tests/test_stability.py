@@ -85,6 +85,8 @@ def test_a_ripple_is_no_limit_point_and_every_crest_is_one() -> None:
     """Increments that were taken back leave ripples in rising forces."""
     rising = np.array([[0.0, 0.0], [1.0, 1.0], [1.5, 0.9995], [2.0, 2.0]])
     assert not limit_points(rising).any()
+    small = np.array([[0.0, 0.0], [1.0, 1.0], [1.5, 0.995], [2.0, 2.0]])  # a four-hundredth of the largest force
+    assert limit_points(small).tolist() == [False, True, False, False]
     waves = np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 1.0], [3.0, 4.0], [4.0, 3.0]])
     assert limit_points(waves).tolist() == [False, True, False, True, False]
 
