@@ -27,7 +27,7 @@ from fingerpad.contact.depth import require_tissue
 from fingerpad.contact.faces import face_shape, touch
 from fingerpad.contact.force_curve import small_strain_curve
 from fingerpad.contact.formulation import ContactProblem, ContactState, Status, rest, touching_height
-from fingerpad.contact.increment import AMISS, solve_increment
+from fingerpad.contact.increment import solve_increment
 from fingerpad.contact.indentation import indent
 from fingerpad.contact.linear_solution import (
     follow_condition,
@@ -53,7 +53,7 @@ from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.stimuli import CYCLE_STEPS, phased
 from fingerpad.tissue.actuator_body import condense_body
-from fingerpad.tissue.compliance import MIRROR, CondensedSection
+from fingerpad.tissue.compliance import MIRROR, CondensedSection, displaced
 from fingerpad.tissue.condensation import condense_section
 from fingerpad.tissue.mesh import mesh_section, nominal_edges, nominal_mesh
 from fingerpad.tissue.reach import contact_tractions
@@ -74,13 +74,14 @@ def test_every_solution_is_certified(device: str, condition: str, interface: Int
     """The laws of contact hold for every device, condition and interface, and nothing had to be cut.
 
     Far better than certificates ask: equilibrium but for rounding, contact to its tolerance. Faces that give way
-    may be amiss by AMISS of the actuators' displacement.
+    may be amiss by a tenth of what a certificate allows.
     """
     base, solution = scene(device), solved(device, condition, interface)
     certificate, tolerance = solution.certificate, base.model.numerics.newton_tolerance
     assert certificate.equilibrium < 1e-14
     assert certificate.contact <= tolerance
-    assert certificate.penetration <= (AMISS if base.device.actuators.body else tolerance) * solution.height
+    allowed = 0.1 * PENETRATION_LIMIT if base.device.actuators.body else tolerance
+    assert certificate.penetration <= allowed * solution.height
     assert certificate.smallest_pressure > 0.0
     assert certificate.cone_excess <= tolerance
     assert certificate.dissipation >= 0.0
@@ -252,6 +253,15 @@ def test_what_is_shown_is_what_is_read() -> None:
         assert np.array_equal(getattr(one, name), getattr(both, name)), name
     for readout, read in one.reading.readouts.items():  # strains of several times at once are summed in another order
         assert np.abs(read - both.reading.readouts[readout]).max() < 1e-12 * np.abs(one.reading.strain).max(), readout
+
+
+def test_skin_is_shown_where_its_forces_move_it() -> None:
+    """Along the row, of pins that go to either side; to the tolerance of contact."""
+    base, moved = scene("device2"), lateral("moved", [0.02, -0.01, 0.0, 0.02])
+    solution, (section, _) = solve("device2", moved, Interface.SHEAR), condensed("device2")
+    x = section.position[:, 0] + displaced(section.compliance, solution.force[-1])[:, 0]
+    apart = solution.skin_x(base.device.actuators, moved) - x
+    assert np.abs(apart).max() < base.model.numerics.newton_tolerance * solution.height
 
 
 def tap(*heights: float) -> Condition:
