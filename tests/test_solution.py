@@ -38,7 +38,7 @@ from fingerpad.contact.linear_solution import (
 )
 from fingerpad.contact.ownership import handed_over
 from fingerpad.contact.path import follow, recording
-from fingerpad.contact.problem import contact_problem
+from fingerpad.contact.problem import contact_problem, indentation_increments, stimulus_increments
 from fingerpad.contact.profile import profile
 from fingerpad.contact.solution import Solution
 from fingerpad.errors import CertificateError, ContactError, CriterionError, DepthError, ReachError
@@ -52,6 +52,7 @@ from fingerpad.scene.device import ActuatorRow, Condition
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.stimuli import CYCLE_STEPS, phased
+from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.tissue.actuator_body import condense_body
 from fingerpad.tissue.compliance import MIRROR, CondensedSection, displaced
 from fingerpad.tissue.condensation import condense_section
@@ -232,6 +233,17 @@ def test_frictionless_path_leaves_no_trace_at_all() -> None:
     solution = solve("device2", there_and_back, Interface.FRICTIONLESS)
     # gaps are solved to 1e-9 of 1.7 mm; the stiffest pattern of nodal forces costs 0.027 mm per N/mm: 6e-8 N/mm
     assert np.abs(solution.force[-1] - solution.force[0]).max() < 6e-8
+
+
+@pytest.mark.parametrize(("kinematics", "share"), [(Kinematics.SMALL, 2), (Kinematics.FINITE, 1)])
+def test_paths_that_leave_no_trace_take_half_the_increments(kinematics: Kinematics, share: int) -> None:
+    """Without friction, and on linear tissue alone: on any other half of them are too far for Newton's method."""
+    base = scene("device2").with_kinematics(kinematics)
+    for interface, expected in ((Interface.FRICTIONLESS, share), (Interface.SHEAR, 1)):
+        problem = contact_problem(base, *condensed("device2"), interface)
+        numerics = base.model.numerics
+        assert indentation_increments(base, problem) == numerics.indentation_increments / expected
+        assert stimulus_increments(base, problem) == numerics.stimulus_increments / expected
 
 
 def test_friction_remembers() -> None:
