@@ -11,7 +11,7 @@ import pytest
 from fingerpad.arrays import FloatArray
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.forecast import forecast
-from fingerpad.prediction.scoring import rows_at
+from fingerpad.prediction.scoring import ReadSolution, error_rows, prepared, read_out, rows_at, solve_scene
 from fingerpad.readouts.accuracy import LEAST, score_errors, true_errors, with_errors
 from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.roughness import roughness_scores, scene_span
@@ -103,6 +103,19 @@ def test_errors_are_of_the_time_that_is_read(kinematics: Kinematics) -> None:
     errors = {(row["condition"], row["readout"]): row["score_error"] for row in without}
     for readout in Readout:
         assert errors["both", readout] == pytest.approx(errors["once", readout], rel=0.01)
+
+
+def test_errors_are_of_the_time_that_was_read_whatever_a_coarser_mesh_would_read() -> None:
+    """A score that was read half-way has the error of going there alone, though strain goes on changing."""
+    base = scene("device2").coarsened(2.0)
+    path = np.outer([0.5, 1.0], 0.02 * np.array([1.0, -1.0, 1.0, -1.0]))
+    whole = Condition("there", "a", 0.0, np.array([1.0, 2.0]), 0.0 * path, path)
+    half, further = (base.with_conditions([each]) for each in (whole.until(0), whole))
+    edges = edge_intervals(further)
+    condensed = prepared(half, edges)
+    (solved,) = solve_scene(half, condensed, [Interface.FRICTIONLESS])
+    read = {solved.case: ReadSolution(solved.solution, read_out(half, condensed, solved.solution))}
+    assert error_rows(further, edges, read) == error_rows(half, edges, read)
 
 
 def test_a_coarser_solution_takes_fewer_increments() -> None:
