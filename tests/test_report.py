@@ -7,6 +7,7 @@ import dataclasses
 import re
 import runpy
 from collections.abc import Mapping, Sequence
+from html import unescape
 from html.parser import HTMLParser
 from itertools import combinations, pairwise
 from pathlib import Path
@@ -16,7 +17,7 @@ import pytest
 from fingerpad.digraph import layers, placed, read_dot, reduced
 from fingerpad.figures.rules import rules_figure
 from fingerpad.perception.ratings import RatingKind
-from fingerpad.perception.wording import OPEN_SLOPE, p_text
+from fingerpad.perception.wording import OPEN_SLOPE, SURROGATE, p_text, r2_text
 from fingerpad.report.captions import Results, Words, rules_words, words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
@@ -34,7 +35,7 @@ from fingerpad.scene.scenefile import load_scene, read_yaml
 from fingerpad.scene.sources import Origin, page, quantities
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import read_rows
-from fingerpad.words import INTERFACE_NAME
+from fingerpad.words import COVERED, INTERFACE_NAME
 
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config" / "config.yaml"
@@ -236,10 +237,9 @@ def test_page_holds_no_path_of_this_machine(html: str, tmp_path: Path) -> None:
 
 
 def test_page_says_what_the_tables_say(html: str) -> None:
-    text = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html))
+    text = unescape(re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", html)))
     assert "0.4321 ± 0.0012" in text
-    assert "With small strain, of n = 1 statements 1 are supported, 0 are not" in text
-    assert "R² = 0.625 (0.25 to 0.75), falling, τ = −0.50, n = 3" in text  # noqa: RUF001  # as typeset
+    assert "τ = −0.50, falling, R² range 0.25 to 0.75, surrogates' R² = 0.62, n = 3" in text  # noqa: RUF001  # as typeset
     assert text.count("no prediction") > 12
     assert "Ratings are ordinal surrogates." in text
     assert "0123abc" in text
@@ -247,6 +247,50 @@ def test_page_says_what_the_tables_say(html: str) -> None:
         for quantity in quantities(read_yaml(path)):
             if quantity.origin is Origin.ASSUMPTION:
                 assert quantity.key in text
+
+
+def cells(html: str, table: str) -> list[list[str]]:
+    """Rows of a table of that class, as text."""
+    (found,) = re.findall(rf'<table class="{table}">(.*?)</table>', html, re.DOTALL)
+    rows = re.findall(r"<tr>(.*?)</tr>", found, re.DOTALL)
+    return [
+        [" ".join(cell.split()) for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL)] for row in rows
+    ]
+
+
+def test_what_came_out_comes_before_all_evidence(results: Results, tmp_path: Path) -> None:
+    """Counts of stated statements and all verdicts side by side; a statement without a verdict has a dash there."""
+    made = [
+        {"kinematics": kinematics, "claim": claim, "kind": kind, "source": "paper", "holds": holds, "evidence": "Seen."}
+        for kinematics, claim, kind, holds in (
+            ("small", "It rises.", "stated", "yes"),
+            ("small", "It bends.", "weaker", "no"),
+            ("small", "It falls.", "stated", "undecided"),
+            ("small", "It stays.", "stated", "yes"),
+            ("finite", "It rises.", "stated", "no"),
+            ("finite", "It bends.", "weaker", "yes"),
+            ("finite", "It stays.", "stated", "yes"),
+        )
+    ]
+    html = built(results, tmp_path, made)
+    assert cells(html, "counts") == [
+        ["Kinematics", "yes", "no", "undecided", "n"],
+        ["small strain", "2", "0", "1", "3"],
+        ["finite strain", "1", "1", "0", "2"],
+    ]
+    assert cells(html, "outcome") == [
+        ["Statement", "small strain", "finite strain"],
+        ["Stated"],
+        ["It rises.", "yes", "no"],
+        ["It falls.", "undecided", "\N{EN DASH}"],
+        ["It stays.", "yes", "yes"],
+        ["Weaker"],
+        ["It bends.", "no", "yes"],
+    ]
+    anchors = Parsed(html).every("id")
+    order = ["what", "outcome", "claims", "scores", "correlations", "figures", "assumptions"]
+    assert [anchor for anchor in anchors if anchor in order] == order
+    assert html.count("Seen.") == len(made)
 
 
 def test_assumptions_of_the_model_stand_beside_those_of_a_device_called_config(
@@ -289,14 +333,14 @@ def test_figures_come_in_reading_order(results: Results) -> None:
 
 
 def test_captions_explain_the_range_where_there_is_one(results: Results) -> None:
-    said = "In brackets the range"
+    said = "R² range: over all ratings"
     unordered = tuple(row | {"r2_lowest": "", "r2_highest": ""} for row in results.correlations)
     without = dataclasses.replace(results, correlations=unordered)
     assert said in words(["figure_6_shear"], results)["figure_6_shear"].caption
     assert said not in words(["figure_6_shear"], without)["figure_6_shear"].caption
     opened = tuple(row | {"range_open": "1"} for row in results.correlations)
     told = words(["figure_6_shear"], dataclasses.replace(results, correlations=opened))["figure_6_shear"].caption
-    assert ", open), " in told
+    assert "0.75, open, " in told
     assert OPEN_SLOPE in told
     assert OPEN_SLOPE not in words(["figure_6_shear"], results)["figure_6_shear"].caption
 
@@ -306,11 +350,44 @@ def test_a_map_names_the_conditions_of_its_dispersion_alone(results: Results) ->
     first, *rest = last.device.conditions
     device = dataclasses.replace(last.device, conditions=(dataclasses.replace(first, dispersion="low"), *rest))
     two = dataclasses.replace(results, scenes=(*others, dataclasses.replace(last, device=device)))
-    low, other = (
-        said.caption for said in words(["map_small_device3-low", "map_small_device3-alternate"], two).values()
+    low, other = words(["map_small_device3-low", "map_small_device3-alternate"], two).values()
+    assert first.name in low.caption and first.name not in other.caption  # it is not called by its dispersion and phase
+    assert all(one.name in other.caption and one.name not in low.caption for one in rest)
+    assert "low dispersion" in low.heading and "alternate dispersion" in other.heading
+    (alone,) = words(["map_small_device3-alternate"], results).values()
+    assert "dispersion" not in alone.heading  # there is but one
+
+
+def test_a_map_says_what_its_rows_and_colours_are(results: Results) -> None:
+    (said,) = words(["map_small_device3-alternate"], results).values()
+    for told in (
+        "Small strain, with shear",
+        "maximum principal strain (%)",
+        "change from the pre-indented state (%)",
+        "traction on the skin (kPa)",
+        "drawn to scale",
+        "clipped",
+        f"{COVERED:g} % is strained less",
+    ):
+        assert told in said.caption, told
+
+
+def test_captions_of_figures_that_are_drawn_twice_begin_with_their_kinematics(results: Results) -> None:
+    finite = [tuple(row | {"kinematics": "finite"} for row in rows) for rows in (results.scores, results.correlations)]
+    both = dataclasses.replace(
+        results, scores=(*results.scores, *finite[0]), correlations=(*results.correlations, *finite[1])
     )
-    assert first.name in low and first.name not in other
-    assert all(one.name in other and one.name not in low for one in rest)
+    stems = ["figure_4_receptors", "figure_5_correlation", "figure_6_shear", "ablation_shear"]
+    for stem in stems:
+        small, other = words([stem, f"{stem}_finite"], both).values()
+        assert small.caption.startswith("Small strain. ") and other.caption.startswith("Finite strain. ")
+        assert small.heading != other.heading
+
+
+def test_the_caption_of_kinematics_says_what_panels_show_and_leaves_numbers_to_the_table(results: Results) -> None:
+    (said,) = words(["kinematics"], results).values()
+    assert "indentation from first touch (mm)" in said.caption and "(N/mm)" in said.caption
+    assert "±" not in said.caption
 
 
 def test_devices_without_a_lateral_one_have_captions(results: Results) -> None:
@@ -338,35 +415,37 @@ def test_captions_of_finite_figures_name_the_devices_that_they_show(results: Res
     for caption in captions:
         assert first.device.title not in caption
         assert all(scene.device.title in caption for scene in others)
-    assert beside.count("small strain") == 2
-    assert beside.count("finite strain") == 1
+    assert f"{first.device.title} (n = 3 conditions, small strain alone)" in beside
+    assert beside.count("alone") == 1
 
 
 def test_captions_take_numbers_from_the_rows_that_their_figures_show(results: Results) -> None:
     """All scores and correlations differ from one another, and finite ones from small ones."""
     small = [row | {"score": row["score"] and str(0.1 + 0.01 * n)} for n, row in enumerate(results.scores)]
     finite = [row | {"kinematics": "finite", "score": row["score"] and str(float(row["score"]) + 1.0)} for row in small]
-    related = tuple(row | {"r2": row["r2"] and str(0.1 + 0.01 * n)} for n, row in enumerate(results.correlations))
+    related = tuple(
+        row | {"r2": row["r2"] and str(0.1 + 0.01 * n), "r2_lowest": row["r2"] and str(0.01 * n)}
+        for n, row in enumerate(results.correlations)
+    )
     both = dataclasses.replace(results, scores=(*small, *finite), correlations=related)
-    said = words([*FIGURES, "kinematics"], both)
+    said = words(FIGURES, both)
     change = Readout.CHANGE_OF_STRAIN
     for row in filter(lambda row: row["score"], both.scores):
-        told = f"{row['condition']} {score_with_error(row)}"
+        told = f"{float(row['phase_deg']):g}°: {score_with_error(row)}"
         is_small, is_shear = row["kinematics"] == "small", row["interface"] == "shear"
         first, is_change = row["device"] == "device2", row["readout"] == change
         assert (told in said["figure_3_workflow"].caption) is (is_small and is_shear and first)
-        assert (told in said["kinematics"].caption) is (is_shear and is_change)
         assert (told in said["map_small_device3-alternate"].caption) is (
             is_small and is_shear and is_change and not first
         )
-    after_finite = said["kinematics"].caption.split("finite strain")[1].split(";")[0]
-    assert score_with_error(next(row for row in finite if row["readout"] == change)) in after_finite
     gabor = results.scenes[0].model.gabor
     assert f"Strain (λ = {gabor.wavelength_strain:g} mm" in said["figure_3_workflow"].caption
     assert f"Change of strain (λ = {gabor.wavelength_change:g} mm" in said["figure_3_workflow"].caption
     for row in filter(lambda row: row["r2"], related):
-        told = f"{INTERFACE_NAME[Interface(row['interface'])]} {float(row['r2']):.3f}"
-        assert (told in said["ablation_shear"].caption) is (row["readout"] == change)
+        told = f"{SURROGATE} = {r2_text(row)}"
+        assert (told in said["figure_5_correlation"].caption) is (row["interface"] == "shear")
+        lowest = f"{INTERFACE_NAME[Interface(row['interface'])]} falling, R² range {float(row['r2_lowest']):.2f} to"
+        assert (lowest in said["ablation_shear"].caption) is (row["readout"] == change)
     assert f"Receptors lie {results.scenes[0].model.receptor_depth:g} mm below" in said["section"].caption
 
 

@@ -23,6 +23,10 @@ SCORE_SCALE = {
     Readout.CHANGE_OF_STRAIN: (1e3, "10⁻³ "),
 }  # factor [1] and its typeset inverse
 TYPESET_UNITS = {"mm2": "mm²"}  # of those in tables, which keep to plain letters
+# Per cent of the area in view whose strain colours of maps tell apart, and of its change, of which they tell apart all
+# that receptors have besides; the rest is beyond the end of the bar. Strain changes most at the bone, where no
+# receptors are
+COVERED, CHANGE_COVERED = 99.5, 90.0
 PERCENT = 100.0
 KILO = 1e3  # kPa in a MPa, µm in a mm
 MINUS = "\N{MINUS SIGN}"

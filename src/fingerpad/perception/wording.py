@@ -13,6 +13,7 @@ from .ratings import RatingKind
 SLOPE_NAME = {-1: "falling", 0: "level", 1: "rising"}  # by its sign
 TAU = ("kendall_tau", "tau_lowest", "tau_highest")
 SMALLEST_P = 0.001  # below it p is given as a bound
+SURROGATE = "surrogates' R²"  # that over ordinal surrogates, whose steps mean nothing
 # behind `slope_name` and `range_text`, in captions
 OPEN_SLOPE = "Open: errors of scores could reverse the slope; behind a range, only with some of the ratings in it."
 
@@ -32,6 +33,20 @@ def p_text(p: object) -> str:
     """
     value = float(str(p))
     return f"{value:#.2g}" if value >= SMALLEST_P else f"<\N{NO-BREAK SPACE}{SMALLEST_P:g}"
+
+
+def is_surrogate(row: Mapping[str, Any]) -> bool:
+    """Whether R² is over ordinal surrogates, whose steps were not measured: then its range says more than it does."""
+    return bool(row["rating_kind"] == RatingKind.SURROGATE.label)
+
+
+def r2_text(row: Mapping[str, Any]) -> str:
+    """R² as it is shown: to three decimals, over ordinal surrogates to two.
+
+    >>> [r2_text({"r2": "0.96604", "rating_kind": kind}) for kind in ("measured", "ordinal surrogate")]
+    ['0.966', '0.97']
+    """
+    return f"{float(row['r2']):.{2 if is_surrogate(row) else 3}f}"
 
 
 def tau_text(row: Mapping[str, Any]) -> str:

@@ -8,9 +8,12 @@ from functools import partial
 
 from ..perception.wording import (
     OPEN_SLOPE,
+    SURROGATE,
     has_open,
     has_p,
+    is_surrogate,
     p_text,
+    r2_text,
     range_text,
     slope_name,
     tau_text,
@@ -19,8 +22,11 @@ from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.readout import Readout
 from ..scene.scene import Scene
+from ..scene.stimuli import condition_name
 from ..scene.tissue_law import Kinematics
 from ..words import (
+    CHANGE_COVERED,
+    COVERED,
     INTERFACE_NAME,
     KINEMATICS_NAME,
     MODE_ENDING,
@@ -69,10 +75,10 @@ def words(stems: Collection[str], results: Results) -> dict[str, Words]:
     Raises KeyError if nothing is written of one of them.
     """
     small, finite = (_of(results, kinematics) for kinematics in Kinematics)
-    writers: dict[str, Callable[[], Words]] = {}
-    for stem, write in _WRITERS.items():
-        writers[stem] = partial(write, small)
-        writers[f"{stem}{MODE_ENDING[Kinematics.FINITE]}"] = partial(_finite, write, finite)
+    writers: dict[str, Callable[[], Words]] = {stem: partial(write, small) for stem, write in _ONCE.items()}
+    for stem, write in _WITH_KINEMATICS.items():
+        for kinematics, own in zip(Kinematics, (small, finite), strict=True):
+            writers[f"{stem}{MODE_ENDING[kinematics]}"] = partial(_with_kinematics, write, own, kinematics)
     writers["kinematics"] = partial(_kinematics, results)
     for scene in results.scenes:
         for dispersion in scene.device.by_dispersion:
@@ -92,10 +98,12 @@ def _of(results: Results, kinematics: Kinematics) -> Results:
     return replace(results, scenes=scenes, scores=scores, correlations=correlations)
 
 
-def _finite(write: Callable[[Results], Words], results: Results) -> Words:
-    """What is said of the same figure with finite kinematics."""
+def _with_kinematics(write: Callable[[Results], Words], results: Results, kinematics: Kinematics) -> Words:
+    """What is said of a figure that is drawn for all kinematics, and of which ones this is."""
     said = write(results)
-    return replace(said, heading=f"{said.heading}, finite strain", caption=f"Finite kinematics. {said.caption}")
+    ending = f", {KINEMATICS_NAME[kinematics]}" if kinematics is Kinematics.FINITE else ""
+    caption = f"{KINEMATICS_NAME[kinematics].capitalize()}. {said.caption}"
+    return replace(said, heading=f"{said.heading}{ending}", caption=caption)
 
 
 def rules_words(graph: Sequence[Row]) -> Words:
@@ -111,17 +119,19 @@ def rules_words(graph: Sequence[Row]) -> Words:
 
 
 def _correlation_words(row: Row) -> str:
-    """One row of the table of correlations as a phrase: R² with its p, range and slope, tau and n."""
+    """One row of the table of correlations as a phrase. R² comes last where it is that of surrogates."""
     if not row["r2"]:
         return f"{row['note']}, n = {row['n']}" if row["n"] != "0" else row["note"]
     p = f", p over distinct conditions {p_text(row['p'])}" if has_p(row["p"], row["rating_kind"]) else ""
-    tau = tau_text(row)
-    return f"R² = {float(row['r2']):.3f}{p}{_spread(row)}, {slope_name(row)}, τ = {tau}, n = {row['n']}"
+    order = f"τ = {tau_text(row)}, {slope_name(row)}"
+    if is_surrogate(row):
+        return f"{order}{_range_of(row)}, {SURROGATE} = {r2_text(row)}, n = {row['n']}"
+    return f"R² = {r2_text(row)}{p}{_range_of(row)}, {order}, n = {row['n']}"
 
 
-def _spread(row: Row) -> str:
-    """The range of R² in brackets, if the order of the ratings is stated."""
-    return f" ({range_text(row)})" if range_text(row) else ""
+def _range_of(row: Row) -> str:
+    """The range of R², if the order of the ratings is stated."""
+    return f", R² range {range_text(row)}" if range_text(row) else ""
 
 
 def _section(results: Results) -> Words:
@@ -160,7 +170,8 @@ def _workflow(results: Results) -> Words:
     return Words(
         f"From strain to score: {device.title}",
         "Strain and change of strain along the receptor line, the same Gabor-filtered, and bars of their areas.",
-        f"With shear, small strain, {counted(device.conditions)}. Scores: {scores}.",
+        f"{KINEMATICS_NAME[Kinematics.SMALL].capitalize()}, with shear, {counted(device.conditions)}. Grey line: the"
+        f" pre-indented state, from which strain changes. Scores: {scores}.",
     )
 
 
@@ -172,8 +183,9 @@ def _receptors(results: Results) -> Words:
     return Words(
         "Strain and change of strain at the receptors",
         "Curves of strain (left) and change of strain (right) along the receptors, one row per device and dispersion.",
-        f"Maximum principal strain and its change from pre-indentation, with shear. {counts}."
-        " Grey: under a face before the stimulus.",
+        "With shear. Maximum principal strain (left, %) and its change from the pre-indented state (right, %), which"
+        f" is the grey line at left, over arc length along the receptors (mm). {counts}. Shaded: under a face before"
+        " the stimulus.",
     )
 
 
@@ -215,38 +227,50 @@ def _ablation(results: Results) -> Words:
     return Words(
         "Every score with and without shear",
         "Bars of strain scores (left) and change-of-strain scores (right) of every condition, with and without shear.",
-        f"R² of the change of strain: {'; '.join(parts)}. Ratings: {_kinds(results)}.{_range(results, with_tau=False)}"
-        f" {ERROR_LINES}",
+        f"How scores of the change of strain correlate: {'; '.join(parts)}. Ratings:"
+        f" {_kinds(results)}.{_range(results, with_tau=False)} {ERROR_LINES}",
     )
 
 
 def _kinematics(results: Results) -> Words:
     parts = []
     for scene in results.scenes:
-        key = scene.device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN
-        shown = [f"{KINEMATICS_NAME[each]} {_scores(_of(results, each), *key)}" for each in scene.computed]
-        parts.append(f"{scene.device.title} ({counted(scene.device.conditions)}): {'; '.join(shown)}")
+        alone = "" if len(scene.computed) > 1 else f", {KINEMATICS_NAME[scene.computed[0]]} alone"
+        parts.append(f"{scene.device.title} ({counted(scene.device.conditions)}{alone})")
+    both = " and ".join(KINEMATICS_NAME[each] for each in Kinematics)
     return Words(
         "Small and finite strain side by side",
         "Force against indentation (left), bars of strain scores (middle) and change-of-strain scores (right).",
-        f"Scores of the change of strain with shear. {'. '.join(parts)}. {ERROR_LINES}",
+        f"{both.capitalize()}; a row per device: {'; '.join(parts)}. Left: force of all actuators per mm of finger"
+        " (N/mm) against indentation from first touch (mm), with shear (full lines) and without (dotted); marks show"
+        " where pre-indentation ends and stimuli begin. Middle and right: scores of strain and of its change with"
+        f" shear, each on its own scale. {ERROR_LINES} Numbers are in the table of scores.",
     )
 
 
 def _map(results: Results, device: Device, dispersion: str) -> Words:
     chosen = device.by_dispersion[dispersion]
     shown = _scores(results, device.name, Interface.SHEAR, Readout.CHANGE_OF_STRAIN, [one.name for one in chosen])
+    named = f", {plain(dispersion)} dispersion" if len(device.by_dispersion) > 1 else ""
+    when = "when receptors are read" if any(one.time.size > 1 for one in chosen) else "at the end of the stimulus"
     return Words(
-        f"Strain in the section: {device.title}, {plain(dispersion)} dispersion",
+        f"Strain in the section: {device.title}{named}",
         "Colour maps of the maximum principal strain in the deformed section and of its change; tractions on the skin.",
-        f"With shear, {counted(chosen)}. Change-of-strain scores: {shown}.",
+        f"{KINEMATICS_NAME[Kinematics.SMALL].capitalize()}, with shear, {when}; a column per condition,"
+        f" {counted(chosen)}. Top: maximum principal strain (%). Middle: its change from the pre-indented state (%), at"
+        " the same points of tissue. Bottom: contact pressure and shear traction on the skin (kPa). Displacements are"
+        " drawn to scale. Colours are common to all maps of the device, and clipped where bars end in a point: of the"
+        f" area in view {COVERED:g} % is strained less; {CHANGE_COVERED:g} % changes less, and so does all that"
+        f" receptors have; strain changes most at the bone. Change-of-strain scores: {shown}.",
     )
 
 
-_WRITERS: dict[str, Callable[[Results], Words]] = {
+_ONCE: dict[str, Callable[[Results], Words]] = {
     "section": _section,
     "stimuli": _stimuli,
     "figure_3_workflow": _workflow,
+}
+_WITH_KINEMATICS: dict[str, Callable[[Results], Words]] = {
     "figure_4_receptors": _receptors,
     "figure_5_correlation": _correlation,
     "figure_6_shear": _shear,
@@ -265,10 +289,25 @@ def _scores(
         and (names is None or row["condition"] in names)
         and row["score"]
     ]
-    found = (f"{row['condition']} {score_with_error(row)}" for row in rows)
+    labels = _labels(results.device(device))
+    found = (f"{labels[row['condition']]}: {score_with_error(row)}" for row in rows)
     unit = rows[0]["unit"] if rows else ""
     scaled = f"{SCORE_SCALE[readout][1]}{typeset(unit)}".replace(" ", "\N{NO-BREAK SPACE}")
     return f"{', '.join(found)} {scaled}"
+
+
+def _labels(device: Device) -> dict[str, str]:
+    """What conditions are called: their phases, after their dispersions if there are several; or their names, where
+    these say more.
+    """
+    own = device.conditions
+    if any(one.name != condition_name(one.dispersion, one.phase_deg) for one in own):
+        return {one.name: one.name for one in own}
+    several_spreads = len(device.by_dispersion) > 1
+    return {
+        one.name: f"{plain(one.dispersion)} {one.phase_deg:g}°" if several_spreads else f"{one.phase_deg:g}°"
+        for one in own
+    }
 
 
 def _rows(results: Results, device: str, interface: Interface) -> list[Row]:
@@ -284,21 +323,21 @@ def _correlated(results: Results, device: str, interface: Interface, titled: boo
 
 
 def _r2(row: Row) -> str:
-    return f"{float(row['r2']):.3f}{_spread(row)}, {slope_name(row)}" if row["r2"] else f"({row['note']})"
+    if not row["r2"]:
+        return f"({row['note']})"
+    if is_surrogate(row):
+        return f"{slope_name(row)}{_range_of(row) or f', {SURROGATE} = {r2_text(row)}'}"
+    return f"R² = {r2_text(row)}{_range_of(row)}, {slope_name(row)}"
 
 
 def _range(results: Results, with_tau: bool = True) -> str:
-    """What stands in brackets behind R² and, if it is there, τ, where there is anything."""
-    ranges = {
-        "the range of R² over all ratings with the stated order, without errors of scores": any(
-            row["r2_lowest"] for row in results.correlations
-        ),
-        "from where to where errors of scores leave τ": with_tau
-        and any(row["tau_lowest"] != row["tau_highest"] for row in results.correlations),
-    }
-    told = [what for what, is_there in ranges.items() if is_there]
-    opened = f" {OPEN_SLOPE}" if has_open(results.correlations) else ""
-    return (f" In brackets {', and '.join(told)}." if told else "") + opened
+    """What ranges of R² and of τ are, where there are any."""
+    rows = results.correlations
+    has_ranges = any(row["r2_lowest"] for row in rows)
+    has_between = with_tau and any(row["tau_lowest"] != row["tau_highest"] for row in rows)
+    told = " R² range: over all ratings with the stated order, without errors of scores." if has_ranges else ""
+    told += " In brackets: from where to where errors of scores leave τ." if has_between else ""
+    return told + (f" {OPEN_SLOPE}" if has_open(rows) else "")
 
 
 def _kinds(results: Results) -> str:

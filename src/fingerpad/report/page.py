@@ -11,6 +11,7 @@ from jinja2 import Environment, StrictUndefined
 
 from ..perception.claims import verdict_counts
 from ..perception.ratings import RatingKind
+from ..perception.verdicts import Holds
 from ..scene.sources import Origin, Quantity
 from ..scene.tissue_law import Kinematics
 from ..words import KINEMATICS_NAME
@@ -23,6 +24,7 @@ from .tables import (
     correlation_listing,
     score_grid,
     score_notes,
+    statement_listing,
 )
 
 
@@ -72,8 +74,10 @@ def report(
         accuracy_summary=accuracy_summary(results.scores),
         correlations=correlation_listing(results.correlations, titles),
         surrogates=any(row["rating_kind"] == RatingKind.SURROGATE.label for row in results.correlations),
-        claims=claims,
-        verdicts={KINEMATICS_NAME[Kinematics(each)]: counts for each, counts in verdict_counts(claims).items()},
+        statements=statement_listing(claims),
+        judged_with=list(dict.fromkeys(KINEMATICS_NAME[Kinematics(row["kinematics"])] for row in claims)),
+        verdicts=list(map(str, Holds)),
+        counts={KINEMATICS_NAME[Kinematics(each)]: counts for each, counts in verdict_counts(claims).items()},
         assumptions=[
             (heading, [each for each in listed if each.origin is Origin.ASSUMPTION])
             for heading, listed in (("The model", of_model), *((titles[name], of_devices[name]) for name in titles))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import median
 
-from ..perception.wording import has_p, p_text, published_text, range_text, slope_name, tau_text
+from ..perception.wording import has_p, p_text, published_text, r2_text, range_text, slope_name, tau_text
 from ..readouts.accuracy import relative_error, relative_errors
 from ..rounding import rounded
 from ..scene.contact_law import Interface
@@ -41,6 +41,32 @@ class Listing:
 
     columns: tuple[str, ...]
     bodies: tuple[Body, ...]
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A statement of the paper: its text, kind and source; what it was judged to be and on what evidence, by the name
+    of kinematics.
+    """
+
+    text: str
+    kind: str
+    source: str
+    judged: Mapping[str, tuple[str, str]]
+
+    def holds(self, kinematics: str) -> str:
+        """The verdict with kinematics of that name; nothing where there is none."""
+        return self.judged.get(kinematics, ("", ""))[0]
+
+
+def statement_listing(claims: Sequence[Row]) -> list[Statement]:
+    """Every statement once, in the order of the table, with its verdicts side by side. claims: rows of claims.csv."""
+    found: dict[str, Statement] = {}
+    for row in claims:
+        statement = found.setdefault(row["claim"], Statement(row["claim"], row["kind"], row["source"], {}))
+        name = KINEMATICS_NAME[Kinematics(row["kinematics"])]
+        found[row["claim"]] = replace(statement, judged={**statement.judged, name: (row["holds"], row["evidence"])})
+    return list(found.values())
 
 
 def score_with_error(row: Row) -> str:
@@ -106,11 +132,11 @@ def correlation_listing(correlations: Sequence[Row], titles: Mapping[str, str]) 
         cells = (
             READOUT_NAME[Readout(row["readout"])],
             row["n"],
-            f"{float(row['r2']):.3f}" if row["r2"] else NOTHING,
-            p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
-            range_text(row) or NOTHING,
-            slope_name(row) if row["r2"] else NOTHING,
             tau_text(row) if row["kendall_tau"] else NOTHING,
+            slope_name(row) if row["r2"] else NOTHING,
+            range_text(row) or NOTHING,
+            r2_text(row) if row["r2"] else NOTHING,
+            p_text(row["p"]) if has_p(row["p"], row["rating_kind"]) else NOTHING,
             row["rating_kind"] or NOTHING,
             published_text(row) or NOTHING,
             row["note"] or NOTHING,
@@ -127,7 +153,7 @@ def correlation_listing(correlations: Sequence[Row], titles: Mapping[str, str]) 
 
 
 CORRELATION_COLUMNS = (
-    "Interface", "Read-out", "n", "R²", "p of R²", "Range of R²", "Slope", "Kendall's τ", "Ratings",
+    "Interface", "Read-out", "n", "Kendall's τ", "Slope", "Range of R²", "R²", "p of R²", "Ratings",
     "Published", "Note",
 )  # fmt: skip
 
