@@ -11,7 +11,7 @@ import pytest
 from fingerpad.contact.symmetry import mirrors
 from fingerpad.errors import ContactError, SceneError
 from fingerpad.figures.design import DesignPicture
-from fingerpad.figures.style import BLUE, VERMILLION
+from fingerpad.figures.style import ALONG, GREEN, INTO_EDGE
 from fingerpad.prediction.design import Pad, PressedRow, answer, condense_pad, press_row
 from fingerpad.prediction.forecast import forecast
 from fingerpad.readouts.accuracy import COARSENING
@@ -138,11 +138,14 @@ def test_picture_is_in_the_units_of_its_axes() -> None:
     picture.show(found)
     tractions, *strains = [axes for axes in picture.figure.axes if "score" not in axes.get_ylabel()]
     touching = found.solution.pressure > 0.0
-    for colour, traction in ((BLUE, found.solution.pressure), (VERMILLION, found.solution.shear)):
+    for colour, traction in ((INTO_EDGE, found.solution.pressure), (ALONG, found.solution.shear)):
         (drawn,) = [np.asarray(line.get_ydata()) for line in tractions.lines if line.get_color() == colour]
         assert drawn[np.isfinite(drawn)] == pytest.approx(1e3 * traction[touching])
+    (area,) = [patch for patch in tractions.patches if patch.get_alpha() != 0.0 and len(patch.get_xy()) > 1]
+    below = np.asarray(area.get_xy())
+    assert below[below[:, 1] > 0.0, 1] == pytest.approx(1e3 * found.solution.pressure[touching])
     for axes, readout in zip(strains, Readout, strict=True):
-        (drawn,) = [np.asarray(line.get_ydata()) for line in axes.lines if line.get_color() == BLUE]
+        (drawn,) = [np.asarray(line.get_ydata()) for line in axes.lines if line.get_color() == GREEN]
         assert drawn == pytest.approx(100.0 * found.readouts.unfiltered(readout))
     scores = [axes for axes in picture.figure.axes if "score" in axes.get_ylabel()]
     for axes, row, factor in zip(scores, found.rows, (1.0, 1e3), strict=True):

@@ -9,14 +9,24 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..perception.wording import range_text, slope_name
+from ..perception.wording import SURROGATE, is_surrogate, r2_text, range_text, slope_name
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
 from ..words import INTERFACE_NAME, KINEMATICS_NAME
-from .bars import LOOKS, draw_pairs
+from .bars import draw_pairs
 from .correlation import ratings_caption
-from .style import LETTER_OFFSET, WIDE, as_title, legend_below, letter, new_figure, styled, unknown_errors
+from .style import (
+    INTERFACE_LOOK,
+    LETTER_OFFSET,
+    WIDE,
+    as_title,
+    legend_below,
+    letter,
+    new_figure,
+    styled,
+    unknown_errors,
+)
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 14.0  # mm
 RISE = 26.0  # of devices' titles and of letters above panels, over two lines of statistics [pt]
@@ -50,7 +60,7 @@ def ablation_figure(
         )  # fmt: skip
     for axes, text in zip(grid[0], "AB", strict=True):
         letter(axes, text, (LETTER_OFFSET[0], RISE))
-    handles = [Patch(label=INTERFACE_NAME[each], **look) for each, look in zip(Interface, LOOKS, strict=True)]
+    handles = [Patch(label=INTERFACE_NAME[each], **look) for each, look in INTERFACE_LOOK.items()]
     shown = correlations[correlations["device"].isin(titles)]
     turned, unknown = TURNING if turning else "", unknown_errors(scores[scores["device"].isin(titles)])
     legend_below(
@@ -61,7 +71,9 @@ def ablation_figure(
 
 def _panel(axes: Axes, readout: Readout, scores: pd.DataFrame, correlations: pd.DataFrame) -> None:
     """Bars of one device and read-out, a pair for each condition."""
-    draw_pairs(axes, readout, [scores[scores["interface"] == interface] for interface in Interface])
+    draw_pairs(
+        axes, readout, [scores[scores["interface"] == interface] for interface in Interface], INTERFACE_LOOK.values()
+    )
     lines = [_statistics(correlations, interface) for interface in Interface]
     axes.set_title("\n".join(lines), loc="left", fontsize="medium", fontweight="normal")
 
@@ -71,5 +83,9 @@ def _statistics(correlations: pd.DataFrame, interface: Interface) -> str:
     row = correlations[correlations["interface"] == interface].iloc[0]
     if pd.isna(row["r2"]):
         return f"{INTERFACE_NAME[interface]}: {row['note']}"
-    ends = f", range {range_text(row)}" if range_text(row) else ""
-    return f"{INTERFACE_NAME[interface]}: R² {row['r2']:.3f}, {slope_name(row)}{ends}, n = {row['n']}"
+    slope, between = slope_name(row), range_text(row)
+    if is_surrogate(row):
+        said = f"{slope}, R² range {between}" if between else f"{slope}, {SURROGATE} = {r2_text(row)}"
+    else:
+        said = f"R² = {r2_text(row)}, {slope}{f', range {between}' if between else ''}"
+    return f"{INTERFACE_NAME[interface]}: {said}, n = {row['n']}"

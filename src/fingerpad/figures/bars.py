@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,28 +12,31 @@ from matplotlib.axes import Axes
 
 from ..scene.readout import Readout
 from ..words import LONGEST_LABEL, SCORE_SCALE, plain, score_label, shortened
-from .style import BLACK, BLUE, GREY, ORANGE, are_named, draw_errors, shown_in
+from .style import BLACK, GREY, are_named, draw_errors, shown_in
 
 BAR = 0.38  # width of a bar, of the distance between conditions [1]
 SIDES = (-0.5, 0.5)  # middle of each bar of a pair from that of the pair, in widths of a bar [1]
 GROUP_OFFSET, TURNED_OFFSET = -15.0, -23.0  # of a dispersion's name below the axis, and below upright phases [pt]
 MOST_LEVEL, MOST_UPRIGHT = 10, 24  # conditions that are named beside each other on level ground, and at all, under bars
 NAMES = 40  # characters of all dispersions' names under the bars
-LOOKS: tuple[dict[str, Any], ...] = (
-    {"facecolor": BLUE, "edgecolor": BLUE},
-    {"facecolor": "white", "edgecolor": ORANGE, "hatch": "//////"},
-)  # of the first and the second bar of a pair
 
 
-def draw_pairs(axes: Axes, readout: Readout, pair: Sequence[pd.DataFrame], is_short: bool = False) -> None:
+def draw_pairs(
+    axes: Axes,
+    readout: Readout,
+    pair: Sequence[pd.DataFrame],
+    looks: Iterable[Mapping[str, Any]],
+    is_short: bool = False,
+) -> None:
     """Bars of one device and read-out with their errors. Where a side has no score, what its note says stands instead.
 
-    pair: rows of the score table for each side, one a condition. is_short: as `_name_conditions` has it.
+    pair: rows of the score table for each side, one a condition. looks: of the bars of each side. is_short: as
+    `_name_conditions` has it.
     """
     factor = SCORE_SCALE[readout][0]
     conditions = pd.concat(pair).drop_duplicates("condition")
     places = np.arange(len(conditions))
-    for own, side, look in zip(pair, SIDES, LOOKS, strict=True):
+    for own, side, look in zip(pair, SIDES, looks, strict=True):
         placed = own.set_index("condition").reindex(conditions["condition"])
         heights = factor * placed["score"].to_numpy(float)
         if np.isfinite(heights).any():

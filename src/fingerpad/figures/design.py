@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Patch, Polygon, Rectangle
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from PIL import Image
@@ -26,7 +26,7 @@ from ..rounding import rounded
 from ..scene.readout import Readout
 from ..words import KILO, PERCENT, READOUT_NAME, SCORE_SCALE, score_label
 from .receptors import face_arcs
-from .style import BLUE, DASHED, GREY, LINE, MM, SHADE, THIN, VERMILLION, WIDE, styled
+from .style import ALONG, DASHED, GREEN, GREY, INTO, INTO_EDGE, LINE, MM, SHADE, THIN, WIDE, styled
 
 HEIGHT = 105.0  # mm
 RESOLUTION = 110.0  # of the picture [dots per inch]
@@ -43,8 +43,11 @@ PNG_LEVEL = 1  # of 9; source: fewest seconds (measured), for a picture that is 
 
 @dataclass(frozen=True)
 class _Design:
-    """The artists that show one design: tractions, and by read-out curve, score, its error and its number."""
+    """The artists that show one design: tractions, and by read-out curve, score, its error and its number. area: under
+    the pressure, without a fill where only its edge is shown.
+    """
 
+    area: Polygon
     pressure: Line2D
     shear: Line2D
     curves: dict[Readout, Line2D]
@@ -55,7 +58,7 @@ class _Design:
     def artists(self) -> list[Artist]:
         """All of them, the lowest first."""
         by_readout = (self.curves, self.bars, self.errors, self.numbers)
-        return [self.pressure, self.shear, *(artist for group in by_readout for artist in group.values())]
+        return [self.area, self.pressure, self.shear, *(artist for group in by_readout for artist in group.values())]
 
 
 class DesignPicture:
@@ -81,8 +84,8 @@ class DesignPicture:
             for _ in range(pins)
         ]
         self._label_axes()
-        self._before = self._design("before", (GREY, GREY, GREY), THIN)
-        self._now = self._design("now", (BLUE, VERMILLION, BLUE), LINE)
+        self._before = self._design("before", ("none", GREY, GREY, GREY), THIN, DASHED)
+        self._now = self._design("now", (INTO, INTO_EDGE, ALONG, GREEN), LINE, "-")
         self._note = self.figure.text(*NOTE, "", color=GREY, va="top")
         self._moving = [*self._faces, *self._before.artists(), *self._now.artists(), self._note]
         for artist in self._moving:
@@ -96,11 +99,12 @@ class DesignPicture:
         self._tractions.set_ylabel("Traction (kPa)")
         self._tractions.legend(
             handles=[
-                Line2D([], [], color=BLUE, label="pressure"),
-                Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear"),
+                Patch(facecolor=INTO, edgecolor=INTO_EDGE, label="pressure"),
+                Line2D([], [], color=ALONG, label="shear"),
                 Line2D([], [], color=GREY, linewidth=THIN, label="previous design"),
+                Line2D([], [], color=GREY, linewidth=THIN, linestyle=DASHED, label="its shear"),
             ],
-            loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=3, borderaxespad=0.0,
+            loc="lower left", bbox_to_anchor=(0.0, 0.98), ncols=4, borderaxespad=0.0,
         )  # fmt: skip
         for readout in Readout:
             self._strains[readout].set_ylabel(f"{READOUT_NAME[readout]} (%)")
@@ -112,14 +116,15 @@ class DesignPicture:
         right[-1].set_xticks(list(PLACES.values()), list(PLACES))
         left[-1].set_xlabel("x on the skin, arc length along the receptor line (mm)")
 
-    def _design(self, name: str, colours: tuple[str, str, str], width: float) -> _Design:
-        """Artists without data, in the colours of pressure, shear and read-outs; width: of lines [pt], which tells
-        designs apart where colours do not.
+    def _design(self, name: str, colours: tuple[str, str, str, str], width: float, line: Any) -> _Design:
+        """Artists without data, in the colours of the area under the pressure, its edge, shear and read-outs; width: of
+        lines [pt], which tells designs apart where colours do not. line: style of shear.
         """
-        (pressure, shear, read), place = colours, PLACES[name]
+        (area, pressure, shear, read), place = colours, PLACES[name]
         return _Design(
+            area=self._tractions.fill([], [], color=area, linewidth=0.0)[0],
             pressure=self._tractions.plot([], [], color=pressure, linewidth=width)[0],
-            shear=self._tractions.plot([], [], color=shear, linewidth=width, linestyle=DASHED)[0],
+            shear=self._tractions.plot([], [], color=shear, linewidth=width, linestyle=line)[0],
             curves={each: axes.plot([], [], color=read, linewidth=width)[0] for each, axes in self._strains.items()},
             bars={each: axes.bar(place, 0.0, color=read, width=BAR)[0] for each, axes in self._scores.items()},
             errors={each: axes.plot([], [], color="black", linewidth=LINE)[0] for each, axes in self._scores.items()},
@@ -168,6 +173,8 @@ class DesignPicture:
 def _set(artists: _Design, place: float, answer: Answer) -> None:
     """Give a design's artists its data; its scores stand at `place`."""
     x, pressure, shear = _tractions(answer)
+    parts = np.split(np.stack([x, pressure], axis=1), np.flatnonzero(np.isnan(x)))
+    artists.area.set_xy(np.concatenate([_down_to_zero(part[np.isfinite(part[:, 0])]) for part in parts]))
     artists.pressure.set_data(x, pressure)
     artists.shear.set_data(x, shear)
     for readout, row in zip(Readout, answer.rows, strict=True):
@@ -178,6 +185,11 @@ def _set(artists: _Design, place: float, answer: Answer) -> None:
         artists.bars[readout].set_height(score)
         artists.errors[readout].set_data([place, place], [score - error, score + error])
         artists.numbers[readout].set(position=(place, score + error), text="\n±".join(rounded(score, stated)))
+
+
+def _down_to_zero(curve: FloatArray) -> FloatArray:
+    """A curve (n, 2), which begins and ends at zero."""
+    return np.insert(curve, [0, len(curve)], [[curve[0, 0], 0.0], [curve[-1, 0], 0.0]], axis=0)
 
 
 def _tractions(answer: Answer) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -15,12 +15,12 @@ from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
 from ..words import INTERFACE_NAME, KINEMATICS_NAME, several
-from .bars import LOOKS, draw_pairs
-from .style import BLUE, ORANGE, WIDE, as_title, legend_below, letter, new_figure, rows_with, styled
+from .bars import draw_pairs
+from .style import KINEMATICS_LOOK, WIDE, as_title, legend_below, letter, new_figure, rows_with, styled
 
 ROW_HEIGHT, LEGEND_HEIGHT = 46.0, 16.0  # mm
 WIDTHS = (0.75, 1.0, 1.0)  # of the columns, relative
-COLOUR = {Kinematics.SMALL: BLUE, Kinematics.FINITE: ORANGE}
+COLOUR = {kinematics: look["edgecolor"] for kinematics, look in KINEMATICS_LOOK.items()}
 LINE: dict[Interface, Any] = {Interface.SHEAR: "-", Interface.FRICTIONLESS: (0, (1.2, 1.2))}
 TITLES = 4.0  # columns as narrow as a title has to be [1]
 MANY = 6  # conditions beyond which their phases stand without degrees
@@ -52,12 +52,10 @@ def kinematics_figure(scores: pd.DataFrame, curves: pd.DataFrame, titles: Mappin
         own = scores[(scores["device"] == device) & (scores["interface"] == Interface.SHEAR)]
         for axes, readout in zip(row[1:], Readout, strict=True):
             pair = [rows_with(own[own["readout"] == readout], kinematics) for kinematics in Kinematics]
-            draw_pairs(axes, readout, pair, is_short=own["condition"].nunique() > MANY)
+            draw_pairs(axes, readout, pair, KINEMATICS_LOOK.values(), is_short=own["condition"].nunique() > MANY)
     for axes, text in zip(grid[0], "ABC", strict=True):
         letter(axes, text)
-    handles: list[Any] = [
-        Patch(label=KINEMATICS_NAME[each], **look) for each, look in zip(Kinematics, LOOKS, strict=True)
-    ]
+    handles: list[Any] = [Patch(label=KINEMATICS_NAME[each], **look) for each, look in KINEMATICS_LOOK.items()]
     handles += [
         Line2D([], [], color="black", linestyle=LINE[each], label=f"force {INTERFACE_NAME[each]}") for each in Interface
     ]

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
 from ..digraph import Edge, placed, reduced
-from .style import BLUE, GREY, LINE, SHADE, TEXT, WIDE, new_figure, styled
+from .style import GREY, LINE, SHADE, TEXT, WIDE, new_figure, styled
 
 LAYER = 13.0  # distance between layers [mm]
 BOX = (17.0, 7.0)  # width and height of a rule's box, where its column is that wide [mm]
@@ -45,7 +45,7 @@ def rules_figure(edges: Sequence[Edge]) -> Figure:
         corner = (x - width / 2.0 + CORNER, y - BOX[1] / 2.0 + CORNER)
         size = (width - 2.0 * CORNER, BOX[1] - 2.0 * CORNER)
         axes.add_patch(
-            FancyBboxPatch(corner, *size, boxstyle=f"round,pad={CORNER}", facecolor=SHADE, edgecolor=BLUE, zorder=2)
+            FancyBboxPatch(corner, *size, boxstyle=f"round,pad={CORNER}", facecolor=SHADE, edgecolor=GREY, zorder=2)
         )
         axes.text(x, y, _broken(name), ha="center", va="center", fontsize=TEXT, zorder=3)
     return figure

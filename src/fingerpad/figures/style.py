@@ -1,6 +1,8 @@
 """How every figure looks, and how it is saved: sizes, fonts, colours, axis units, byte-stable files.
 
-Nothing rests on colour alone: phases differ in colour, lightness and marker, dispersions in line and filling.
+Nothing rests on colour alone: phases differ in colour, lightness and marker, dispersions in line and filling. What else
+is compared has colours that the three phases of the paper do not have, and differs in filling: interfaces, kinematics,
+and what acts along or into the skin.
 """
 
 from __future__ import annotations
@@ -23,8 +25,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..files import replacing
+from ..scene.contact_law import Interface
 from ..scene.device import Device
 from ..scene.stimuli import condition_name
+from ..scene.tissue_law import Kinematics
 from ..words import plain, shortened
 
 if TYPE_CHECKING:
@@ -101,8 +105,20 @@ ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN = (
 COLOURS = (ORANGE, BLUE, BLACK, SKY, VERMILLION, PINK, GREEN)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "*", ">", "p")  # as many as share no factor with the colours
 LINES: tuple[Any, ...] = ("-", (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (5.0, 1.5, 1.2, 1.5)))
-DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, line of the shear traction
+DASHED: tuple[float, tuple[float, ...]] = (0.0, (4.0, 1.5))  # pt, shear traction of a design that is compared
 FILLS: tuple[Any, ...] = ("full", "none", "left", "bottom", "top")  # as many as share no factor with the lines
+HATCH = "//////"
+INTERFACE_LOOK: dict[Interface, dict[str, Any]] = {
+    Interface.SHEAR: {"facecolor": GREEN, "edgecolor": GREEN},
+    Interface.FRICTIONLESS: {"facecolor": "white", "edgecolor": PINK, "hatch": HATCH},
+}  # of bars
+KINEMATICS_LOOK: dict[Kinematics, dict[str, Any]] = {
+    Kinematics.SMALL: {"facecolor": SKY, "edgecolor": SKY},
+    Kinematics.FINITE: {"facecolor": "white", "edgecolor": VERMILLION, "hatch": HATCH},
+}  # the same
+# What acts on the skin or moves along it, and into it, has no colour, as maps and phases have: a dark line or hatching,
+# and a light area
+ALONG, INTO, INTO_EDGE = "#000000", "#C4C4C4", "#7F7F7F"
 SHADE = "#E3E3E3"  # actuators' faces behind curves
 GREY = "#6E6E6E"  # what is not data: lines, notes
 
