@@ -16,11 +16,14 @@ from ..perception.ratings import NO_RATINGS
 from ..perception.wording import (
     OPEN_SLOPE,
     SMALLEST_P,
+    SURROGATE,
     has_open,
     has_p,
     is_open,
+    is_surrogate,
     p_text,
     published_text,
+    r2_text,
     range_text,
     slope_name,
     tau_text,
@@ -53,6 +56,7 @@ STATISTICS_WIDTH = 22  # characters in a line beside a panel
 BESIDE = 11.0  # of statistics from their panel, past half a number below its end [pt]
 MOST_NAMES = 8  # conditions' names that fit a panel's height
 TICKS = 4  # along a score's axis, at most
+SPREAD_DIGITS = 10.0  # per cent from which a spread has no decimals
 PADDING = 0.12  # of the axes beyond the outermost points, relative to their spread
 CAPTION = (
     "{interface}n: conditions; identical stimuli share one score.{rated}"
@@ -61,7 +65,8 @@ CAPTION = (
 )
 RATED = " Line: least squares, where the slope is not open.{p}{ratings} τ: Kendall's with these ratings{between}."
 BETWEEN = " (and its range under errors of scores)"
-RANGE = " range: of R², over all ratings with the stated order; errors of scores are not in it."
+RANGE = " R² range: over all ratings with the stated order; errors of scores are not in it."
+SURROGATES = " Steps between surrogates, and so their R², mean nothing more than the order."
 P = " p: two-sided, over distinct conditions alone, while R² is over all."
 UNRATED = " Devices without ratings: the order of scores is a prediction, not compared with perception."
 
@@ -154,26 +159,30 @@ def _name_places(axes: Axes, place: FloatArray, names: Sequence[str]) -> None:
 
 def statistics(row: Mapping[str, Any], n: int) -> str:
     """What the correlation table says of one panel with n scores, line by line."""
-    lines = [f"n = {n}"]
-    if pd.notna(row["r2"]):
-        p = (
-            f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
-            if has_p(row["p"], row["rating_kind"])
-            else ""
-        )
-        lines.append(f"R² = {row['r2']:.3f}{p}, {slope_name(row)}")
-    if spread_of_r2 := range_text(row):
-        lines.append(f"range {spread_of_r2}")
-    if pd.notna(row["r2"]):
-        lines.append(f"τ = {tau_text(row)}")
+    spread = PERCENT * row["spread"]
+    told = "" if pd.isna(spread) else f", spread {spread:.{0 if spread >= SPREAD_DIGITS else 1}f} %"
+    lines = [f"n = {n}{told}"]
+    related, alike = pd.notna(row["r2"]), is_surrogate(row)
+    if related and not alike:
+        lines.append(f"R² = {r2_text(row)}{_p(row)}")
+    if related:
+        lines += [f"τ = {tau_text(row)}", f"slope {slope_name(row)}"]
+    if between := range_text(row):
+        lines.append(f"R² range {between}")
     if published := published_text(row):
         lines.append(f"published{' R²' if pd.notna(row['published_r2']) else ':'} {published}")
-    if pd.notna(row["spread"]):
-        spread = PERCENT * row["spread"]
-        lines.append(f"spread {spread:.{0 if spread >= 10.0 else 1}f} %")
+    if related and alike:
+        lines.append(f"{SURROGATE} = {r2_text(row)}")
     if isinstance(row["note"], str) and row["note"]:
         lines.append(row["note"])
     return "\n".join(part for line in lines for part in wrap(line, STATISTICS_WIDTH))
+
+
+def _p(row: Mapping[str, Any]) -> str:
+    """The p of R², if it has one."""
+    if not has_p(row["p"], row["rating_kind"]):
+        return ""
+    return f", p {'' if row['p'] < SMALLEST_P else '= '}{p_text(row['p'])}"
 
 
 def caption(correlations: pd.DataFrame, interface: str) -> str:
@@ -191,7 +200,8 @@ def ratings_caption(correlations: pd.DataFrame) -> str:
     kinds = ", ".join(kind for kind in correlations["rating_kind"].dropna().unique() if kind)
     ranges = RANGE if correlations["r2_lowest"].notna().any() else ""
     opened = f" {OPEN_SLOPE}" if has_open(correlations.to_dict("records")) else ""
-    return f" Ratings: {kinds}.{ranges}{opened}" if kinds else ""
+    alike = any(is_surrogate(row) and pd.notna(row["r2"]) for row in correlations.to_dict("records"))
+    return f" Ratings: {kinds}.{SURROGATES if alike else ''}{ranges}{opened}" if kinds else ""
 
 
 def _rows(table: pd.DataFrame, key: tuple[str, Interface, Readout]) -> pd.DataFrame:
