@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,6 +17,8 @@ from matplotlib.collections import TriMesh
 from matplotlib.colors import Normalize, PowerNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import Normal, Stroke
 from matplotlib.tri import Triangulation
 
 from ..arrays import FloatArray
@@ -23,14 +26,15 @@ from ..contact.solution import Solution
 from ..fields.section_fields import Fields
 from ..scene.device import ActuatorRow, Condition, Device
 from ..scene.readout import Readout
-from ..scene.scene import Scene
+from ..scene.scene import Model, Scene
 from ..scene.tissue_law import Kinematics
-from ..words import KILO, KINEMATICS_NAME, PERCENT, counted, plain
+from ..words import CHANGE_COVERED, COVERED, KILO, KINEMATICS_NAME, PERCENT, counted, plain
 from .actuators import draw_actuators
 from .style import (
-    BLUE,
-    DASHED,
+    ALONG,
     GREY,
+    INTO,
+    INTO_EDGE,
     MIDDLE,
     NARROW,
     THIN,
@@ -50,19 +54,29 @@ TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 26.0  # mm: a traction panel; lab
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
     "{counted}, {kinematics}, {when}; displacements to scale. Strain: square-root scale. Change: from the pre-indented"
-    " state, at the same points of tissue. Lines: interfaces of layers; receptors lie on that of epidermis and dermis."
-    " Tractions: linear between nodes."
+    " state, at the same points of tissue. Where bars end in a point colours are clipped: {strain:g} % of the area in"
+    " view is strained less, {change:g} % changes less. White lines: interfaces of layers. Tractions: linear between"
+    " nodes."
 )
 AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
 SLACK = 1.15  # height that maps are given, of what they need [1]: so the width decides, and tractions lie beneath
-# Per cent of the area in view that the colours tell apart, and of the change all that receptors have besides; the rest
-# is beyond the end of the bar. Strain changes most at the bone, where no receptors are
-COVERED, CHANGE_COVERED = 99.5, 90.0
 STEP, CHANGE_STEP = 5.0, 0.5  # per cent of strain, and of its change, to which the colours' end is rounded up
 HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "log. strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
+SHEAR_LINE = 0.6  # pt
+OUTLINE_POINTS = 4001  # of the skin, from which depths are measured [1]: 4 um apart
+EDGE = 0.3  # pt, on either side of white lines, so that they are seen on bright colours
+LAYERS: dict[str, Any] = {
+    "color": "white",
+    "linewidth": THIN,
+    "solid_capstyle": "round",
+    "path_effects": [Stroke(linewidth=THIN + 2.0 * EDGE, foreground="#404040"), Normal()],
+}
+OUTSIDE: dict[str, Any] = {"color": "black", "linewidth": THIN, "solid_capstyle": "round"}
+BENEATH: dict[str, Any] = {"color": "white", "linewidth": 1.5}  # dashes of the receptor line
+RECEPTORS: dict[str, Any] = {"color": VERMILLION, "linewidth": 1.1, "linestyle": (0, (2.4, 1.3))}
 CHANGE_COLOURS = "cividis"  # blue is less, yellow more, whichever colours one sees; darker and lighter in print
 
 Window = tuple[tuple[float, float], tuple[float, float]]  # ((left, right), (bottom, top)) that is shown [mm]
@@ -91,7 +105,7 @@ def strain_map_figure(
     )
     for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown, read))):
         for axes, column in zip(row, columns, strict=True):
-            drawn = _draw_map(axes, shown, mapped, column.loading)
+            drawn = _draw_map(axes, scene.model, shown, mapped, column.loading)
             _draw_surroundings(axes, device.actuators, column, window)
         _label_first(row, panels.columns, "y (mm)")
         panels.figure.colorbar(
@@ -107,12 +121,15 @@ def strain_map_figure(
     legend_below(
         panels.figure,
         [
-            Line2D([], [], color=BLUE, label="contact pressure"),
-            Line2D([], [], color=VERMILLION, linestyle=DASHED, label="shear traction on the skin, towards +x"),
+            Patch(facecolor=INTO, edgecolor=INTO_EDGE, label="contact pressure"),
+            Line2D([], [], color=ALONG, label="shear traction on the skin, towards +x"),
+            Line2D([], [], **RECEPTORS, label="receptors"),
         ],
         CAPTION.format(
             counted=counted(conditions),
             kinematics=KINEMATICS_NAME[scene.kinematics],
+            strain=COVERED,
+            change=CHANGE_COVERED,
             when=WHEN_READ if any(condition.time.size > 1 for condition in conditions) else AT_END,
         ),
     )
@@ -218,14 +235,13 @@ def _in_view(fields: Fields, window: Window) -> _Shown:
 
 @dataclass(frozen=True)
 class _Mapped:
-    """Values (n_loadings, 3k) [1] that maps show, their colours, that of the lines between layers, and what the colour
-    bar says: its label, and which of its ends are open.
+    """Values (n_loadings, 3k) [1] that maps show, their colours, and what the colour bar says: its label, and which of
+    its ends are open.
     """
 
     values: FloatArray
     norm: Normalize
     colours: str
-    lines: str
     label: str
     extend: str
 
@@ -235,7 +251,6 @@ def _strain(scene: Scene, shown: _Shown) -> _Mapped:
         values=shown.strain,
         norm=PowerNorm(0.5, 0.0, _colour_end(shown, shown.strain, COVERED, STEP)),
         colours=COLOURS,
-        lines="white",
         label=f"Max. principal\n{STRAIN_NAME[scene.kinematics]} (%)",
         extend="max",
     )
@@ -249,7 +264,6 @@ def _change(scene: Scene, shown: _Shown, read: float) -> _Mapped:
         values=shown.change,
         norm=Normalize(-end, end),
         colours=CHANGE_COLOURS,
-        lines="white",
         label=f"Change of\n{STRAIN_NAME[scene.kinematics]} (%)",
         extend="both",
     )
@@ -268,8 +282,8 @@ def _colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) 
     return step * max(math.ceil(PERCENT * float(value) / step), 1)
 
 
-def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMesh:
-    """Values on the deformed elements, rasterised; the layers' interfaces and the boundary as lines."""
+def _draw_map(axes: Axes, model: Model, shown: _Shown, mapped: _Mapped, loading: int) -> TriMesh:
+    """Values on the deformed elements, rasterised; the layers' interfaces, receptors and the boundary as lines."""
     fields = shown.fields
     moved = fields.corner + fields.displacement[loading]
     at = moved[:, shown.elements.ravel()]
@@ -277,11 +291,31 @@ def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMe
         Triangulation(at[0], at[1], np.arange(at.shape[1]).reshape(-1, 3)), PERCENT * mapped.values[loading],
         shading="gouraud", cmap=mapped.colours, norm=mapped.norm, rasterized=True,
     )  # fmt: skip
-    for facets, colour in ((fields.interface, mapped.lines), (fields.boundary, "black")):
-        ends = moved[:, facets[np.isin(facets, shown.elements).any(axis=1)]]
-        x, y = np.pad(ends, ((0, 0), (0, 0), (0, 1)), constant_values=np.nan).reshape(2, -1)  # a gap after each facet
-        axes.plot(x, y, color=colour, linewidth=THIN, solid_capstyle="round")
+    seen = [facets[np.isin(facets, shown.elements).any(axis=1)] for facets in (fields.interface, fields.boundary)]
+    receptors = _are_at_receptors(model, fields.corner[:, seen[0]])
+    for facets, look in ((seen[0][~receptors], LAYERS), (seen[1], OUTSIDE)):
+        # a gap after each facet
+        x, y = np.pad(moved[:, facets], ((0, 0), (0, 0), (0, 1)), constant_values=np.nan).reshape(2, -1)
+        axes.plot(x, y, **look)
+    if receptors.any():
+        x, y = moved[:, seen[0][receptors].ravel()]
+        order = np.argsort(x, kind="stable")  # one line from left to right, along which dashes run on
+        for look in (BENEATH, RECEPTORS):
+            axes.plot(x[order], y[order], **look)
     return drawn
+
+
+def _are_at_receptors(model: Model, ends: FloatArray) -> np.ndarray:
+    """Which facets between layers are of the receptor line, as they are as deep below the skin. ends: (2, k, 2) [mm] in
+    the undeformed section.
+    """
+    half = model.finger.width / 2.0
+    x = np.linspace(-half, half, OUTLINE_POINTS)
+    skin = np.stack([x, model.finger.skin_height(x)])
+    middle = ends.mean(axis=2)
+    depth = np.array([np.hypot(*(skin - point[:, None])).min() for point in middle.T])
+    thinner = min(layer.thickness for layer in model.finger.pad[model.layers_above - 1 : model.layers_above + 1])
+    return np.abs(depth - model.receptor_depth) < thinner / 2.0
 
 
 def _draw_surroundings(axes: Axes, row: ActuatorRow, column: _Column, window: Window) -> None:
@@ -305,8 +339,9 @@ def _draw_tractions(axes: Axes, row: ActuatorRow, column: _Column) -> None:
         if touched.size == 0:
             continue
         shown = own[(own >= touched[0] - 1) & (own <= touched[-1] + 1)]  # from and to a node without contact
-        axes.plot(x[shown], pressure[shown], color=BLUE)
-        axes.plot(x[shown], shear[shown], color=VERMILLION, linestyle=DASHED)
+        axes.fill_between(x[shown], pressure[shown], color=INTO, linewidth=0.0)
+        axes.plot(x[shown], pressure[shown], color=INTO_EDGE, linewidth=THIN)
+        axes.plot(x[shown], shear[shown], color=ALONG, linewidth=SHEAR_LINE)
 
 
 def _traction_limits(solutions: Mapping[str, Solution]) -> tuple[float, float]:
