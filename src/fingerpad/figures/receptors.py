@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from ..arrays import FloatArray
 from ..contact.solution import Solution
@@ -38,6 +40,7 @@ ROW_HEIGHT, LEGEND_HEIGHT = 38.0, 18.0  # mm
 MARGIN = 1.5  # mm of the receptor line that is shown beyond the outermost faces of all devices
 MARKER_SPACING = 2.0  # mm between markers on a curve
 
+BEFORE: dict[str, Any] = {"color": GREY, "linewidth": THIN, "zorder": 3}
 MOST_ALIKE = 44  # characters of what is said of conditions with one stimulus, beside a panel's count
 
 CAPTION = "With shear, {kinematics}. n: conditions; in a row, those with one and the same stimulus are drawn once."
@@ -95,6 +98,8 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics) -
                 values = PERCENT * found.unfiltered(readout)
                 series = styles.series[entry.device.name, condition.name]
                 draw_readout(axes, found.arc, values, series, number / len(alike))
+            if readout is Readout.STRAIN:
+                draw_before(axes, entry.readouts[own[0].name])
             axes.set_xlim(*shown)
             axes.set_ylabel(f"{READOUT_NAME[readout]} (%)")
         several = len(own) < len(entry.device.conditions)
@@ -107,7 +112,7 @@ def receptor_figure(devices: Sequence[DeviceReadouts], kinematics: Kinematics) -
     for axes in grid[-1]:
         axes.set_xlabel("Arc length along the receptor line, s (mm)")
     caption = CAPTION.format(kinematics=KINEMATICS_NAME[kinematics]) + (ZERO if kinematics is Kinematics.FINITE else "")
-    legend_below(figure, styles.legend, caption, [*styles.spreads, face_handle()])
+    legend_below(figure, [*styles.legend, before_handle()], caption, [*styles.spreads, face_handle()])
     return figure
 
 
@@ -138,6 +143,16 @@ def draw_faces(axes: Axes, faces: FloatArray) -> None:
     axes.locator_params(axis="x", integer=True)
     for start, stop in faces[np.isfinite(faces).all(axis=1)]:
         axes.axvspan(start, stop, color=SHADE, linewidth=0.0, zorder=0)
+
+
+def draw_before(axes: Axes, found: FilteredReadouts) -> None:
+    """Strain (%) of the pre-indented state, from which it changes, along the receptor line, over the curves."""
+    axes.plot(found.arc, PERCENT * (found.strain - found.change_of_strain), **BEFORE)
+
+
+def before_handle() -> Line2D:
+    """Legend entry of the pre-indented state."""
+    return Line2D([], [], **BEFORE, label="pre-indented")
 
 
 def draw_readout(axes: Axes, arc: FloatArray, values: FloatArray, series: Series, shift: float) -> None:

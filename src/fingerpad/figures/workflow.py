@@ -15,7 +15,7 @@ from ..scene.device import Device
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from ..words import PERCENT, READOUT_NAME, SCORE_SCALE, counted, score_label, shortened
-from .receptors import DeviceReadouts, draw_faces, draw_readout
+from .receptors import DeviceReadouts, before_handle, draw_before, draw_faces, draw_readout
 from .style import (
     WIDE,
     Styles,
@@ -78,7 +78,7 @@ def workflow_figure(scene: Scene, entry: DeviceReadouts, scores: pd.DataFrame) -
     title = f"{device.title}, with shear ({counted(device.conditions)})"
     figure.suptitle(as_title(figure, title), fontweight="bold")
     caption = NUMBERS if len(device.conditions) <= MOST_NUMBERS else LINES
-    legend_below(figure, styles.legend, caption, [*styles.spreads, face_handle()])
+    legend_below(figure, [*styles.legend, before_handle()], caption, [*styles.spreads, face_handle()])
     return figure
 
 
@@ -92,6 +92,8 @@ def _draw_curves(receptors: Axes, filtered: Axes, entry: DeviceReadouts, readout
         shift = number / len(conditions)
         draw_readout(receptors, found.arc, PERCENT * found.unfiltered(readout), series, shift)
         draw_readout(filtered, found.arc, factor * found.filtered(readout), series, shift)
+    if readout is Readout.STRAIN:
+        draw_before(receptors, entry.readouts[conditions[0].name])
     receptors.set_ylabel(f"{READOUT_NAME[readout]} (%)")
     filtered.set_ylabel(f"Filtered {READOUT_NAME[readout].lower()}\n({power}mm)")
 
