@@ -15,11 +15,12 @@ from ..arrays import FloatArray
 from ..scene.device import Condition, Device
 from ..words import KILO, MINUS, PERCENT, counted
 from .style import (
-    BLUE,
+    ALONG,
     GREY,
+    INTO,
+    INTO_EDGE,
     TEXT,
     THIN,
-    VERMILLION,
     WIDE,
     as_title,
     condition_styles,
@@ -31,25 +32,33 @@ from .style import (
 
 COLUMNS = 3  # panels beside each other
 ROW_HEIGHT, TITLE_HEIGHT, LEGEND_HEIGHT = 20.0, 6.0, 16.0  # mm
+ROOM = 10.5  # mm that a row of panels is higher with deviations below their values
 TICKS = 2  # intervals along the axis of displacements, at most
 DECIMALS = 1  # of a value in micrometres
 VALUE_GAP = 1.5  # between the line and a value [pt]
+LINE_HEIGHT = 1.15  # of numbers in two lines, of the font size [1]
+ALIKE = 0.25  # of the stroke [1], below which what actuators deviate from their mean by is not seen in their bars
 BARS = 0.6  # width of an actuator's bars together, of the distance between actuators [1]
 HEADROOM = 1.25  # of the axes beyond the largest displacement [1]
 MOST_NUMBERS, MOST_VALUES = 16, 6  # actuators up to which each has its number, and up to which bars have their values
+DELTA = "\N{GREEK CAPITAL LETTER DELTA}"
 CAPTION = (
     "Displacements from the pre-indented position; of a stimulus with several times, where actuators have moved"
     " farthest, first (scores are read where strain has changed most)."
 )
 NUMBERS = " Numbers: values (µm), opposite their bars."
+DEVIATIONS = (
+    f" In brackets, where neighbours move almost alike: deviation from the mean of the row (µm). {DELTA}: between"
+    " neighbours."
+)
 LEFT_OUT = " A direction is left out where all strokes in it are below {slight:g} % of those in the other."
 SLIGHT = 0.05  # of the stroke [1], to which a direction is left out, as noise of a recording is
 NEARLY = 0.95  # of the farthest [1], from which a peak is as far; of equal ones noise would choose
 NORMAL, LATERAL = "normal", "lateral"
 LABELS = {NORMAL: "normal, into the skin", LATERAL: "lateral, to the right"}  # in the order of a device's strokes
 LOOKS: dict[str, dict[str, Any]] = {
-    NORMAL: {"color": BLUE},
-    LATERAL: {"facecolor": "white", "edgecolor": VERMILLION, "hatch": "////", "linewidth": THIN},
+    NORMAL: {"facecolor": INTO, "edgecolor": INTO_EDGE, "linewidth": THIN},
+    LATERAL: {"facecolor": "white", "edgecolor": ALONG, "hatch": "////", "linewidth": THIN},
 }
 
 
@@ -57,11 +66,13 @@ LOOKS: dict[str, dict[str, Any]] = {
 def stimuli_figure(devices: Sequence[Device]) -> Figure:
     """Displacement of every actuator in every condition: a block of panels per device, a row per dispersion."""
     rows = [(device, list(_rows(device))) for device in devices]
-    heights = [len(own) * ROW_HEIGHT + TITLE_HEIGHT for _, own in rows]
+    row_heights = [ROW_HEIGHT + (ROOM if _has_deviations(device) else 0.0) for device in devices]
+    heights = [len(own) * each + TITLE_HEIGHT for (_, own), each in zip(rows, row_heights, strict=True)]
     height = sum(heights) + LEGEND_HEIGHT
     figure = new_figure(WIDE, height)
     styles = condition_styles(conditions_of(devices))
-    unused = iter(figure.subplots(sum(len(own) for _, own in rows), COLUMNS, squeeze=False))
+    ratios = [each for (_, own), each in zip(rows, row_heights, strict=True) for _ in own]
+    unused = iter(figure.subplots(len(ratios), COLUMNS, squeeze=False, height_ratios=ratios))
     for device, own in rows:
         named = as_title(figure, f"{device.title} ({counted(device.conditions)})")
         room = "\n" * (named.count("\n") + 1)
@@ -72,7 +83,7 @@ def stimuli_figure(devices: Sequence[Device]) -> Figure:
                 _draw(axes, device, condition)
                 if column >= below:
                     axes.set_xlabel("Actuator")
-                label = styles.series[device.name, condition.name].label
+                label = styles.series[device.name, condition.name].label + _apart(device, condition)
                 axes.set_title(f"{room if number == 0 else ''}{label}", loc="left", fontweight="normal")
             for axes in panels[len(conditions) :]:
                 axes.remove()
@@ -116,10 +127,39 @@ def _has_values(device: Device) -> bool:
     return len(_directions(device)) == 1 and len(device.actuators.positions) <= MOST_VALUES
 
 
+def _deviations(device: Device, condition: Condition) -> FloatArray:
+    """By how much actuators' displacements (n_actuators,) [µm] differ from their mean, in the one direction shown."""
+    shown = _farthest(condition)[_directions(device)[0]]
+    return np.asarray(shown - shown.mean())
+
+
+def _has_deviations(device: Device) -> bool:
+    """Whether actuators differ by so little that their bars do not show it."""
+    if not _has_values(device):
+        return False
+    largest = max(float(np.abs(_deviations(device, each)).max()) for each in device.conditions)
+    return 0.5 * 10.0**-DECIMALS <= largest < ALIKE * KILO * device.stroke
+
+
+def _apart(device: Device, condition: Condition) -> str:
+    """The mean of a row and how far apart neighbours move, where bars do not show it and all are as far."""
+    if not _has_deviations(device):
+        return ""
+    shown = _farthest(condition)[_directions(device)[0]]
+    mean, apart = _number(float(shown.mean())), np.abs(np.diff(shown)).round(DECIMALS)
+    return f": mean {mean}{f', {DELTA} {_number(float(apart[0]))}' if np.ptp(apart) == 0.0 else ''} µm"
+
+
+def _number(value: float) -> str:
+    """A value in micrometres as it is shown."""
+    return f"{round(value, DECIMALS) + 0.0:g}".replace("-", MINUS)
+
+
 def _caption(devices: Sequence[Device]) -> str:
     """What bars and numbers are."""
     slight = any(0.0 < min(device.strokes) <= SLIGHT * device.stroke for device in devices)
     numbers = NUMBERS if any(map(_has_values, devices)) else ""
+    numbers += DEVIATIONS if any(map(_has_deviations, devices)) else ""
     return CAPTION + numbers + (LEFT_OUT.format(slight=PERCENT * SLIGHT) if slight else "")
 
 
@@ -133,7 +173,7 @@ def _draw(axes: Axes, device: Device, condition: Condition) -> None:
         across, heights = number + ((place + 0.5) * width - BARS / 2.0), _farthest(condition)[kind]
         axes.bar(across, heights, width, **LOOKS[kind])
         if _has_values(device):
-            _write_values(axes, across, heights)
+            _write_values(axes, across, heights, _deviations(device, condition) if _has_deviations(device) else None)
     axes.axhline(0.0, color=GREY, linewidth=THIN)
     axes.set_xlim(0.5, count + 0.5)
     if count <= MOST_NUMBERS:
@@ -143,11 +183,19 @@ def _draw(axes: Axes, device: Device, condition: Condition) -> None:
         axes.locator_params(axis="y", nbins=TICKS, symmetric=True)
 
 
-def _write_values(axes: Axes, across: Iterable[float], heights: Iterable[float]) -> None:
-    """Heights of bars as numbers on the other side of the line, where there is room."""
-    for x, height in zip(across, heights, strict=True):
-        is_up, value = height > 0.0, f"{round(height, DECIMALS) + 0.0:g}"
-        axes.annotate(
-            value.replace("-", MINUS), (x, 0.0), xytext=(0.0, -VALUE_GAP if is_up else VALUE_GAP),
-            textcoords="offset points", ha="center", va="top" if is_up else "bottom",
-        )  # fmt: skip
+def _write_values(axes: Axes, across: Iterable[float], heights: FloatArray, deviations: FloatArray | None) -> None:
+    """Heights of bars as numbers on the other side of the line, where there is room, and their deviations, if there are
+    any, beyond.
+    """
+    for number, (x, height) in enumerate(zip(across, heights, strict=True)):
+        is_up = height > 0.0
+        told = [_number(height)]
+        if deviations is not None:
+            signed = _number(float(deviations[number]))
+            told.append(f"({signed if signed.startswith(MINUS) or signed == '0' else f'+{signed}'})")
+        for line, text in enumerate(told):
+            away = VALUE_GAP + line * LINE_HEIGHT * TEXT
+            axes.annotate(
+                text, (x, 0.0), xytext=(0.0, -away if is_up else away), textcoords="offset points", ha="center",
+                va="top" if is_up else "bottom", color="black" if line == 0 else GREY,
+            )  # fmt: skip
