@@ -15,8 +15,10 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, TriMesh
+from matplotlib.collections import LineCollection, PolyCollection, TriMesh
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from matplotlib.text import Annotation, Text
 
@@ -30,19 +32,26 @@ from fingerpad.figures.accuracy import accuracy_figure
 from fingerpad.figures.correlation import correlation_figure
 from fingerpad.figures.frequency import frequency_figure
 from fingerpad.figures.kinematics import kinematics_figure
-from fingerpad.figures.maps import strain_map_figure
+from fingerpad.figures.maps import RECEPTORS, strain_map_figure
 from fingerpad.figures.phases import phases_figure
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs, receptor_figure
-from fingerpad.figures.section import DRIVEN, HEAD, section_figure
+from fingerpad.figures.section import DRIVEN, HEAD, NU, section_figure
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.stimuli import stimuli_figure
 from fingerpad.figures.style import (
+    ALONG,
+    BLACK,
     BLUE,
+    GREY,
+    INTERFACE_LOOK,
+    INTO,
+    INTO_EDGE,
+    KINEMATICS_LOOK,
     MIDDLE,
     NARROW,
+    ORANGE,
     POINTS,
     TEXT,
-    VERMILLION,
     WIDE,
     condition_styles,
     conditions_of,
@@ -187,6 +196,11 @@ def section() -> SectionMesh:
     return mesh_section(Scene(replace(MODEL, numerics=COARSE), PHASED), nominal_edges(PHASED.actuators))
 
 
+def curves(axes: Axes) -> list[Line2D]:
+    """Curves of conditions, which have marks."""
+    return [line for line in axes.lines if len(line.get_xdata()) > 2 and line.get_marker() != "None"]
+
+
 def words(figure: Figure) -> str:
     return "\n".join(text.get_text() for text in figure.findobj(Text) if text.get_visible())
 
@@ -213,14 +227,17 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
         "ordinal surrogate",
         "n = 8",
         "n = 3",
-        "R² = ",
+        "surrogates' R² = ",
         "τ = ",
-        "range ",
+        "R² range ",
         "published R² 0.876,\nrising",
         *TITLES.values(),
     ):
         assert said in text, said
     assert text.count("no ratings") == 2
+    for told in re.findall(r"τ = .*?surrogates' R² = \d\.\d\d\b", text, re.DOTALL):
+        assert told.index("slope") < told.index("surrogates'")  # the order, its range and what is published come first
+    assert not re.search(r"R² = \d\.\d{3}", text)
     assert ("Strain score (mm²)", "Perceived roughness\n(ordinal surrogate)") in axis_labels(figure)
     assert ("Change of strain score (10⁻³ mm²)", "Perceived roughness\n(ordinal surrogate)") in axis_labels(figure)
     assert "published: poor" in text
@@ -230,7 +247,7 @@ def test_correlation_panels_state_their_statistics(correlations: pd.DataFrame) -
     other = correlation_figure(SCORES, RATINGS, correlations.assign(range_open=1), TITLES, Kinematics.SMALL)
     said = words(other).replace("\n", " ")
     assert "behind a range, only with some of the ratings in it" in said
-    assert said.count(", open") == said.count("range ") - 1 > 0  # but for one in the caption
+    assert said.count(", open") == len(re.findall(r"R² range \d", said)) > 0
 
 
 def test_captions_tell_unknown_errors_from_small_ones(correlations: pd.DataFrame) -> None:
@@ -248,6 +265,7 @@ def test_measured_ratings_are_not_called_surrogates(correlations: pd.DataFrame) 
     text = words(correlation_figure(SCORES, RATINGS, measured, TITLES, Kinematics.SMALL))
     assert "surrogate" not in text
     assert "(measured)" in text
+    assert re.search(r"n = 8.*\nR² = \d\.\d{3}, p ", text)  # of what was measured it comes first, to three decimals
     assert ", p " in text
     assert ", p " not in words(correlation_figure(SCORES, RATINGS, correlations, TITLES, Kinematics.SMALL))
 
@@ -529,7 +547,7 @@ def test_receptor_figure_has_a_row_a_device_and_dispersion() -> None:
     assert "Phased pins, low dispersion" in text
     assert text.count("n = 4") == 2  # low and high
     assert "unrated: push" in text
-    assert len([line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]) == 4
+    assert [len(curves(axes)) for axes in figure.axes[:2]] == [4, 4]
 
 
 def test_receptor_figure_shows_the_whole_row_though_not_all_of_it_touches() -> None:
@@ -546,7 +564,11 @@ def test_receptor_figure_explains_what_is_drawn_and_says_what_is_not() -> None:
     """Of a single pin all phases are one stimulus. Legends are read by rows, with dispersions below phases."""
     taps = [replace(make_condition(condition_name("lone", p), "lone", 0.0, 1), phase_deg=p) for p in (0.0, 45.0)]
     figure = receptor_figure([make_readouts(replace(SINGLE, conditions=tuple(taps)))], Kinematics.SMALL)
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°", "under a face before the stimulus"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        "0°",
+        "pre-indented",
+        "under a face before the stimulus",
+    ]
     assert "n = 2: 45° as 0°" in words(figure)
     figure = receptor_figure([make_readouts(device) for device in DEVICES], Kinematics.SMALL)
     figure.draw_without_rendering()
@@ -587,7 +609,10 @@ def test_section_names_every_layer(section: SectionMesh) -> None:
     require_legible(figure)
     text = words(figure)
     for layer in MODEL.finger.layers:
-        assert f"{layer.name.replace('_', ' ')}, {layer.thickness:g} mm" in text
+        modulus, poisson = layer.material.modulus, layer.material.poisson
+        stiffness = f"{modulus:g} MPa" if modulus >= 1.0 else f"{1e3 * modulus:g} kPa"
+        said = f"{layer.name.replace('_', ' ')}, {layer.thickness:g} mm, E {stiffness}, {NU} {poisson:g}"
+        assert said in text
     rows = ("rigid, pitch 2, width 1 mm\nedge radius 0.1 mm", "pitch 3, width 1.5 mm\nedge radius 0, thickness 0.15 mm")
     for said in ("bone, rigid", "receptors, 0.6 mm deep", "16 mm", "13 mm", *rows, *TITLES.values()):
         assert said in text
@@ -830,9 +855,27 @@ def test_receptor_curves_are_in_per_cent() -> None:
     (found,) = own.readouts.values()
     panels = receptor_figure([own], Kinematics.SMALL).axes
     for axes, values in zip(panels, (found.strain, found.change_of_strain), strict=True):
-        (curve,) = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        (curve,) = curves(axes)
         np.testing.assert_array_equal(curve.get_xdata(), found.arc)
         np.testing.assert_allclose(curve.get_ydata(), 100.0 * values)
+
+
+def test_strain_is_drawn_beside_that_before_the_stimulus_from_which_it_changes() -> None:
+    """A thin line in figures 4 and 3, at strain less its change, with an entry in the legend; change has none."""
+    own = make_readouts(PHASED)
+    found = next(iter(own.readouts.values()))
+    shear = SCORES[(SCORES["device"] == PHASED.name) & (SCORES["interface"] == "shear")]
+    receptors = receptor_figure([own], Kinematics.SMALL)
+    way = workflow_figure(Scene(MODEL, PHASED), own, shear)
+    for figure, strain, change in ((receptors, 0, 1), (way, 0, 3)):
+        drawn = [
+            [line for line in figure.axes[each].lines if len(line.get_xdata()) > 2 and line.get_marker() == "None"]
+            for each in (strain, change)
+        ]
+        assert [len(lines) for lines in drawn] == [1, 0]
+        np.testing.assert_allclose(drawn[0][0].get_ydata(), 100.0 * (found.strain - found.change_of_strain))
+        assert drawn[0][0].get_color() == GREY
+        assert "pre-indented" in [text.get_text() for text in figure.legends[0].get_texts()]
 
 
 def error_bars(axes: Axes) -> list[FloatArray]:
@@ -893,7 +936,7 @@ def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -
         middle = [(pin[:, 0].min() + pin[:, 0].max()) / 2.0 for pin in pins]
         assert middle == pytest.approx(list(PINS.positions + condition.tangential[0]))
     for axes in panels[4:6]:
-        for colour, traction in ((BLUE, found.pressure), (VERMILLION, found.shear)):
+        for colour, traction in ((INTO_EDGE, found.pressure), (ALONG, found.shear)):
             lines = [line.get_ydata() for line in axes.lines if line.get_color() == colour]
             np.testing.assert_allclose(np.concatenate(lines), 1e3 * traction)
         bottom, top = axes.get_ylim()
@@ -906,6 +949,34 @@ def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -
     solutions = {low[0].name: found, low[1].name: more}
     far = strain_map_figure(Scene(MODEL, device), "high", fields, solutions).axes[-1].get_ylim()
     assert far == pytest.approx((-3.5, 3.5))  # all that receptors have, though less than a tenth of the area has it
+
+
+def test_maps_mark_the_receptors_among_the_lines_between_layers(section: SectionMesh) -> None:
+    """With the colour of the section's figure; pressure is an area, shear a dark line."""
+    vertices = section.mesh.t.T.ravel()
+    one_of = np.empty(section.mesh.nvertices, dtype=np.int64)
+    one_of[vertices] = np.arange(vertices.size)
+    between, outside = (
+        one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
+    )
+    corner = section.mesh.doflocs[:, vertices]
+    shape = (1, corner.shape[1])
+    fields = Fields(corner, between, outside, np.zeros((1, *corner.shape)), np.full(shape, 0.1), np.full(shape, 0.01))
+    found = make_solution(make_contact(PIN), PIN, np.full(25, 0.03))
+    figure = strain_map_figure(Scene(MODEL, SINGLE), "lone", fields, {"lone_000": found})
+    receptors = section.mesh.p[:, section.mesh.facets[:, section.receptor_facets].ravel()]
+    for axes in figure.axes[:2]:
+        (dashes,) = [line for line in axes.lines if line.get_color() == RECEPTORS["color"]]
+        assert len(dashes.get_xdata()) > 2
+        for point in dashes.get_xydata():
+            assert np.hypot(*(receptors - point[:, None])).min() == pytest.approx(0.0, abs=1e-12)
+        layers = np.concatenate([line.get_xydata() for line in axes.lines if line.get_path_effects()])
+        apart = [np.hypot(*(receptors - point[:, None])).min() for point in layers if np.isfinite(point).all()]
+        assert min(apart) > 0.1  # mm: the thinnest layer beside receptors is thicker
+    assert "receptors" in [text.get_text() for text in figure.legends[0].get_texts()]
+    tractions = figure.axes[2]
+    (area,) = [each for each in tractions.collections if isinstance(each, PolyCollection)]
+    assert max(path.vertices[:, 1].max() for path in area.get_paths()) == pytest.approx(30.0)  # kPa
 
 
 def test_colours_of_maps_end_by_area_not_by_the_number_of_elements(section: SectionMesh) -> None:
@@ -950,6 +1021,25 @@ def test_stimuli_of_several_times_are_drawn_where_actuators_have_moved_farthest(
     history = replace(PHASED.conditions[0], time=time, normal=0.02 * moved, tangential=-0.01 * moved)
     (axes,) = stimuli_figure([replace(PHASED, conditions=(history,))]).axes
     assert [bar.get_height() for bar in axes.patches] == pytest.approx([20.0] * 3 + [-10.0] * 3)
+
+
+def test_what_bars_do_not_show_stands_below_their_values() -> None:
+    """A row that moves by 188 µm on average, neighbours 8 µm apart: all bars look the same. Of one whose neighbours
+    move by 20 and 0 µm bars say it.
+    """
+    for moved, is_told in ((np.array([192.0, 184.0]), True), (np.array([20.0, 0.0]), False)):
+        lateral = 1e-3 * moved[None]
+        condition = Condition("all_000", "all", 0.0, np.array([1.0]), 0.0 * lateral, lateral)
+        figure = stimuli_figure([replace(FORCED, conditions=(condition,))])
+        require_legible(figure)
+        (axes,) = figure.axes
+        written = [text for text in axes.texts if text.get_text().startswith("(")]
+        assert [text.get_text() for text in written] == (["(+4)", f"({MINUS}4)"] if is_told else [])
+        title = axes.get_title(loc="left")
+        assert ("mean 188, Δ 8 µm" in title) is is_told
+        assert ("deviation from the mean" in words(figure).replace("\n", " ")) is is_told
+        figure.draw_without_rendering()
+        assert all(text.get_window_extent().y0 > axes.get_window_extent().y0 for text in written)
 
 
 def test_of_peaks_that_noise_tells_apart_the_first_is_drawn_and_what_is_next_to_nothing_is_not() -> None:
@@ -1006,7 +1096,7 @@ def test_correlation_draws_errors_a_least_squares_line_and_the_spread(correlatio
         np.testing.assert_allclose(ends, factor * np.stack([0.99 * own, 1.01 * own], axis=1))
         (line,) = [line for line in axes.lines if len(line.get_xdata()) == 2]
         np.testing.assert_allclose(line.get_xydata(), [[factor * 0.30, 0.2308], [factor * 0.34, 2.0769]], rtol=1e-3)
-        assert "spread 13 %" in [text for part in axes.texts for text in part.get_text().split("\n")]
+        assert "n = 3, spread 13 %" in [text for part in axes.texts for text in part.get_text().split("\n")]
 
 
 def halved_without_shear() -> pd.DataFrame:
@@ -1028,7 +1118,14 @@ def test_ablation_has_scores_with_shear_at_the_left_of_those_without(correlation
         for times, ends in zip((1.0, 0.5), error_bars(axes), strict=True):
             np.testing.assert_allclose(ends, times * np.stack([0.99 * own, 1.01 * own]))
         above = axes.get_title(loc="left").split("\n")
-        assert above[0].startswith("with shear: R² 0.900") and above[1].startswith("without shear: R² 0.400")
+        assert "with shear: " in above[0] and "surrogates' R² = 0.90" in above[0]
+        assert "without shear: " in above[1] and "surrogates' R² = 0.40" in above[1]
+    measured = related.assign(rating_kind="measured")
+    axes = ablation_figure(scores, measured, {PHASED.name: PHASED.title}, Kinematics.SMALL, False).axes[0]
+    assert axes.get_title(loc="left").startswith("with shear: R² = 0.900")
+    ranged = related.assign(r2_lowest=0.25, r2_highest=0.75)
+    axes = ablation_figure(scores, ranged, {PHASED.name: PHASED.title}, Kinematics.SMALL, False).axes[0]
+    assert "R² range 0.25 to 0.75" in axes.get_title(loc="left") and "surrogates'" not in axes.get_title(loc="left")
 
 
 def test_variation_draws_each_interface_in_the_unit_of_its_axis() -> None:
@@ -1042,6 +1139,40 @@ def test_variation_draws_each_interface_in_the_unit_of_its_axis() -> None:
         curve = next(line for line in axes.lines if len(line.get_xdata()) == len(values))
         np.testing.assert_allclose(curve.get_ydata(), factor * share * 0.3 * np.array(values))
         np.testing.assert_allclose(error_bars(axes)[0][0], factor * share * (0.3 * np.array(values) - 0.003))
+
+
+def lightness(colour: str) -> float:
+    """Of a colour in grey [1]."""
+    return float(np.dot(to_rgb(colour), [0.299, 0.587, 0.114]))
+
+
+def test_each_comparison_has_colours_of_its_own() -> None:
+    """Those of the paper's three phases mean phases, another pair interfaces, another kinematics; in grey the sides of
+    a pair are told apart by their filling, and tractions by an area and a dark line.
+    """
+    phases = {ORANGE, BLUE, BLACK}
+    drawn = condition_styles(conditions_of([FORCED]))
+    assert {series.colour for series in drawn.series.values()} == phases
+    pairs = [{look["edgecolor"] for look in looks.values()} for looks in (INTERFACE_LOOK, KINEMATICS_LOOK)]
+    assert all(len(pair) == 2 for pair in pairs)
+    assert not phases & pairs[0] and not phases & pairs[1] and not pairs[0] & pairs[1]
+    for looks in (INTERFACE_LOOK, KINEMATICS_LOOK):
+        assert ["hatch" in look for look in looks.values()] == [False, True]
+    assert lightness(INTO) - lightness(ALONG) > 0.5
+
+
+def test_bars_have_the_looks_of_what_they_compare(correlations: pd.DataFrame) -> None:
+    titles = {PHASED.name: PHASED.title}
+    ablation = ablation_figure(SCORES, correlations, titles, Kinematics.SMALL, False)
+    both = pd.concat([SCORES, SCORES.assign(kinematics="finite")])
+    forces = [(each, PHASED.name, "shear", x, x, False) for each in ("small", "finite") for x in (0.0, 1.0)]
+    names = ["kinematics", "device", "interface", "indentation_mm", "force_N_per_mm", "limit_point"]
+    kinematics = kinematics_figure(both, pd.DataFrame(forces, columns=names), titles)
+    for axes, looks in ((ablation.axes[0], INTERFACE_LOOK), (kinematics.axes[1], KINEMATICS_LOOK)):
+        edges = {to_hex(bar.get_edgecolor()).upper() for bar in axes.patches}
+        assert edges == {look["edgecolor"].upper() for look in looks.values()}
+    lines = [line for line in kinematics.axes[0].lines if line.get_marker() == "None"]
+    assert [line.get_color() for line in lines] == [look["edgecolor"] for look in KINEMATICS_LOOK.values()]
 
 
 def test_styles_differ_wherever_conditions_do() -> None:

@@ -16,15 +16,20 @@ from matplotlib.ticker import MultipleLocator
 from ..arrays import FloatArray
 from ..contact.profile import touching_heights
 from ..scene.device import ActuatorRow, Device
+from ..scene.finger import Material
 from ..scene.scene import Model
 from ..tissue.mesh import SectionMesh, element_nodes
-from ..words import plain
+from ..words import KILO, plain
 from .actuators import BASE, draw_actuators
-from .style import THIN, VERMILLION, WIDE, as_title, letter, new_figure, styled, subtitle
+from .style import THIN, VERMILLION, WIDE, as_title, fitted, letter, new_figure, styled, subtitle
 
 HEIGHT, ROW_HEIGHT = 76.0, 37.0  # mm: of the whole section, and of a row of devices whose bases are thin
 PANEL = 49.0  # mm of the figure's width across a device
-CAPTION = "Undeformed, at first touch. Arrows: directions in which the actuators are driven."
+NU = "\N{GREEK SMALL LETTER NU}"
+CAPTION = (
+    f"Undeformed, at first touch. E: Young's modulus, {NU}: Poisson's ratio. Arrows: directions in which the actuators"
+    " are driven."
+)
 COLUMNS = 3  # devices beside each other
 LETTER_WHOLE, LETTER_DEVICES = (-12.0, -8.0), (-26.0, 26.0)  # of letters from panels' upper left corners [pt]
 LABELS = 1.075  # of the finger's half width [1]: from the mid-line to where the layers' names begin
@@ -73,7 +78,7 @@ def section_figure(model: Model, section: SectionMesh, devices: Sequence[Device]
             axes.set_ylabel("y (mm)")
         if number == 0:
             letter(axes, "B", LETTER_DEVICES)
-    figure.supxlabel(CAPTION, fontsize="medium")
+    figure.supxlabel(fitted(figure, CAPTION), fontsize="medium")
     return figure
 
 
@@ -114,7 +119,7 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
     parts = [
         (
             plain(la.name),
-            f"{la.thickness:g} mm",
+            f"{la.thickness:g} mm, {_stiffness(la.material)}",
             centre[:, section.layer == finger.layers.index(la)],
         )
         for la in layers
@@ -140,6 +145,12 @@ def _label(axes: Axes, model: Model, section: SectionMesh) -> None:
     _dimension(axes, (-finger.bone_width / 2.0, middle), (finger.bone_width / 2.0, middle), f"{finger.bone_width:g} mm")
     axes.set(xlim=(-half - MARGIN, 2.0 * half), ylim=(-MARGIN, height + TOP))
     axes.set_axis_off()
+
+
+def _stiffness(material: Material) -> str:
+    """Young's modulus, in kPa below one MPa, and Poisson's ratio."""
+    modulus = f"{material.modulus:g} MPa" if material.modulus >= 1.0 else f"{KILO * material.modulus:g} kPa"
+    return f"E {modulus}, {NU} {material.poisson:g}"
 
 
 def _dimension(axes: Axes, start: tuple[float, float], stop: tuple[float, float], text: str) -> None:
