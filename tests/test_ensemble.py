@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ from fingerpad.ensemble.alternatives import (
 from fingerpad.ensemble.members import EnsembleTables, ensemble_tables, member_scores
 from fingerpad.ensemble.robustness import absent_keys, changed, orders_held, reasons, varied_values
 from fingerpad.errors import ContactError, SceneError
-from fingerpad.figures.ensemble import ensemble_figure
+from fingerpad.figures.ensemble import TIMES, ensemble_figure
 from fingerpad.pages.robustness import robustness_values
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.prediction import scoring
@@ -248,7 +249,33 @@ def test_figure_has_a_mark_for_every_verdict(tables: EnsembleTables) -> None:
     idle = varied.merge(tables.claims[tables.claims["varied"] == AS_CONFIGURED], on=told)
     assert 0 < len(idle) < len(varied)
     assert marks == len(tables.claims) - len(idle)
-    assert [label.get_text() for label in figure.axes[0].get_xticklabels()] == [AS_CONFIGURED, FRICTION.name]
+    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == [
+        AS_CONFIGURED,
+        "contact",
+        "friction 0.38",
+    ]
+
+
+def test_figure_sets_members_of_a_group_beside_each_other_under_its_name(tables: EnsembleTables) -> None:
+    """In the order of the model and then the device, whatever the table's; marks stand over their members' names."""
+    usual = tables.claims[tables.claims["varied"] == AS_CONFIGURED]
+    members = [
+        "stimulus.playback cycle",
+        "contact.friction 0.2",
+        "finger.pad.dermis.modulus times 2",
+        "tissue.law ogden",
+    ]
+    varied = [usual.assign(varied=each, evidence=each, holds="no") for each in members]
+    figure = ensemble_figure(pd.concat([usual, *varied]))
+    figure.draw_without_rendering()
+    (axes,) = figure.axes
+    named = [label.get_text() for label in axes.get_yticklabels()]
+    expected = [AS_CONFIGURED, "finger", f"dermis modulus {TIMES} 2", "law ogden", "contact", "friction 0.2"]
+    assert named == [*expected, "device", "playback cycle"]
+    (crosses,) = [line for line in axes.lines if line.get_marker() == "x"]
+    assert {named[int(y)] for y in crosses.get_ydata()} >= set(named) - {AS_CONFIGURED, "finger", "contact", "device"}
+    labels = [label.get_window_extent() for label in axes.get_yticklabels()]
+    assert all(one.y0 >= other.y1 - 0.5 for one, other in pairwise(labels))  # px: none runs into the next
 
 
 def test_figure_tells_what_has_no_solution_from_what_does_not_change(tables: EnsembleTables) -> None:
