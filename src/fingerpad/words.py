@@ -24,8 +24,8 @@ SCORE_SCALE = {
 }  # factor [1] and its typeset inverse
 TYPESET_UNITS = {"mm2": "mm²"}  # of those in tables, which keep to plain letters
 # Per cent of the area in view whose strain colours of maps tell apart, and of its change, of which they tell apart all
-# that receptors have besides; the rest is beyond the end of the bar. Strain changes most at the bone, where no
-# receptors are
+# that receptors have besides; the rest is beyond the end of the bar. Strain changes most where no receptors are: at the
+# bone and at the edges of faces
 COVERED, CHANGE_COVERED = 99.5, 90.0
 PERCENT = 100.0
 KILO = 1e3  # kPa in a MPa, µm in a mm

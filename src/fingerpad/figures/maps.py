@@ -50,13 +50,14 @@ from .style import (
 
 WIDTHS = (NARROW, MIDDLE, WIDE)  # mm, of figures with one, two or three panels beside each other
 ASIDE, BELOW, ABOVE = 1.0, 0.8, 0.9  # mm shown beside the row, below the faces and above the pad's tissue
-TRACTION_HEIGHT, FURNITURE, BASE = 24.0, 16.0, 26.0  # mm: a traction panel; labels of a block; legend and title
+TRACTION_HEIGHT, FURNITURE = 24.0, 16.0  # mm: a traction panel; labels of a block
+BASES = (42.0, 34.0, 28.0)  # mm: caption, legend and title below and above one, two or three panels beside each other
 SIDE, GAP = 28.0, 4.0  # mm of the figure's width that axis labels and colour bar take, and between panels
 CAPTION = (
     "{counted}, {kinematics}, {when}; displacements to scale. Strain: square-root scale. Change: from the pre-indented"
     " state, at the same points of tissue. Where bars end in a point colours are clipped: {strain:g} % of the area in"
-    " view is strained less, {change:g} % changes less. White lines: interfaces of layers. Tractions: linear between"
-    " nodes."
+    " view is strained less, {change:g} % and all receptors change less. White lines: interfaces of layers. Tractions:"
+    " linear between nodes."
 )
 AT_END, WHEN_READ = "at the end of the stimulus", "when strain at the receptors has changed most, as scores are"
 NARROWEST = 1.2  # width of a map, of its height [1], however few the actuators are
@@ -190,7 +191,7 @@ def _new_panels(window: Window, count: int) -> _Panels:
     blocks = math.ceil(count / columns)
     width = WIDTHS[columns - 1]
     map_height = SLACK * ((width - SIDE + GAP) / columns - GAP) * (top - bottom) / (right - left)
-    height = blocks * (2.0 * map_height + TRACTION_HEIGHT + FURNITURE) + BASE
+    height = blocks * (2.0 * map_height + TRACTION_HEIGHT + FURNITURE) + BASES[columns - 1]
     figure = new_figure(width, height)
     grid = figure.subplots(
         3 * blocks,
@@ -345,6 +346,6 @@ def _draw_tractions(axes: Axes, row: ActuatorRow, column: _Column) -> None:
 
 
 def _traction_limits(solutions: Mapping[str, Solution]) -> tuple[float, float]:
-    """Ends [kPa] of the tractions' axis, common to all."""
+    """Ends [kPa] of the tractions' axis, common to all, with zero between them, from which areas of pressure rise."""
     found = KILO * np.array([traction for each in solutions.values() for traction in (each.pressure, each.shear)])
-    return HEADROOM * float(found.min()), HEADROOM * float(found.max())
+    return HEADROOM * min(float(found.min()), 0.0), HEADROOM * float(found.max())

@@ -156,7 +156,7 @@ def _stimuli(results: Results) -> Words:
     return Words(
         "Stimuli",
         "Bars: how far every actuator moves in every condition of each device.",
-        f"Displacements from the pre-indented position, actuators from left to right. {counts}.",
+        f"Displacements (µm) from the pre-indented position, actuators from left to right. {counts}.",
     )
 
 
@@ -183,8 +183,8 @@ def _receptors(results: Results) -> Words:
     return Words(
         "Strain and change of strain at the receptors",
         "Curves of strain (left) and change of strain (right) along the receptors, one row per device and dispersion.",
-        "With shear. Maximum principal strain (left, %) and its change from the pre-indented state (right, %), which"
-        f" is the grey line at left, over arc length along the receptors (mm). {counts}. Shaded: under a face before"
+        "With shear. Maximum principal strain (left, %) and its change from the pre-indented state (right, %) over arc"
+        f" length along the receptors (mm). Grey line: the pre-indented state. {counts}. Shaded: under a face before"
         " the stimulus.",
     )
 
@@ -260,8 +260,8 @@ def _map(results: Results, device: Device, dispersion: str) -> Words:
         f" {counted(chosen)}. Top: maximum principal strain (%). Middle: its change from the pre-indented state (%), at"
         " the same points of tissue. Bottom: contact pressure and shear traction on the skin (kPa). Displacements are"
         " drawn to scale. Colours are common to all maps of the device, and clipped where bars end in a point: of the"
-        f" area in view {COVERED:g} % is strained less; {CHANGE_COVERED:g} % changes less, and so does all that"
-        f" receptors have; strain changes most at the bone. Change-of-strain scores: {shown}.",
+        f" area in view {COVERED:g} % is strained less; {CHANGE_COVERED:g} % changes less, and so do all receptors."
+        f" Dashed: the receptors. Change-of-strain scores: {shown}.",
     )
 
 
