@@ -77,7 +77,7 @@ def ensemble_figure(claims: pd.DataFrame) -> Figure:
     _marks(axes, shown, lost, statements, rows)
     figure.suptitle(KINEMATICS_NAME[Kinematics(kinematics)].capitalize(), fontweight="bold")
     axes.xaxis.tick_top()
-    axes.set_xticks(range(len(statements)), told, rotation=90, multialignment="left")
+    axes.set_xticks(range(len(statements)), told, rotation=90, multialignment="left", linespacing=1.0)
     axes.set_yticks(range(len(rows)), [each if each in GROUP_NAMES else in_words(each) for each in rows])
     for label, each in zip(axes.get_yticklabels(), rows, strict=True):
         label.set_fontweight("bold" if each in GROUP_NAMES else "normal")
