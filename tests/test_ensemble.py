@@ -182,7 +182,7 @@ def tables() -> EnsembleTables:
 
 def test_verdicts_of_members_are_those_of_their_scores(tables: EnsembleTables) -> None:
     """Devices that a member leaves as they are keep their scores; errors follow those of the scenes as configured."""
-    assert len(tables.claims) == 4 * 20
+    assert len(tables.claims) == 4 * 21
     verdict = tables.claims.set_index(["half_cycle", "varied", "claim"])["holds"]
     turned = verdict[verdict != "yes"].to_dict()
     strain2, strain3 = "Device 2: the strain correlates well.", "Device 3: the strain correlates negatively."
