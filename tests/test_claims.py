@@ -321,7 +321,7 @@ def test_a_strong_negative_correlation_is_no_weaker_than_a_positive_one() -> Non
         }
     )
     start = "Device 2 without shear: the change of strain correlates more weakly"
-    assert "frictionless: negative slope, R² 1," in evidence_of(table, start)
+    assert "without shear: negative slope, R² 1," in evidence_of(table, start)
     assert table.loc[table["claim"].str.startswith(start), "holds"].item() == "no"
 
 

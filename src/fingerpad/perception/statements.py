@@ -17,7 +17,7 @@ from ..readouts.comparison import Relation, Score
 from ..readouts.roughness import KEY
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
-from ..words import READOUT_NAME, typeset
+from ..words import INTERFACE_NAME, READOUT_NAME, typeset
 from .correlation import CONSTANT_SCORE
 from .verdicts import (
     Chain,
@@ -187,7 +187,7 @@ def _described(row: Mapping[str, Any]) -> str:
     if is_surrogate(row) and not pd.isna(row["r2_lowest"]):
         doubt = ", the slope's sign open for some" if r_of(row).is_open else ""
         others = f"; R² {row['r2_lowest']:.2g} to {row['r2_highest']:.2g} over all ratings with the stated order{doubt}"
-    return f"{row['interface']}: {what}n {row['n']} ({row['rating_kind']}{others})"
+    return f"{INTERFACE_NAME[Interface(row['interface'])]}: {what}n {row['n']} ({row['rating_kind']}{others})"
 
 
 def _correlates(
