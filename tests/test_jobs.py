@@ -54,7 +54,9 @@ def test_an_expected_error_is_its_message_alone(tmp_path: Path) -> None:
 
 
 def test_a_script_gets_what_its_rule_names(tmp_path: Path) -> None:
-    """As its annotations say: paths, lists of them, none where there is no file, members of enumerations."""
+    """As its annotations say: paths, lists of them, none where there is no file, members of enumerations, also in
+    tuples.
+    """
     given: dict[str, object] = {}
 
     def main(
@@ -63,6 +65,7 @@ def test_a_script_gets_what_its_rule_names(tmp_path: Path) -> None:
         body: Path | None,
         pressed: Path | None,
         kinematics: Kinematics,
+        cases: list[tuple[str, Kinematics]],
         repeats: dict[str, int],
         threads: int,
         scores: Path,
@@ -77,7 +80,7 @@ def test_a_script_gets_what_its_rule_names(tmp_path: Path) -> None:
             input=files,
             output={"scores": "scores.csv"},
             wildcards={"kinematics": "finite", "device": "pins"},  # a file goes before what its name has
-            params={"repeats": {"small": 3}, "code": "0123"},
+            params={"cases": [("pins", "small")], "repeats": {"small": 3}, "code": "0123"},
         ),
     )
     assert {name: given[name] for name in main.__annotations__ if name != "return"} == {
@@ -86,6 +89,7 @@ def test_a_script_gets_what_its_rule_names(tmp_path: Path) -> None:
         "body": None,
         "pressed": Path("pressed.npz"),
         "kinematics": Kinematics.FINITE,
+        "cases": [("pins", Kinematics.SMALL)],
         "repeats": {"small": 3},
         "threads": 2,
         "scores": Path("scores.csv"),

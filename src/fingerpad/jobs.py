@@ -55,10 +55,14 @@ def _given(main: Callable[..., None], job: Job) -> dict[str, Any]:
 
 
 def _as(annotation: Any, value: Any) -> Any:
-    """A path, a member of an enumeration, a list of these, or None where there is no path; anything else as it is."""
+    """A path, a member of an enumeration, a list or a tuple of these, or None where there is no path; anything else, as
+    a tuple of any length, as it is.
+    """
     if get_origin(annotation) is list:
         [member] = get_args(annotation)
         return [_as(member, each) for each in value]
+    if get_origin(annotation) is tuple and Ellipsis not in get_args(annotation):
+        return tuple(_as(member, each) for member, each in zip(get_args(annotation), value, strict=True))
     if get_origin(annotation) is UnionType:
         [file, _] = get_args(annotation)
         return _as(file, value) if value else None

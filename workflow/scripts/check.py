@@ -7,6 +7,7 @@ from fingerpad.jobs import run
 from fingerpad.prediction.edges import load_edges
 from fingerpad.prediction.scoring import ReadSolution, error_rows
 from fingerpad.readouts.gabor import FilteredReadouts
+from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
@@ -17,7 +18,7 @@ def main(
     device: Path,
     kinematics: Kinematics,
     edges: Path,
-    cases: list[tuple[str, str]],
+    cases: list[tuple[str, Interface]],
     solutions: list[Path],
     filtered: list[Path],
     errors: Path,

@@ -10,9 +10,8 @@ from fingerpad.store import read_rows, write_rows
 
 def main(config: Path, devices: list[Path], scores: Path, multiples: list[int], table: Path) -> None:
     """Read scenes and scores, write one row per device, multiple and read-out."""
-    stated, rows = read_rows(scores), []
-    for path in devices:
-        rows.extend(increment_rows(load_scene(config, path), multiples, stated))
+    stated = read_rows(scores)
+    rows = [row for path in devices for row in increment_rows(load_scene(config, path), multiples, stated)]
     write_rows(table, rows)
 
 
