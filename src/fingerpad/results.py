@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from .checkout import OWN, Checkout
+from .checkout import find_checkout
 from .errors import MissingResultError, UsageError
 from .guess import closest, hint
 from .scene.device_names import known_devices
@@ -37,9 +37,10 @@ def needed(root: Path, result: str, target: str | None = None) -> Path:
 
 def scenes() -> dict[str, Scene]:
     """Scenes of small kinematics by device: of the folder that SCENES in the environment names, where a rule runs a
-    notebook, or else of config/. Raises SceneError if one of them is not valid.
+    notebook, or else of the checkout's config/. Raises SceneError if one of them is not valid, and as
+    `find_checkout`.
     """
-    checkout = Checkout(OWN)
+    checkout = find_checkout(Path.cwd())
     folder = Path(os.environ.get("SCENES", checkout.config.parent))
     config, devices = folder / "config.yaml", folder / "devices"
     files = {name: devices / f"{name}.yaml" for name in known_devices(devices)}
