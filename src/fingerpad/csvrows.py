@@ -11,8 +11,8 @@ from io import StringIO
 from pathlib import Path
 
 from .errors import FingerpadError
+from .files import require_readable
 from .guess import closest, hint
-from .readable import require_ending
 
 LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, ten thousand times of 64 actuators
 
@@ -57,7 +57,7 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
     """Lines that are not empty, with their numbers. Raises `error` if the file cannot be read or is no CSV."""
     line, lines = 0, []
     try:
-        require_ending(path, LARGEST_FILE, "CSV", error)
+        require_readable(path, LARGEST_FILE, "CSV", error)
         text = path.read_bytes().decode("utf-8-sig")
         reader = csv.reader(StringIO(text, newline=""), strict=True)
         for row in reader:

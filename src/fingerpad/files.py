@@ -1,4 +1,4 @@
-"""Files that are whole or not there: written beside their place, then moved to it in one step."""
+"""Files that are whole or not there: written beside their place, then moved to it in one step. And what may be read."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
+
+from .errors import FingerpadError
 
 PART = ".part"  # ends the name of a file that is being written
 MARK = 8  # random bytes in that name [1], so that two who write one file do not write into one another's
@@ -70,6 +72,16 @@ def require_folder(path: Path) -> None:
         raise OSError(errno.EINVAL, "is no regular file, so it cannot be replaced by one", str(path))
     if not os.access(path.parent, os.W_OK | os.X_OK):
         raise PermissionError(errno.EACCES, "is a folder in which you may not write", str(path.parent))
+
+
+def require_readable(path: Path, most: int, kind: str, error: type[FingerpadError]) -> None:
+    """Raise `error` if what a user wants read is no file that ends, as a pipe, or one of more than so many bytes; an
+    OSError if it is not there. kind: of file that is allowed, in words.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise error(f"{path}: is no file that ends; allowed: a {kind} file")
+    if (size := path.stat().st_size) > most:
+        raise error(f"{path}: found {size} bytes; allowed: at most {most}")
 
 
 def write_text(path: Path, text: str) -> None:

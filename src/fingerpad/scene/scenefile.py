@@ -16,7 +16,7 @@ from typing import Any
 import yaml
 
 from ..errors import SceneError
-from ..readable import require_ending
+from ..files import require_readable
 from ..requirements import require
 from .bodies import BODIES
 from .contact_law import ContactLaw, Criterion, FrictionFrom, TurningNormal
@@ -101,7 +101,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
     Raises SceneError if the file is missing, empty, too large, not YAML, or has a key twice, a tag or many aliases.
     """
     try:
-        require_ending(path, LARGEST_FILE, "YAML", SceneError)
+        require_readable(path, LARGEST_FILE, "YAML", SceneError)
         node = _composed(path.read_text(encoding="utf-8"))
         document = None if node is None else _Loader("").construct_document(node)
     except OSError as error:
