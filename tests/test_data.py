@@ -9,7 +9,8 @@ import pytest
 from fingerpad.perception.order import order_matrix
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
-from fingerpad.scene.scenefile import build_device, build_model, read_yaml
+from fingerpad.scene.scenefile import build_device, build_model
+from fingerpad.scene.yamlfile import read_yaml
 from literature import CONDITIONS, DATA, LITERATURE
 
 ROOT = Path(__file__).parents[1]

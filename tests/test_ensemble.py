@@ -33,10 +33,10 @@ from fingerpad.pages.robustness import robustness_values
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.prediction import scoring
 from fingerpad.scene.contact_law import Interface
-from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
 from fingerpad.scene.variation import with_value
+from fingerpad.scene.yamlfile import read_yaml
 from literature import LITERATURE
 from scenes import scene
 from test_claims import make_scores

@@ -70,9 +70,10 @@ from fingerpad.scene.finger import Material
 from fingerpad.scene.numerics import Numerics
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scene import Scene
-from fingerpad.scene.scenefile import build_model, read_yaml
+from fingerpad.scene.scenefile import build_model
 from fingerpad.scene.stimuli import condition_name
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.tissue.compliance import CondensedSection
 from fingerpad.tissue.mesh import SectionMesh, mesh_section, nominal_edges
 from fingerpad.words import MINUS

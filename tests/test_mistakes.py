@@ -16,7 +16,7 @@ import pytest
 import yaml
 
 import fingerpad.csvrows
-import fingerpad.scene.scenefile
+import fingerpad.scene.yamlfile
 from conftest import Project
 from fingerpad.cli import FAILED, main
 from fingerpad.contact.solution import Solution
@@ -24,7 +24,7 @@ from fingerpad.csvrows import checked_rows
 from fingerpad.errors import FingerpadError, RatingError, ResultError, SceneError
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.recording import COLUMNS, MOST_TIMES, read_recording
-from fingerpad.scene.scenefile import read_yaml
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.store import load, save_arrays
 from fingerpad.tissue.mesh import load_section
 from literature import CONDITIONS
@@ -124,7 +124,7 @@ def test_sizes_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         device.write_text(text, encoding="utf-8")
         with pytest.raises(SceneError, match=part):
             read_yaml(device)
-    monkeypatch.setattr(fingerpad.scene.scenefile, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(fingerpad.scene.yamlfile, "LARGEST_FILE", 1000)
     with pytest.raises(SceneError, match="bytes; allowed: at most 1000"):
         read_yaml(device)
 

@@ -31,9 +31,10 @@ from fingerpad.report.tables import (
 )
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
-from fingerpad.scene.scenefile import load_scene, read_yaml
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.sources import Origin, page, quantities
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.store import read_rows
 from fingerpad.words import COVERED, INTERFACE_NAME
 

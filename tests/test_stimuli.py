@@ -15,9 +15,10 @@ import yaml
 from fingerpad.errors import SceneError
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Cycle, Device
 from fingerpad.scene.recording import FARTHEST, LATEST, MOST_TIMES, read_recording
-from fingerpad.scene.scenefile import read_yaml, recordings
+from fingerpad.scene.scenefile import recordings
 from fingerpad.scene.stimuli import KINDS, SETTLING, alternating, alternating_cycles, measured, phased, phased_cycles
 from fingerpad.scene.validation import check_device
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.vibration import cycling
 
 ROOT = Path(__file__).parents[1]

@@ -22,8 +22,9 @@ from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device_names import LONGEST_NAME, known_devices, require_device, require_new_name
 from fingerpad.scene.meant import _meant_unit
 from fingerpad.scene.problems import MOST_REPORTED
-from fingerpad.scene.scenefile import load_scene, read_values
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.validation import check_config, check_device
+from fingerpad.scene.yamlfile import read_values
 from scenes import scene
 
 ROOT = Path(__file__).parents[1]

@@ -11,7 +11,8 @@ from fingerpad.errors import FingerpadError
 from fingerpad.guess import closest, hint
 from fingerpad.perception.ratings import read_published, read_ratings, read_stated_order
 from fingerpad.scene.example import COMPARED, compares_interfaces, example_condition, example_device
-from fingerpad.scene.scenefile import build_model, plain_values, read_yaml, recordings
+from fingerpad.scene.scenefile import build_model, plain_values, recordings
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.device_names import known_devices
 from fingerpad.scene.validation import check_config, check_device

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from fingerpad.files import write_text
 from fingerpad.jobs import run
-from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.sources import page
+from fingerpad.scene.yamlfile import read_yaml
 
 
 def main(files: list[Path], package: list[Path], listed: Path) -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 from fingerpad.ensemble.alternatives import named_alternative, read_ensemble, write_scenes
 from fingerpad.ensemble.members import member_scores
 from fingerpad.jobs import run
-from fingerpad.scene.scenefile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.store import write_rows
 
 

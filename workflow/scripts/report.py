@@ -7,8 +7,9 @@ from fingerpad.jobs import run
 from fingerpad.report.captions import Results, rules_words
 from fingerpad.report.page import Picture, data_uri, pictures_of, report
 from fingerpad.report.provenance import provenance
-from fingerpad.scene.scenefile import load_scene, read_yaml
+from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.sources import quantities
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.store import read_rows
 
 

@@ -17,10 +17,10 @@ from ..guess import closest, hint
 from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.scene import Scene
-from ..scene.scenefile import read_values
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import check_device
 from ..scene.variation import NO_VALUES, variants
+from ..scene.yamlfile import read_values
 from .blanks import hint_of_blanks
 
 PICTURES = (".png", ".pdf", ".svg")

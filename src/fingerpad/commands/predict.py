@@ -16,10 +16,10 @@ from ..prediction.forecast import steps
 from ..prediction.orders import orders
 from ..prediction.side_by_side import forecasts
 from ..scene.scene import Scene
-from ..scene.scenefile import read_yaml
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import possible
 from ..scene.variation import unit_of
+from ..scene.yamlfile import read_yaml
 from .options import (
     add_conditions,
     add_cores,

@@ -19,8 +19,8 @@ from ..readouts.roughness import rows_of
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.scene import Scene
-from ..scene.scenefile import read_yaml
 from ..scene.variation import Document
+from ..scene.yamlfile import read_yaml
 from .options import add_cores, add_device, add_kinematics, add_scene_options, asked_scene, checked_scene
 from .printing import as_csv, in_order, require_scores, titled
 from .progress import progress

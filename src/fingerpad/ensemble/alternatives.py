@@ -18,9 +18,9 @@ from ..errors import SceneError
 from ..files import write_text
 from ..guess import closest, hint
 from ..requirements import is_number
-from ..scene.scenefile import read_yaml
 from ..scene.sources import Origin
 from ..scene.variation import Document, by_number, no_such_value, quantities_of, with_value
+from ..scene.yamlfile import read_yaml
 
 AS_CONFIGURED = "as configured"
 FIRST, SECOND = "first", "second"

@@ -11,7 +11,7 @@ from typing import Any
 from ..imports import without
 from ..requirements import is_number
 from .problems import shown
-from .scenefile import read_yaml
+from .yamlfile import read_yaml
 
 with without("rfc3987_syntax"):  # a checker of web addresses, which scenes do not hold; compiling it takes seconds
     from jsonschema import Draft202012Validator, ValidationError, validators

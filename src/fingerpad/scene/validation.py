@@ -23,9 +23,10 @@ from .device_names import require_name
 from .meant import decimal_comma, meant_by
 from .problems import Problem, problem, report, shown, shown_name
 from .scene import Model, Scene
-from .scenefile import build_device, build_model, read_yaml, with_contact
+from .scenefile import build_device, build_model, with_contact
 from .schema import Schema, allowed_values, refusals, resolved
 from .variation import NO_VALUES, shared_out, with_value
+from .yamlfile import read_yaml
 
 if TYPE_CHECKING:
     from jsonschema import ValidationError
