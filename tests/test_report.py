@@ -16,6 +16,7 @@ import pytest
 
 from fingerpad.digraph import layers, placed, read_dot, reduced
 from fingerpad.figures.rules import rules_figure
+from fingerpad.pages.assumptions import page
 from fingerpad.perception.ratings import RatingKind
 from fingerpad.perception.wording import OPEN_SLOPE, SURROGATE, p_text, r2_text
 from fingerpad.report.captions import Results, Words, rules_words, words
@@ -32,7 +33,7 @@ from fingerpad.report.tables import (
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.scenefile import load_scene
-from fingerpad.scene.sources import Origin, page, quantities
+from fingerpad.scene.sources import Origin, quantities
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.store import read_rows

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fingerpad.files import write_text
 from fingerpad.jobs import run
-from fingerpad.scene.sources import page
+from fingerpad.pages.assumptions import page
 from fingerpad.scene.yamlfile import read_yaml
 
 
