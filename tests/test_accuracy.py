@@ -14,7 +14,7 @@ from fingerpad.prediction.forecast import forecast
 from fingerpad.prediction.scoring import ReadSolution, error_rows, prepared, read_out, rows_at, solve_scene
 from fingerpad.readouts.accuracy import LEAST, score_errors, true_errors, with_errors
 from fingerpad.readouts.gabor import FilteredReadouts
-from fingerpad.readouts.roughness import roughness_scores, scene_span
+from fingerpad.readouts.roughness import SCORE_COLUMNS, roughness_scores, scene_span, unpredicted_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.readout import Readout
@@ -131,6 +131,8 @@ def test_errors_stand_behind_scores() -> None:
     (found,) = with_errors([row("a", "1.0")], [check("a", "0.02")])
     assert found["score_error"] == 0.02
     assert list(found) == ["kinematics", "device", "condition", "interface", "readout", "score", "score_error", "unit"]
+    for each in with_errors(unpredicted_rows(scene("device3")), []):
+        assert list(each) == SCORE_COLUMNS
 
 
 def test_what_has_no_score_has_no_error() -> None:

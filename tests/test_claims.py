@@ -13,6 +13,7 @@ import pytest
 from fingerpad.perception.claims import COLUMNS, claims_table
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.readouts.comparison import Relation, Score, classes, relation
+from fingerpad.readouts.roughness import SCORE_COLUMNS
 from literature import CONDITIONS, LITERATURE
 
 ROOT = Path(__file__).parents[1]
@@ -42,8 +43,7 @@ def make_scores(change: dict[tuple[str, str, str], list[float]] | None = None) -
             note = "no prediction" if math.isnan(value) else ""
             key = ("small", device, name, dispersion, float(phase), interface, readout)
             rows.append((*key, float(value), ERROR, "mm", note))
-    conditions = ["kinematics", "device", "condition", "dispersion", "phase_deg", "interface", "readout"]
-    return pd.DataFrame(rows, columns=[*conditions, "score", "score_error", "unit", "note"])
+    return pd.DataFrame(rows, columns=SCORE_COLUMNS)
 
 
 def correlate(scores: pd.DataFrame, kind: str = "measured") -> pd.DataFrame:

@@ -65,7 +65,7 @@ from fingerpad.prediction.ranking import RANKS, ranks
 from fingerpad.prediction.scoring import Condensed, Meshed, read_solution
 from fingerpad.readouts.gabor import filtered_readouts
 from fingerpad.readouts.resampling import resampling_to_grid
-from fingerpad.readouts.roughness import roughness_scores
+from fingerpad.readouts.roughness import SERIES, roughness_scores
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Device, evenly
 from fingerpad.scene.readout import Readout
@@ -1444,7 +1444,7 @@ def test_values_of_a_key_that_is_given_twice_are_all_taken() -> None:
 def test_scores_of_other_cases_have_ranks_of_their_own() -> None:
     one = ROW | {"condition": "a", "score": 1.0, "score_error": 0.01}
     near = one | {"condition": "b", "score": 1.005}
-    others = [near | {key: "other"} for key in ("kinematics", "device", "interface", "readout")]
+    others = [near | {key: "other"} for key in SERIES]
     assert ranks([one, *others]) == [dict.fromkeys(RANKS, 1)] * 5
 
 

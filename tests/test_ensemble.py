@@ -32,6 +32,7 @@ from fingerpad.figures.ensemble import TIMES, ensemble_figure
 from fingerpad.pages.robustness import robustness_values
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.prediction import scoring
+from fingerpad.readouts.roughness import SERIES
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.validation import check_device
@@ -394,6 +395,6 @@ def test_the_scenes_as_configured_have_their_own_errors() -> None:
     members = recorded.drop(columns="score_error").assign(half_cycle=FIRST, varied=AS_CONFIGURED)
     correlations = ensemble_tables(members, recorded, LITERATURE).correlations
     expected = correlation_table(recorded, LITERATURE)
-    both = correlations.merge(expected, on=["kinematics", "device", "interface", "readout"], suffixes=("", "_expected"))
+    both = correlations.merge(expected, on=SERIES, suffixes=("", "_expected"))
     assert len(both) == len(expected)
     np.testing.assert_allclose(both["r_error"], both["r_error_expected"], rtol=1e-9)

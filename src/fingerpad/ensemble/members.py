@@ -13,7 +13,7 @@ from ..perception.ratings import Literature
 from ..prediction.edges import edge_intervals
 from ..prediction.scoring import solved_rows
 from ..readouts.accuracy import error_in_proportion
-from ..readouts.roughness import KEY, unpredicted_rows
+from ..readouts.roughness import SERIES, unpredicted_rows
 from ..scene.scene import Scene, with_all_kinematics
 from ..scene.tissue_law import Kinematics
 from .alternatives import AS_CONFIGURED, Alternative
@@ -50,8 +50,8 @@ def ensemble_tables(members: pd.DataFrame, configured: pd.DataFrame, literature:
     score (`error_in_proportion`).
     Raises RatingError as `correlation_table`.
     """
-    usual = configured[[*KEY, "condition", "score", "score_error"]]
-    scored = members.merge(usual, on=[*KEY, "condition"], how="left", suffixes=("", "_usual"))
+    usual = configured[[*SERIES, "condition", "score", "score_error"]]
+    scored = members.merge(usual, on=[*SERIES, "condition"], how="left", suffixes=("", "_usual"))
     scored["score_error"] = [
         error_in_proportion(*each)
         for each in zip(scored["score"], scored["score_usual"], scored["score_error"], strict=True)

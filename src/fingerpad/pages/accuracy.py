@@ -10,8 +10,7 @@ import pandas as pd
 
 from ..calculix.contact_model import ContactModel
 from ..closedforms.comparison import ORDER_OF
-from ..readouts.accuracy import CASE
-from ..readouts.roughness import KEY
+from ..readouts.roughness import SCORE_KEY, SERIES
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..scene.tissue_law import Kinematics
@@ -48,7 +47,7 @@ def accuracy_values(tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
 
 def _of_scores(scores: pd.DataFrame) -> dict[str, object]:
     size = scores["error"].abs()
-    groups = scores.assign(size=size).groupby(KEY, sort=False)
+    groups = scores.assign(size=size).groupby(SERIES, sort=False)
     largest = groups.agg(n=("size", "size"), stated=("stated", "max"), true=("size", "max")).reset_index()
     ratio = groups["error_over_stated"].max().map("{:.2f}".format).to_numpy()
     beyond = scores[size > AIM]
@@ -65,7 +64,7 @@ def _of_scores(scores: pd.DataFrame) -> dict[str, object]:
         ),
         "aim": f"{PERCENT * AIM:g} %",
         "beyond": len(beyond),
-        "missed": table(beyond[[*CASE]].assign(stated=percent(beyond["stated"]), true=percent(beyond["error"]))),
+        "missed": table(beyond[SCORE_KEY].assign(stated=percent(beyond["stated"]), true=percent(beyond["error"]))),
     }
 
 

@@ -11,7 +11,7 @@ from ..ensemble.effect import with_effect
 from ..perception.statements import Kind
 from ..perception.verdicts import Holds
 from ..perception.wording import published_text, slope_name
-from ..readouts.roughness import KEY, NO_PREDICTION
+from ..readouts.roughness import NO_PREDICTION, SERIES
 from ..scene.contact_law import Interface
 from ..scene.tissue_law import Kinematics
 from ..words import MODE_ENDING
@@ -79,8 +79,8 @@ def _correlations(correlations: pd.DataFrame) -> pd.DataFrame:
     """
     shear = correlations[(correlations["interface"] == Interface.SHEAR) & correlations["r2"].notna()]
     rows = []
-    for key, own in shear.groupby(KEY, sort=False):
-        row = dict(zip(KEY, key, strict=True))
+    for key, own in shear.groupby(SERIES, sort=False):
+        row = dict(zip(SERIES, key, strict=True))
         del row["interface"]
         published = published_text(own.iloc[0])
         usual = own[own["varied"] == AS_CONFIGURED].set_index("half_cycle")
@@ -96,12 +96,12 @@ def _halves(scores: pd.DataFrame) -> pd.DataFrame:
     device and read-out, with the conditions that have the least and the most.
     """
     is_shown = (scores["varied"] == AS_CONFIGURED) & (scores["interface"] == Interface.SHEAR) & (scores["score"] > 0.0)
-    wide = scores[is_shown].pivot_table("score", [*KEY, "condition"], "half_cycle", sort=False)
+    wide = scores[is_shown].pivot_table("score", [*SERIES, "condition"], "half_cycle", sort=False)
     wide = wide.reindex(columns=list(HALF_CYCLES))
     ratios = (wide[SECOND] / wide[FIRST]).dropna()
     rows = []
-    for key, own in ratios.groupby(KEY, sort=False):
-        row = dict(zip(KEY, key, strict=True))
+    for key, own in ratios.groupby(SERIES, sort=False):
+        row = dict(zip(SERIES, key, strict=True))
         del row["interface"]
         ends = {"least": own.idxmin(), "most": own.idxmax()}
         rows.append(row | {name: f"{own[case]:.2f} (`{case[-1]}`)" for name, case in ends.items()})
@@ -111,7 +111,7 @@ def _halves(scores: pd.DataFrame) -> pd.DataFrame:
 def _unsolved(scores: pd.DataFrame) -> str:
     """Members in which what is predicted as configured has no solution, and why, as a list."""
     usual = scores[(scores["varied"] == AS_CONFIGURED) & scores["score"].notna()]
-    case = [*KEY, "condition", "half_cycle"]
+    case = [*SERIES, "condition", "half_cycle"]
     is_lost = scores["score"].isna() & pd.MultiIndex.from_frame(scores[case]).isin(
         pd.MultiIndex.from_frame(usual[case])
     )

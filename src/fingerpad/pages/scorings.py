@@ -8,8 +8,8 @@ from collections.abc import Collection, Mapping
 import pandas as pd
 
 from ..perception.wording import published_text, slope_name
-from ..readouts.accuracy import CASE
 from ..readouts.comparison import Relation, Score, relation
+from ..readouts.roughness import SCORE_KEY
 from ..readouts.scorings import DRIVES, Scoring
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
@@ -89,8 +89,8 @@ def _published(correlations: pd.DataFrame) -> str:
 def _indented(scores: pd.DataFrame, others: pd.DataFrame) -> str:
     """By how much stimuli move the strain score of the pre-indented state with shear: least and most, by kinematics."""
     is_shown = (others["scoring"] == Scoring.INDENTED) & (others["interface"] == Interface.SHEAR)
-    alone = others[is_shown][[*CASE, "score"]]
-    both = alone.merge(scores[[*CASE, "score"]], on=list(CASE), suffixes=("_alone", ""))
+    alone = others[is_shown][[*SCORE_KEY, "score"]]
+    both = alone.merge(scores[[*SCORE_KEY, "score"]], on=SCORE_KEY, suffixes=("_alone", ""))
     moved = PERCENT * (both["score"] / both["score_alone"] - 1.0)
     ranges = moved.groupby(both["kinematics"], sort=False).agg(["min", "max"])
     return " and ".join(

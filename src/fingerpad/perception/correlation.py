@@ -18,13 +18,13 @@ from ..arrays import FloatArray
 from ..csvrows import listed
 from ..errors import RatingError
 from ..readouts.comparison import classes, is_constant
-from ..readouts.roughness import KEY, NO_PREDICTION
+from ..readouts.roughness import NO_PREDICTION, SERIES
 from .extremes import RatingRange, rating_range, unit
 from .order import order_matrix
 from .ratings import NO_RATINGS, Literature, RatingKind
 
 COLUMNS = [
-    *KEY,
+    *SERIES,
     "n",
     "spread",
     "slope_sign",
@@ -152,13 +152,13 @@ def correlation_table(scores: pd.DataFrame, literature: Literature) -> pd.DataFr
     `rating_range`.
     """
     rows = [
-        dict(zip(KEY, key, strict=True))
+        dict(zip(SERIES, key, strict=True))
         | _correlate(group, *(each[each["device"] == key[1]] for each in (literature.ratings, literature.order)))
-        for key, group in scores.groupby(KEY, sort=False)
+        for key, group in scores.groupby(SERIES, sort=False)
     ]
     said = literature.published.rename(columns={name: f"published_{name}" for name in ("r2", "slope", "words")})
     computed = pd.DataFrame(rows, columns=[column for column in COLUMNS if column not in PUBLISHED])
-    same = KEY[1:]  # the paper does not say with which kinematics
+    same = SERIES[1:]  # the paper does not say with which kinematics
     table = computed.merge(said[[*same, *PUBLISHED]], how="left", on=same, validate="m:1")
     ranges = ("r_lowest", "r_highest", "r2_lowest", "r2_highest", "range_error")
     tau = ("kendall_tau", "tau_lowest", "tau_highest")
@@ -182,7 +182,7 @@ def _correlate(scores: pd.DataFrame, ratings: pd.DataFrame, order: pd.DataFrame)
     if rating.empty:
         return {**found, "n": 0, "note": NO_RATINGS}
     if odd := sorted(set(score.index) ^ set(rating.index)):
-        where = ", ".join(scores[KEY].iloc[0])
+        where = ", ".join(scores[SERIES].iloc[0])
         raise RatingError(f"{where}: scores and ratings are not of the same conditions; in one only: {listed(odd)}")
     y = rating.loc[score.index].to_numpy()
     found["n"] = x.size

@@ -14,7 +14,7 @@ from typing import Any
 import pandas as pd
 
 from ..readouts.comparison import Relation, Score
-from ..readouts.roughness import KEY
+from ..readouts.roughness import SERIES
 from ..scene.contact_law import Interface
 from ..scene.readout import Readout
 from ..words import INTERFACE_NAME, READOUT_NAME, typeset
@@ -106,7 +106,7 @@ class Statement:
 def tables_of(scores: pd.DataFrame, correlations: pd.DataFrame) -> Tables:
     """The tables of one kind of kinematics; scores that are absent (NaN) are left out."""
     by_key = {}
-    for (device, interface, readout), group in scores.groupby(KEY[1:], sort=False):
+    for (device, interface, readout), group in scores.groupby(SERIES[1:], sort=False):
         scored = group.astype({"score": float, "score_error": float}).dropna(subset=["score"])
         rows = scored[["dispersion", "phase_deg", "score", "score_error"]].fillna({"score_error": math.inf})
         by_key[device, interface, readout] = Scores(

@@ -8,7 +8,7 @@ from typing import Any
 
 from threadpoolctl import threadpool_limits
 
-from ..readouts.accuracy import case_of, with_error, with_errors
+from ..readouts.accuracy import score_key, with_error, with_errors
 from ..readouts.roughness import unpredicted_rows
 from ..scene.contact_law import Interface
 from ..scene.device import Control
@@ -52,7 +52,7 @@ def _caveats(
     case = row["condition"], Interface(row["interface"])
     if case not in read:
         return [row["note"]]
-    unknown = [check["note"] for check in checks if check["note"] and case_of(check) == case_of(row)]
+    unknown = [check["note"] for check in checks if check["note"] and score_key(check) == score_key(row)]
     return [*read[case].caveats, *unknown]
 
 

@@ -18,7 +18,7 @@ from ..readouts.comparison import classes
 from ..readouts.gabor import filtered_readouts
 from ..readouts.measures import Measure, measured
 from ..readouts.resampling import resampling_to_grid
-from ..readouts.roughness import KEY, SCORE_UNIT, score_rows
+from ..readouts.roughness import SCORE_UNIT, SERIES, score_rows
 from ..readouts.strain import read_receptors
 from ..scene.contact_law import Interface
 from ..scene.readout import Side
@@ -81,7 +81,7 @@ def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, A
     found = []
     groups: dict[tuple[Any, ...], dict[tuple[Any, ...], dict[str, float]]] = {}
     for row in rows:
-        variants = groups.setdefault(tuple(row[key] for key in KEY), {})
+        variants = groups.setdefault(tuple(row[key] for key in SERIES), {})
         variants.setdefault(tuple(row[key] for key in VARIANT), {})[row["condition"]] = float(row["score"])
     for key, variants in groups.items():
         reference = variants[str(Measure.MAXIMUM_PRINCIPAL), str(side), UNCHANGED]
@@ -90,7 +90,7 @@ def agreement(rows: Sequence[Mapping[str, Any]], side: Side) -> list[dict[str, A
             values = np.array([scores[condition] for condition in reference])
             ranks = classes(usual), classes(values)
             constant = not all(each.any() for each in ranks)
-            row = dict(zip([*KEY, *VARIANT], (*key, *variant), strict=True))
+            row = dict(zip([*SERIES, *VARIANT], (*key, *variant), strict=True))
             row["n"] = usual.size
             row["kendall_tau"] = None if constant else float(kendalltau(*ranks).statistic)
             row["r"] = None if constant else float(pearsonr(usual, values).statistic)

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..readouts.accuracy import has_error
 from ..readouts.comparison import Relation, Score, relation
-from ..readouts.roughness import KEY
+from ..readouts.roughness import SERIES
 
 RANKS = ("rank", "first_rank", "last_rank")  # columns [1]
 
@@ -33,7 +33,7 @@ def is_resolved(row: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
 
 def _rivals(row: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
     """Rows with scores of a row's device, interface and read-out, itself among them."""
-    return [each for each in rows if each["score"] is not None and all(row[name] == each[name] for name in KEY)]
+    return [each for each in rows if each["score"] is not None and all(row[name] == each[name] for name in SERIES)]
 
 
 def _rank(row: Mapping[str, Any], rivals: Sequence[Mapping[str, Any]]) -> dict[str, int | None]:

@@ -18,7 +18,7 @@ import numpy as np
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from .gabor import FilteredReadouts
-from .roughness import roughness_score, scene_span
+from .roughness import SCORE_KEY, roughness_score, scene_span
 
 COARSENING = 2.0  # [1]; source: sizes go by halves, and 1.5 understated five scores of 54 by more than 2 (decision 23)
 ORDER = 1.5  # of convergence [1]; source: 2 understates more than one in twenty scores of unlike devices (decision 32)
@@ -27,7 +27,6 @@ LEAST = 1e-3  # of a score [1]; source: median of 66 errors against references (
 # of a reference [1]: at least 20 times the unknowns, errors a thirtieth at second order; source: 4 times hid bands of
 # strain (decision 22)
 REFINEMENT = 5.5
-CASE = ("kinematics", "device", "condition", "interface", "readout")
 REFERENCED = ("kinematics", "device", "interface")
 
 
@@ -49,13 +48,13 @@ def with_errors(scores: Sequence[Mapping[str, Any]], checks: Sequence[Mapping[st
 
     checks: rows with `score_error` and `note` of every case with a score. Raises KeyError if one is missing.
     """
-    found = {case_of(row): row for row in checks}
+    found = {score_key(row): row for row in checks}
     table = []
     for row in scores:
         if not _is_scored(row):
             table.append(with_error(row, None))
             continue
-        check = found[case_of(row)]
+        check = found[score_key(row)]
         known = check["score_error"] not in {None, ""}
         error = float(check["score_error"]) if known else None
         table.append(with_error(row, error) | ({} if known else {"note": _joined(row, check)}))
@@ -83,8 +82,8 @@ def true_errors(scores: Sequence[Mapping[str, Any]], reference: Sequence[Mapping
     for row in scores:
         if has_error(row) and float(row["score"]) > 0.0 and _of(row, REFERENCED) in known:
             score, stated = float(row["score"]), float(row["score_error"])
-            error = score - finer[case_of(row)]
-            case = dict(zip(CASE, case_of(row), strict=True))
+            error = score - finer[score_key(row)]
+            case = dict(zip(SCORE_KEY, score_key(row), strict=True))
             ratio = abs(error) / stated
             errors = {"stated": stated / score, "error": error / score, "error_over_stated": ratio}
             table.append(case | errors | {"times_unknowns": known[_of(row, REFERENCED)]})
@@ -103,13 +102,13 @@ def relative_error(row: Mapping[str, Any]) -> float:
 
 
 def relative_errors(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, ...], float]:
-    """`relative_error` [1] of each case (`case_of`) in rows of the score table that has one."""
-    return {case_of(row): error for row in rows if not math.isnan(error := relative_error(row))}
+    """`relative_error` [1] of each case (`score_key`) in rows of the score table that has one."""
+    return {score_key(row): error for row in rows if not math.isnan(error := relative_error(row))}
 
 
 def scores_by_case(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, ...], float]:
-    """Score of each case (`case_of`) in rows of the score table, also as text, that has one."""
-    return {case_of(row): float(row["score"]) for row in rows if _is_scored(row)}
+    """Score of each case (`score_key`) in rows of the score table, also as text, that has one."""
+    return {score_key(row): float(row["score"]) for row in rows if _is_scored(row)}
 
 
 def relative_changes(
@@ -141,9 +140,9 @@ def has_error(row: Mapping[str, Any]) -> bool:
     return _is_scored(row) and row["score_error"] not in {None, ""}
 
 
-def case_of(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """What tells a row of the score table from all others: its columns CASE."""
-    return _of(row, CASE)
+def score_key(row: Mapping[str, Any]) -> tuple[str, ...]:
+    """What tells a row of the score table from all others: its columns SCORE_KEY."""
+    return _of(row, SCORE_KEY)
 
 
 def _of(row: Mapping[str, Any], columns: Sequence[str]) -> tuple[str, ...]:

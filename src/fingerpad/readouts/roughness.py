@@ -17,7 +17,13 @@ from .gabor import FilteredReadouts
 Row = TypeVar("Row", bound=Mapping[str, Any])  # of the score table
 
 SCORE_UNIT = "mm2"  # strain [1] filtered along x [mm], integrated along x [mm]
-KEY = ["kinematics", "device", "interface", "readout"]  # columns of the score table that tell series of scores apart
+# columns of the score table: all; those that tell series of scores apart; those that tell each row from all others
+SCORE_COLUMNS = [
+    *("kinematics", "device", "condition", "dispersion", "phase_deg", "interface", "readout"),
+    *("score", "score_error", "unit", "note"),
+]
+SERIES = ["kinematics", "device", "interface", "readout"]
+SCORE_KEY = ["kinematics", "device", "condition", "interface", "readout"]
 NO_PREDICTION = "no prediction"
 
 
@@ -90,7 +96,7 @@ def rows_of(rows: Iterable[Row], interface: Interface, readout: Readout) -> list
 def score_row(
     scene: Scene, condition: Condition, interface: Interface, readout: Readout, score: float | None, note: str
 ) -> dict[str, Any]:
-    """One row of the score table."""
+    """One row of the score table, as long as it has no error."""
     return {
         "kinematics": str(scene.kinematics),
         "device": scene.device.name,

@@ -14,7 +14,7 @@ from ..scene.contact_law import Interface
 from ..scene.device import Condition
 from ..scene.readout import Readout
 from ..scene.scene import Scene
-from .accuracy import case_of, with_error
+from .accuracy import score_key, with_error
 from .gabor import FilteredReadouts, gabor_filtered
 from .roughness import SCORE_UNIT, over_span, roughness_score, scene_span, score_row
 
@@ -98,7 +98,7 @@ def scoring_rows(
     """
     for (scoring, readout), score in other_scores(scene, condition, read).items():
         row = score_row(scene, condition, interface, readout, score, "") | {"unit": UNITS.get(scoring, SCORE_UNIT)}
-        share = 0.0 if scoring in DRIVES else errors.get(case_of(row))
+        share = 0.0 if scoring in DRIVES else errors.get(score_key(row))
         whole = roughness_score(read.arc, read.filtered(readout), scene_span(scene))
         error = None if share is None else share * (whole if scoring is Scoring.SIGNED else score)
         yield {"scoring": str(scoring)} | with_error(row, error)
