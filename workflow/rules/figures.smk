@@ -81,7 +81,7 @@ rule figure_receptors:
         png="results/figures/figure_4_receptors{mode}.png",
         pdf="results/figures/figure_4_receptors{mode}.pdf",
     log:
-        "results/logs/figures/figure_4_receptors{mode}.log",
+        "results/logs/figure_receptors{mode}.log",
     conda:
         ENVIRONMENT
     params:
@@ -102,7 +102,7 @@ rule figure_correlation:
         png="results/figures/figure_5_correlation{mode}.png",
         pdf="results/figures/figure_5_correlation{mode}.pdf",
     log:
-        "results/logs/figures/figure_5_correlation{mode}.log",
+        "results/logs/figure_correlation{mode}.log",
     conda:
         ENVIRONMENT
     params:
@@ -122,7 +122,7 @@ rule figure_ablation:
         png="results/figures/ablation_shear{mode}.png",
         pdf="results/figures/ablation_shear{mode}.pdf",
     log:
-        "results/logs/figures/ablation_shear{mode}.log",
+        "results/logs/figure_ablation{mode}.log",
     conda:
         ENVIRONMENT
     params:
@@ -142,7 +142,7 @@ rule figure_kinematics:
         png="results/figures/kinematics.png",
         pdf="results/figures/kinematics.pdf",
     log:
-        "results/logs/figures/kinematics.log",
+        "results/logs/figure_kinematics.log",
     conda:
         ENVIRONMENT
     params:
@@ -160,7 +160,7 @@ rule figure_section:
         png="results/figures/section.png",
         pdf="results/figures/section.pdf",
     log:
-        "results/logs/figures/section.log",
+        "results/logs/figure_section.log",
     conda:
         ENVIRONMENT
     params:
@@ -181,7 +181,7 @@ rule figure_stimuli:
         png="results/figures/stimuli.png",
         pdf="results/figures/stimuli.pdf",
     log:
-        "results/logs/figures/stimuli.log",
+        "results/logs/figure_stimuli.log",
     conda:
         ENVIRONMENT
     params:
@@ -200,7 +200,7 @@ rule figure_map:
         png="results/figures/map_{kinematics}_{device}-{dispersion}.png",
         pdf="results/figures/map_{kinematics}_{device}-{dispersion}.pdf",
     log:
-        "results/logs/figures/map_{kinematics}_{device}-{dispersion}.log",
+        "results/logs/figure_map_{kinematics}_{device}-{dispersion}.log",
     wildcard_constraints:
         dispersion="|".join(sorted({dispersion for names in DISPERSIONS.values() for dispersion in names})),
     conda:
@@ -228,7 +228,7 @@ rule figure_workflow:
         png="results/figures/figure_3_workflow.png",
         pdf="results/figures/figure_3_workflow.pdf",
     log:
-        "results/logs/figures/figure_3_workflow.log",
+        "results/logs/figure_workflow.log",
     conda:
         ENVIRONMENT
     params:
@@ -249,7 +249,7 @@ if SLIDING:
             png="results/figures/figure_6_shear{mode}.png",
             pdf="results/figures/figure_6_shear{mode}.pdf",
         log:
-            "results/logs/figures/figure_6_shear{mode}.log",
+            "results/logs/figure_shear{mode}.log",
         conda:
             ENVIRONMENT
         params:
