@@ -14,8 +14,8 @@ SOURCE = BASE / "src"
 sys.path[:0] = [str(PROJECT / "src"), str(PROJECT / "workflow")]
 import support
 
-# jobs find the library. Snakemake gives the matrix library as many threads as a rule says, one where it says nothing: so
-# results do not depend on the machine's cores, and jobs run beside each other
+# jobs find the library, whose `fingerpad.jobs.run` gives each one thread, whatever its rule says: so results do not depend
+# on the machine's cores, and jobs run beside each other
 os.environ |= {"PYTHONPATH": str(PROJECT / "src")}
 
 

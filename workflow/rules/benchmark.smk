@@ -21,17 +21,15 @@ rule benchmark:
 
 rule benchmark_steps:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
+        **ALL_SCENE_FILES,
         finite=ancient(files_with(Kinematics.FINITE)),
-        recordings=ancient(ALL_RECORDINGS),
     output:
         timings="results/benchmark/timings.csv",
     log:
         "results/logs/benchmark_steps.log",
     conda:
         ENVIRONMENT
-    threads: workflow.cores
+    threads: ALONE
     resources:
         mem_mb=6000,
         runtime=60,
@@ -53,7 +51,7 @@ rule benchmark_graph:
         "results/logs/benchmark_graph.log",
     conda:
         ENVIRONMENT
-    threads: workflow.cores
+    threads: ALONE
     resources:
         mem_mb=6000,
         runtime=60,
@@ -66,9 +64,7 @@ rule benchmark_graph:
 
 rule benchmark_ladder:
     input:
-        config=ancient(CONFIG),
-        device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS[COMPARED_DEVICE]),
+        **COMPARED_FILES,
         reference=f"results/small/{COMPARED_DEVICE}/reference.csv",
     output:
         table="results/benchmark/ladder.csv",
@@ -77,7 +73,7 @@ rule benchmark_ladder:
         "results/logs/benchmark_ladder.log",
     conda:
         ENVIRONMENT
-    threads: workflow.cores
+    threads: ALONE
     resources:
         mem_mb=6000,
         runtime=60,
@@ -106,9 +102,7 @@ rule benchmark_ladder:
 
 rule benchmark_growth:
     input:
-        config=ancient(CONFIG),
-        device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS[COMPARED_DEVICE]),
+        **COMPARED_FILES,
     output:
         sizes="results/benchmark/growth.csv",
         fits="results/benchmark/exponents.csv",
@@ -116,7 +110,7 @@ rule benchmark_growth:
         "results/logs/benchmark_growth.log",
     conda:
         ENVIRONMENT
-    threads: workflow.cores
+    threads: ALONE
     resources:
         mem_mb=6000,
         runtime=60,
@@ -132,10 +126,8 @@ rule benchmark_growth:
 
 rule skipping:
     input:
-        config=ancient(CONFIG),
-        devices=ancient(DEVICE_FILES),
+        **ALL_SCENE_FILES,
         finite=ancient(SKIPPING_FINITE),
-        recordings=ancient(ALL_RECORDINGS),
         scores="results/scores.csv",
     output:
         switches="results/benchmark/skipping.csv",
@@ -144,7 +136,7 @@ rule skipping:
         "results/logs/skipping.log",
     conda:
         ENVIRONMENT
-    threads: workflow.cores
+    threads: ALONE
     resources:
         mem_mb=6000,
         runtime=60,

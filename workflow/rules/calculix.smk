@@ -27,9 +27,7 @@ CALCULIX_FINITE_CASE = CALCULIX_CASE | {"kinematics": "finite", "law": "neo_hook
 
 rule calculix:
     input:
-        config=ancient(CONFIG),
-        device=ancient(compared_file),
-        recordings=ancient(lambda w: RECORDINGS[COMPARED_DEVICE]),
+        **COMPARED_FILES,
     output:
         table="results/accuracy/calculix.csv",
         decks=directory("results/calculix"),
@@ -37,7 +35,7 @@ rule calculix:
         "results/logs/calculix.log",
     conda:
         ENVIRONMENT
-    threads: workflow.cores
+    threads: ALONE
     resources:
         mem_mb=4000,
         runtime=120,

@@ -79,6 +79,7 @@ DEVICES_WITH = {
 KINEMATICS = [each for each, names in DEVICES_WITH.items() if names]
 COMPUTED = [(each, name) for each in KINEMATICS for name in DEVICES_WITH[each]]
 MODES = {ending: str(each) for each, ending in MODE_ENDING.items()}  # kinematics by the ending of figures' names
+ALONE = workflow.cores  # threads of jobs that measure times: all, so that nothing runs beside them
 TARGETS = []  # what `all` makes besides; files in rules/custom add to it
 
 
@@ -127,7 +128,8 @@ def recordings_of(wildcards):
     return RECORDINGS[scene_of(wildcards).device.name]
 
 
-# inputs of jobs that read one scene, and of those that read all; `ancient`, as a rule's parameters say what it depends on
+# inputs of jobs that read one scene, of those that read all, and of those that read the one that is compared; `ancient`, as
+# a rule's parameters say what it depends on
 SCENE_FILES = {
     "config": ancient(CONFIG),
     "device": ancient(device_file),
@@ -137,6 +139,11 @@ ALL_SCENE_FILES = {
     "config": ancient(CONFIG),
     "devices": ancient(DEVICE_FILES),
     "recordings": ancient(ALL_RECORDINGS),
+}
+COMPARED_FILES = {
+    "config": ancient(CONFIG),
+    "device": ancient(compared_file),
+    "recordings": ancient(lambda wildcards: RECORDINGS[COMPARED_DEVICE]),
 }
 
 
