@@ -45,8 +45,8 @@ def checked_rows(
         if len(cells) == 1 and (other := re.search("[;\t|]", cells[0])):
             raise error(f"{path}, line {line}: found values that are separated by {other[0]!r}; allowed: by ','")
         if len(cells) != len(header):
-            hint = f"; {COMMA}" if len(cells) > len(header) else ""
-            allowed = f"{len(header)}, for {listed(header)}{hint}"
+            comma = f"; {COMMA}" if len(cells) > len(header) else ""
+            allowed = f"{len(header)}, for {listed(header)}{comma}"
             raise error(
                 f"{path}, line {line}: found {len(cells)} value{'' if len(cells) == 1 else 's'}; allowed: {allowed}"
             )

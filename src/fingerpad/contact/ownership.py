@@ -34,16 +34,16 @@ def given_anew(problem: ContactProblem, state: ContactState) -> tuple[ContactPro
     """Problem and state with open nodes given to the actuator that they are nearest to now, as skin goes sideways.
     Nodes beside contact stay, as hats there reach to them, and so does the order of actuators along the skin.
     """
-    own, nearest = state.given, nearest_now(problem, state)
-    if np.array_equal(nearest, own):  # as nearly always
+    own, closest = state.given, nearest_now(problem, state)
+    if np.array_equal(closest, own):  # as nearly always
         return given_as(problem, state), state
     touching = state.status != OPEN
     kept = touching.copy()
     kept[1:] |= touching[:-1]
     kept[:-1] |= touching[1:]
-    if (kept | (nearest == own)).all():
+    if (kept | (closest == own)).all():
         return given_as(problem, state), state
-    wanted = np.where(kept, own, nearest)
+    wanted = np.where(kept, own, closest)
     least = np.maximum.accumulate(np.where(touching, own, 0))
     most = np.minimum.accumulate(np.where(touching, own, len(problem.row.positions) - 1)[::-1])[::-1]
     return given_to(problem, state, np.maximum.accumulate(np.clip(wanted, least, most)))
@@ -78,10 +78,10 @@ def nearest_now(problem: ContactProblem, state: ContactState) -> np.ndarray:
 
 def overlapped(problem: ContactProblem, state: ContactState, allowed: float) -> np.ndarray:
     """Nodes (n,) that overlap, by more than is allowed [mm], the actuator that they are nearest to but not given to."""
-    nearest = nearest_now(problem, state)
-    astray = np.asarray(nearest != state.given)
+    closest = nearest_now(problem, state)
+    astray = np.asarray(closest != state.given)
     if astray.any():
-        astray &= given_to(problem, state, nearest)[1].gap < -allowed
+        astray &= given_to(problem, state, closest)[1].gap < -allowed
     return astray
 
 

@@ -146,7 +146,7 @@ def checked_document(
     files = {schema_path: read_yaml(schema_path)}
     schema = resolved(files[schema_path], document, files, schema_path)
     errors = refusals(schema, document)
-    report(_named(path, values), (problem for error in errors for problem in _explain(error, schema, document)))
+    report(_named(path, values), (each for error in errors for each in _explain(error, schema, document)))
     return document, schema
 
 
