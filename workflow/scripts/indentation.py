@@ -10,7 +10,7 @@ from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.store import load, write_rows
-from fingerpad.tissue.compliance import CondensedBody, CondensedSection
+from fingerpad.tissue.compliance import CondensedSection, load_body
 
 
 def main(
@@ -31,7 +31,7 @@ def main(
     for path, section in zip(devices, condensed, strict=True):
         scene = load_scene(config, path)
         name = scene.device.name
-        body = load(actuators[name], CondensedBody) if name in actuators else None
+        body = load_body(actuators.get(name))
         for interface in scene.device.interfaces():
             problem = contact_problem(scene, load(section, CondensedSection), body, interface)
             rows += curve_rows(name, interface, Kinematics.SMALL, small_strain_curve(scene, problem))

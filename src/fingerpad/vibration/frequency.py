@@ -19,7 +19,7 @@ from ..contact.depth import depth, require_tissue
 from ..contact.formulation import actuator_forces
 from ..contact.linear_solution import Indented, indent_device
 from ..errors import ContactError, InertiaError, UnsolvedError
-from ..prediction.caveats import pressing_caveats, scene_caveats, state_caveats
+from ..prediction.caveats import note_of, pressing_caveats, scene_caveats, state_caveats
 from ..prediction.scoring import Condensed, attempt
 from ..readouts.gabor import filtered_readouts
 from ..readouts.roughness import NO_PREDICTION, SCORE_UNIT, roughness_scores
@@ -187,7 +187,7 @@ def _row(
         "score": outcome.scores.get(readout),
         "unit": SCORE_UNIT,
         "inertia": outcome.inertia,
-        "note": "; ".join(outcome.caveats),
+        "note": note_of(outcome.caveats),
         "caveats": tuple(outcome.caveats),
     }
 
