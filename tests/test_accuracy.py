@@ -98,7 +98,7 @@ def test_errors_are_of_the_time_that_is_read(kinematics: Kinematics) -> None:
     once = Condition("once", "a", 0.0, np.array([1.0]), 0.0 * there, there)
     path = np.concatenate([there, 0.0 * there, -there])
     both = Condition("both", "a", 1.0, np.array([1.0, 2.0, 3.0]), 0.0 * path, path)
-    found = forecast(replace(base, device=replace(base.device, conditions=(once, both))))
+    found = forecast(base.with_device(conditions=(once, both)))
     without = [row for row in found if row["interface"] == Interface.FRICTIONLESS]
     errors = {(row["condition"], row["readout"]): row["score_error"] for row in without}
     for readout in Readout:
@@ -180,7 +180,7 @@ def test_a_single_pin_that_moves_sideways_states_an_error_that_holds() -> None:
     pin = replace(base.device.actuators, positions=(0.0,))
     moved = np.array([[0.02]])
     aside = Condition("aside", "one", 0.0, np.array([1.0]), 0.0 * moved, moved)
-    single = replace(base, device=replace(base.device, actuators=pin, conditions=(aside,), cycles=()))
+    single = base.with_device(actuators=pin, conditions=(aside,), cycles=())
     finer = [row | {"times_unknowns": "4"} for row in rows_at(single, 0.5, edge_intervals(single))]
     found = true_errors(forecast(single), finer)
     assert len(found) == 4

@@ -138,7 +138,7 @@ def switches(coarse: Scene, stated: list[dict[str, Any]]) -> list[dict[str, Any]
     """The ledger of the coarse scene, one of whose conditions comes twice, and one is rest."""
     conditions = coarse.device.conditions
     more = *conditions, replace(conditions[0], name="again_000"), at_rest(coarse)
-    return list(skip_rows(replace(coarse, device=replace(coarse.device, conditions=more)), stated, 1))
+    return list(skip_rows(coarse.with_device(conditions=more), stated, 1))
 
 
 @pytest.fixture(scope="module")
@@ -179,7 +179,7 @@ def test_skips_move_no_score_beyond_its_error(switches: list[dict[str, Any]]) ->
 
 
 def test_increments_leave_no_trace(stated: list[dict[str, Any]], coarse: Scene) -> None:
-    resting = replace(coarse, device=replace(coarse.device, conditions=(*coarse.device.conditions, at_rest(coarse))))
+    resting = coarse.with_device(conditions=(*coarse.device.conditions, at_rest(coarse)))
     rows = list(increment_rows(resting, [4], stated))
     assert {row["readout"] for row in rows} == set(Readout)
     assert {row["scores"] for row in rows} == {2 * len(coarse.device.conditions)}  # at both interfaces

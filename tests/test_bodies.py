@@ -64,7 +64,7 @@ class Leaning(Body):
 def with_body(body: Body) -> Scene:
     """Device 3 with another body."""
     base = scene("device3")
-    return replace(base, device=replace(base.device, actuators=replace(base.device.actuators, body=body)))
+    return base.with_device(actuators=replace(base.device.actuators, body=body))
 
 
 def answers(body: Body) -> FloatArray:

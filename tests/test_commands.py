@@ -648,9 +648,7 @@ def test_small_strain_is_doubted_where_indentation_is_deep() -> None:
 
 def test_a_face_of_few_elements_is_doubted() -> None:
     given = scene("device2")
-    narrow = replace(
-        given, device=replace(given.device, actuators=replace(given.device.actuators, width=0.03, edge_radius=0.0))
-    )
+    narrow = given.with_device(actuators=replace(given.device.actuators, width=0.03, edge_radius=0.0))
     solution = solved("device2", "alternate_090", Interface.SHEAR)
     assert solution_caveats(narrow, solution, Interface.SHEAR) == [
         "actuators are 2.0 elements wide: try a smaller numerics.edge_size"
@@ -665,7 +663,7 @@ def test_round_actuators_say_where_they_end() -> None:
     """`full` asks for flat faces to be covered; a depth or a force is what it says, whatever the faces."""
     given, solution = scene("device2"), solved("device2", "alternate_090", Interface.SHEAR)
     row = replace(given.device.actuators, edge_radius=given.device.actuators.width / 2.0)
-    domes = replace(given, device=replace(given.device, actuators=row))
+    domes = given.with_device(actuators=row)
     (caveat,) = solution_caveats(domes, solution, Interface.SHEAR)
     assert caveat.startswith("round actuators have no flat face to cover: pre-indentation ends where contact reaches")
     law = replace(domes.model.contact, criterion=Criterion.FORCE)
@@ -878,7 +876,7 @@ def test_a_single_pin_that_touches_alone_presses_on_next_to_nothing() -> None:
 def test_all_stimuli_of_a_device_set_out_from_one_force() -> None:
     """That of pre-indentation, which knows nothing of what follows; pins that rise and sink end with others."""
     base = scene("device1")
-    given = replace(base, device=replace(base.device, conditions=base.device.conditions[-2:], cycles=()))
+    given = base.with_device(conditions=base.device.conditions[-2:], cycles=())
     rows = forecast(given.coarsened(4.0), error=False)
     assert len({row["condition"] for row in rows}) == 2
     for interface in Interface:
@@ -1301,9 +1299,7 @@ def test_python_gives_the_same_table(checkout: Path) -> None:
 
 def test_a_device_with_shear_alone_says_why_the_rest_is_left_out() -> None:
     base = scene("device2").coarsened(4.0)
-    both, alone = (
-        forecast(replace(base, device=replace(base.device, frictionless=each)), error=False) for each in (True, False)
-    )
+    both, alone = (forecast(base.with_device(frictionless=each), error=False) for each in (True, False))
     assert [row["score"] for row in both if row["interface"] == "shear"] == pytest.approx(
         [row["score"] for row in alone if row["interface"] == "shear"], rel=0.05
     )  # edges, and so meshes, are those of the interfaces that are solved
@@ -1487,7 +1483,7 @@ def test_why_there_is_nothing_without_friction_depends_on_control(monkeypatch: p
     monkeypatch.setattr("fingerpad.prediction.forecast.edge_intervals", lambda scene: None)
     monkeypatch.setattr("fingerpad.prediction.forecast.solved_rows", lambda *given: ([], {}))
     for control, why in ((Control.FORCE, SILENT), (Control.DISPLACEMENT, LEFT_OUT)):
-        rows = forecast(replace(base, device=replace(base.device, control=control, frictionless=False)), error=False)
+        rows = forecast(base.with_device(control=control, frictionless=False), error=False)
         assert rows
         assert all(row["caveats"] == (why,) for row in rows)
 
@@ -1505,7 +1501,7 @@ def test_errors_are_solved_up_to_the_time_that_is_read(monkeypatch: pytest.Monke
         return solve(own, *rest)
 
     monkeypatch.setattr(scoring, "solve_scene", solving)
-    rows = forecast(replace(base, device=replace(base.device, conditions=(both,))))
+    rows = forecast(base.with_device(conditions=(both,)))
     assert sizes == [[2], [1], [1]]
     assert {(row["time"], row["time_unit"]) for row in rows} == {(1.0, "s")}
 
@@ -1570,7 +1566,7 @@ def test_a_lift_is_no_stroke_into_the_skin() -> None:
     pad = given.model.finger.pad_thickness
     for height, doubted in ((-2.0 * pad, False), (2.0 * pad, True)):
         conditions = tuple(replace(each, normal=np.full_like(each.normal, height)) for each in given.device.conditions)
-        lifted = replace(given, device=replace(given.device, conditions=conditions))
+        lifted = given.with_device(conditions=conditions)
         assert (TOO_FAR in told_of(lifted)) is doubted
 
 
@@ -1650,7 +1646,7 @@ def test_frequencies_that_are_asked_for_take_the_place_of_the_files() -> None:
     given = scene("device2")
     assert at_frequencies(given, []).device.frequencies == given.device.frequencies
     assert at_frequencies(given, [60.0, 25.0, 60.0]).device.frequencies == (25.0, 60.0)
-    silent = replace(given, device=replace(given.device, frequencies=()))
+    silent = given.with_device(frequencies=())
     assert at_frequencies(silent, [25.0]).device.frequencies == (25.0,)
     with pytest.raises(UsageError, match=r"found no frequency; give one, or stimulus\.frequency_hz in the device file"):
         at_frequencies(silent, [])

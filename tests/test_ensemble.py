@@ -377,7 +377,7 @@ def test_a_score_of_nothing_keeps_its_error_as_long_as_it_is_nothing() -> None:
 
 def test_members_leave_out_kinematics_that_a_device_does() -> None:
     own = scene("device2")
-    small = replace(own, device=replace(own.device, kinematics=(Kinematics.SMALL,))).coarsened(8.0)
+    small = own.with_device(kinematics=(Kinematics.SMALL,)).coarsened(8.0)
     assert member_scores([small], Kinematics.FINITE, None, FIRST) == []
 
 

@@ -85,7 +85,7 @@ def surface(blocks: list[Block], name: str) -> FloatArray:
 def test_edges_deeper_than_a_deformable_body_is_thick_are_refused(radius: float, fits: bool) -> None:
     """Of a circle up to 75 degrees and a wall from there on: 0.87 times the radius, here of 0.15 mm."""
     given = scene("device3")
-    given = replace(given, device=replace(given.device, actuators=replace(given.device.actuators, edge_radius=radius)))
+    given = given.with_device(actuators=replace(given.device.actuators, edge_radius=radius))
     if fits:
         assert of_kind(parsed(given, DECK), "ELEMENT")
     else:
@@ -110,7 +110,7 @@ def test_skin_of_close_pins_is_that_of_one_of_them_each() -> None:
     """Four pins with gaps of a few elements, coarsely meshed: surfaces join without a gap, and mirror."""
     base = scene("device2")
     row = replace(base.device.actuators, positions=(-0.825, -0.275, 0.275, 0.825), width=0.5)
-    close = replace(base, device=replace(base.device, actuators=row)).coarsened(4.0)
+    close = base.with_device(actuators=row).coarsened(4.0)
     blocks = parsed(close, DECK)
     skins = [surface(blocks, f"SKIN_{number}")[:, :, 0] for number in range(1, 5)]
     ends = np.array([[skin.min(), skin.max()] for skin in skins])
@@ -298,7 +298,7 @@ def test_command_writes_a_deck(tmp_path: Path, capsys: pytest.CaptureFixture[str
 def test_a_title_is_no_keyword() -> None:
     """CalculiX would take a title that begins with an asterisk for one."""
     given = scene("device2")
-    titled = replace(given, device=replace(given.device, title="*STEP"))
+    titled = given.with_device(title="*STEP")
     assert [keyword for keyword, _, _ in parsed(titled, DECK)] == [keyword for keyword, _, _ in parsed(given, DECK)]
 
 

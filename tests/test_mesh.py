@@ -192,9 +192,7 @@ def test_thick_bodies_have_higher_elements_far_from_the_face(thickness: float, m
     base = scene("device3")
     row = base.device.actuators
     assert row.body is not None
-    given = replace(
-        base, device=replace(base.device, actuators=replace(row, body=replace(row.body, thickness=thickness)))
-    )
+    given = base.with_device(actuators=replace(row, body=replace(row.body, thickness=thickness)))
     sizes, answers = [], []
     for near in (strip.NEAR, np.inf):
         monkeypatch.setattr(strip, "NEAR", near)
@@ -358,7 +356,7 @@ def test_edges_of_a_stimulus_that_comes_back_lie_where_they_did_on_the_way() -> 
 def test_edges_of_next_to_no_stimulus_are_those_of_pre_indentation() -> None:
     """With finite kinematics, where stimuli go on from tissue that is deformed already."""
     base = scene("device2").coarsened(2.0).with_kinematics(Kinematics.FINITE)
-    base = replace(base, device=replace(base.device, frictionless=False))
+    base = base.with_device(frictionless=False)
     assert np.abs(edges_of_strokes(base, 1e-5) - edges_of_strokes(base, 0.0)).max() < MEASURED
 
 
@@ -382,7 +380,7 @@ def test_skin_too_coarse_for_any_actuator_is_refused() -> None:
     moved = base.device.conditions[0]
     moved = replace(moved, normal=moved.normal[:, 1:3], tangential=moved.tangential[:, 1:3])
     pair = replace(base.device.actuators, positions=base.device.actuators.positions[1:3])
-    given = replace(base, device=replace(base.device, actuators=pair, conditions=(moved,)))
+    given = base.with_device(actuators=pair, conditions=(moved,))
     with pytest.raises(MeshError, match=r"no element of the skin lies within reach .* numerics\.face_size"):
         contact_tractions(mesh_section(given, nominal_edges(pair)), given)
 

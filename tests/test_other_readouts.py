@@ -84,7 +84,7 @@ def test_variants_are_read_when_a_stimulus_has_settled() -> None:
     base = scene(DEVICE)
     tangential = np.outer([0.02, -0.01], [1.0, -1.0, 1.0, -1.0])
     strokes = Condition("strokes", "test", 0.0, np.array([1.0, 2.0]), np.zeros_like(tangential), tangential, 1)
-    given = replace(base, device=replace(base.device, conditions=(strokes,), cycles=()))
+    given = base.with_device(conditions=(strokes,), cycles=())
     solution = solve(DEVICE, strokes, Interface.FRICTIONLESS)
     found = readout_rows(given, {Side.DERMIS: condensed(DEVICE)[0]}, {("strokes", Interface.FRICTIONLESS): solution})
     usual = [row for row in found if row["measure"] == Measure.MAXIMUM_PRINCIPAL and row["wavelength_factor"] == 1.0]

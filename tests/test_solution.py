@@ -369,7 +369,7 @@ def test_a_row_too_wide_says_what_helps() -> None:
     base = scene("device2")
     still = lateral("still", [0.0, 0.0])
     row = replace(base.device.actuators, positions=(-7.0, 7.0))
-    wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,)))
+    wide = base.with_device(actuators=row, conditions=(still,))
     advice = r"contact\.criterion: touch, depth or force \(in the device file, or .* may need less indentation"
     with pytest.raises(ContactError, match=advice):
         solve_anew(wide.coarsened(4.0), still)
@@ -441,7 +441,7 @@ def test_a_stimulus_is_not_blamed_for_where_pressing_ended() -> None:
     base = base.with_model(numerics=replace(base.model.numerics, contact_margin=0.25))
     still = lateral("still", [0.0] * 5)
     row = replace(base.device.actuators, positions=(-5.0, -2.5, 0.0, 2.5, 5.0))
-    wide = replace(base, device=replace(base.device, actuators=row, conditions=(still,), cycles=()))
+    wide = base.with_device(actuators=row, conditions=(still,), cycles=())
     said = r"device=device2, interface=shear, pre-indentation: .* moved [\d.]+ mm sideways; .* as a narrower row does"
     with pytest.raises(ReachError, match=said):
         indent_device(wide, condense_section(mesh_section(wide, nominal_edges(row)), wide), None, Interface.SHEAR)
@@ -692,7 +692,7 @@ def test_opposite_waves_that_are_played_in_cycles_score_alike() -> None:
     waves = tuple(phased(stimulus, 3, Path()))
     base = scene("device2")
     row = replace(base.device.actuators, positions=(-2.5, 0.0, 2.5))
-    three = replace(base, device=replace(base.device, actuators=row, conditions=waves, cycles=())).coarsened(3.0)
+    three = base.with_device(actuators=row, conditions=waves, cycles=()).coarsened(3.0)
     section = condense_section(mesh_device(three), three)
     resampling = resampling_to_grid(section.arc, three.model.gabor.spacing)
 
@@ -730,7 +730,7 @@ def test_waves_that_differ_in_time_alone_score_alike() -> None:
     asked = waves["left_060"], waves["right_300"]
     base = scene("device2")
     row = ActuatorRow(tuple(1.2 * np.arange(-2.5, 3.0)), 0.5, 0.05)
-    six = replace(base, device=replace(base.device, actuators=row, conditions=asked, cycles=())).coarsened(3.0)
+    six = base.with_device(actuators=row, conditions=asked, cycles=()).coarsened(3.0)
     section = condense_section(mesh_device(six), six)
     resampling = resampling_to_grid(section.arc, six.model.gabor.spacing)
     scores = []
@@ -899,7 +899,7 @@ def test_skin_on_the_mid_line_is_left_out_only_where_no_face_gets_near() -> None
     base, margin = scene("device2"), replace(scene("device2").model.numerics, contact_margin=0.8)
     section = mesh_device(base)
     for stroke, reached in ((0.3, False), (0.4, True)):  # the inner pins' faces end 0.75 mm beside it
-        moved = replace(base, device=replace(base.device, conditions=(lateral("moved", [stroke] * 4),), cycles=()))
+        moved = base.with_device(conditions=(lateral("moved", [stroke] * 4),), cycles=())
         x = contact_tractions(section, moved.with_model(numerics=margin)).position[:, 0]
         assert (0.0 in x) is reached
 
@@ -925,7 +925,7 @@ def test_skin_that_is_considered_is_the_pads_and_mirrors() -> None:
     """Of a row that lies aside, too; the back of the finger, above the pins, is out of reach."""
     base = scene("device2")
     row = replace(base.device.actuators, positions=(-0.5, 2.0, 4.5, 7.0))
-    aside = replace(base, device=replace(base.device, actuators=row))
+    aside = base.with_device(actuators=row)
     x, y = contact_tractions(section("device2"), aside).position.T
     assert np.sort(x) == pytest.approx(np.sort(-x), abs=1e-9)
     assert y.max() < base.model.finger.height / 2.0

@@ -243,7 +243,7 @@ def test_actuators_finer_than_the_skins_nodes_are_refused() -> None:
     scene = random_scene(0)
     span = scene.device.actuators.positions[-1] or 1.0
     row = ActuatorRow(tuple(np.linspace(-span, span, 2000)), span / 2000, 0.0)
-    crowded = replace(scene, device=replace(scene.device, actuators=row, conditions=(_still(2000),)))
+    crowded = scene.with_device(actuators=row, conditions=(_still(2000),))
     with pytest.raises(MeshError, match=r"stress_00000: no skin node is near the actuator .*numerics\.face_size"):
         contact_problem(crowded, condensed(0), None, Interface.SHEAR)
 

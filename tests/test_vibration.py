@@ -62,7 +62,7 @@ def coarse(device: str = "device2", layers: tuple[str, ...] | None = None, sharp
     vibration = replace(base.model.vibration, relaxation=replace(relaxation, layers=layers or relaxation.layers))
     row = base.device.actuators
     actuators = ActuatorRow(row.positions, row.width, 0.0) if sharp else row
-    return replace(base, device=replace(base.device, actuators=actuators)).with_model(vibration=vibration)
+    return base.with_device(actuators=actuators).with_model(vibration=vibration)
 
 
 def with_relaxation(relaxation: Relaxation) -> Scene:
@@ -551,7 +551,7 @@ def test_what_cannot_be_pressed_has_rows_that_say_so() -> None:
 def test_a_forecast_is_the_table_on_a_mesh_of_its_own_and_says_how_far_it_has_come() -> None:
     """Whatever the number of threads, on which rounding depends."""
     given = coarse()
-    asked = replace(given, device=replace(given.device, frequencies=(5.0,), cycles=given.device.cycles[:1]))
+    asked = given.with_device(frequencies=(5.0,), cycles=given.device.cycles[:1])
     section, done = mesh(("device2", False)), list[int]()
     with threadpool_limits(1):
         table = vibration_rows(asked, section, condense_mesh(asked, section))

@@ -80,7 +80,7 @@ def on_deck(scene: Scene, coarsening: float) -> Scene:
 def sharpened(scene: Scene) -> Scene:
     """The scene with sharp edges: contact ends where the flat face does, and no normal can turn."""
     actuators = replace(scene.device.actuators, edge_radius=0.0)
-    return replace(scene, device=replace(scene.device, actuators=actuators))
+    return scene.with_device(actuators=actuators)
 
 
 def deck_inputs(scene: Scene, case: Case) -> tuple[Scene, DeckSettings]:

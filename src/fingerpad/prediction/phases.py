@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +22,7 @@ def phase_rows(device: Path, schemas: Path, config: Path) -> Iterator[dict[str, 
     score is None. device: a file with `stimulus.phases`. Raises SceneError if it has none.
     """
     scene = check_device(device, schemas, config, {"stimulus.phases": PHASES})
-    with_shear = replace(scene, device=replace(scene.device, frictionless=False))
+    with_shear = scene.with_device(frictionless=False)
     for each in with_all_kinematics([with_shear]):
         for row in forecast(each):
             if row["interface"] == Interface.SHEAR:

@@ -109,11 +109,15 @@ class Scene:
         """The scene with other parts of its model, by their names."""
         return replace(self, model=replace(self.model, **parts))
 
+    def with_device(self, **parts: Any) -> Scene:
+        """The scene with other parts of its device, by their names."""
+        return replace(self, device=replace(self.device, **parts))
+
     def with_conditions(self, conditions: Iterable[Condition]) -> Scene:
         """The scene with other conditions of its device; as vibrations those that it has under these names."""
         kept = tuple(conditions)
         cycles = tuple(cycle for cycle in self.device.cycles if any(cycle.name == each.name for each in kept))
-        return replace(self, device=replace(self.device, conditions=kept, cycles=cycles))
+        return self.with_device(conditions=kept, cycles=cycles)
 
     def with_asked(self, names: Collection[str]) -> Scene:
         """The scene with the conditions of these names alone, in their order here, or with all if none is named. Raises

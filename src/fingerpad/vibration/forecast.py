@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 from threadpoolctl import threadpool_limits
@@ -35,7 +34,7 @@ def at_frequencies(scene: Scene, frequencies: Sequence[float]) -> Scene:
         if not (is_number(frequency) and LOWEST <= frequency <= HIGHEST):
             raise UsageError(f"frequency: found {frequency}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
     wanted = tuple(sorted(set(frequencies))) or device.frequencies
-    return replace(scene, device=replace(device, frequencies=wanted))
+    return scene.with_device(frequencies=wanted)
 
 
 def vibration_forecast(scene: Scene, step: Callable[[], object] = lambda: None) -> list[dict[str, Any]]:
