@@ -17,8 +17,7 @@ from skfem import MeshTri, MeshTri2
 
 from fingerpad.arrays import FloatArray
 from fingerpad.calculix.both_sides import BothSides
-from fingerpad.calculix.case import Case, case_of
-from fingerpad.calculix.contact_model import ContactModel
+from fingerpad.calculix.case import Case, ContactModel, case_of
 from fingerpad.calculix.crosscheck import (
     Outcome,
     calculix_outcome,

@@ -12,8 +12,7 @@ from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.actuator_body import body_of
 from ..tissue.condensation import condense_section
-from .case import Case
-from .contact_model import ContactModel
+from .case import Case, ContactModel
 from .crosscheck import Outcome, calculix_outcome, deck_inputs, fingerpad_outcome, on_deck
 from .deformed_crosscheck import deformed_outcome
 

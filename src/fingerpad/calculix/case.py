@@ -1,4 +1,4 @@
-"""What one comparison with CalculiX computes: a path, the deck's contact and increments, and both meshes."""
+"""What one comparison with CalculiX computes: a path, contact and increments on either side, and both meshes."""
 
 from __future__ import annotations
 
@@ -23,6 +23,14 @@ class Edges(StrEnum):
 
     ROUNDED = "rounded"
     SHARP = "sharp"
+
+
+class ContactModel(StrEnum):
+    """Contact on fingerpad's side: its own; with CalculiX's penalties; with its turning normal too."""
+
+    OWN = "fingerpad"
+    PENALTIES = "fingerpad with penalties"
+    TURNING = "fingerpad with penalties and turning normal"
 
 
 @dataclass(frozen=True)

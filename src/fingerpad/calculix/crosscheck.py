@@ -35,8 +35,7 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from ..tissue.elasticity import mesh_dofs, strain_of_gradient
 from ..tissue.mesh import SectionMesh
 from ..tissue.receptors import arc_length, receptor_gradient
-from .case import Case, Edges
-from .contact_model import ContactModel
+from .case import Case, ContactModel, Edges
 from .deck import DeckSettings, input_deck
 from .height import indented_height
 from .penalty import PenaltyLaw, PenaltyState, follow_penalties, untouched

@@ -11,8 +11,7 @@ from ..errors import CalculixError, ContactError
 from ..scene.scene import Scene
 from ..store import alike
 from .both_sides import both_sides
-from .case import Case
-from .contact_model import ContactModel
+from .case import Case, ContactModel
 from .crosscheck import Outcome, differences
 
 

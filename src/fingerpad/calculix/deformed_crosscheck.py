@@ -16,7 +16,7 @@ from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..tissue.compliance import CondensedBody
 from ..tissue.mesh import SectionMesh
-from .contact_model import ContactModel
+from .case import ContactModel
 from .crosscheck import (
     OWN_INDENTATION_INCREMENTS,
     OWN_STIMULUS_INCREMENTS,

@@ -10,8 +10,7 @@ from ..readouts.roughness import SCORE_UNIT
 from ..scene.readout import Readout
 from ..scene.scene import Scene
 from .both_sides import both_sides
-from .case import Case
-from .contact_model import ContactModel
+from .case import Case, ContactModel
 
 DIGITS = 5  # significant digits of a score [1]
 

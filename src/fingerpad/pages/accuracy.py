@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 
-from ..calculix.contact_model import ContactModel
+from ..calculix.case import ContactModel
 from ..closedforms.comparison import ORDER_OF
 from ..readouts.roughness import SCORE_KEY, SERIES
 from ..scene.contact_law import Interface
