@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray
-from ..contact.formulation import ContactState, rest, switch_friction, touching_height
+from ..contact.formulation import ContactState, rest, touching_height
 from ..contact.path import follow
-from ..contact.problem import contact_problem, pressing_problem
+from ..contact.problem import contact_problem, once_pressed, pressing_problem
 from ..readouts.gabor import filtered_readouts
 from ..readouts.resampling import resampling_to_grid
 from ..readouts.roughness import score_rows
@@ -50,8 +50,7 @@ def plain_scores(
             condensed = condense_section(section, scene)
             problem = replace(problem, compliance=condensed.compliance)
             state = follow(problem, state, start + step / count * (target - start), 1)
-        if problem.friction < acting.friction:
-            state, problem = switch_friction(state), acting
+        state, problem = once_pressed(state, problem, acting), acting
         states.append(state)
     forces: FloatArray = np.array([each.force for each in states])
     readouts = read_receptors(condensed.receptor_strain(forces), condensed.arc, settling=condition.settling).readouts

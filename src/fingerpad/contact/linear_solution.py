@@ -15,12 +15,12 @@ from ..tissue.compliance import CondensedBody, CondensedSection
 from .advice import named_pressing, named_stimulus
 from .certificate import Certificate, certify, require_within_reach, worst
 from .depth import require_tissue
-from .formulation import ContactProblem, ContactState, switch_friction
+from .formulation import ContactProblem, ContactState
 from .increment import solve_increment
 from .indentation import indent
 from .patch import Patch
 from .path import SolveIncrement, advance
-from .problem import contact_problem, indentation_increments, pressing_problem, stimulus_increments
+from .problem import contact_problem, indentation_increments, once_pressed, pressing_problem, stimulus_increments
 from .solution import Solution, solution
 from .symmetry import part_of, unfolded
 
@@ -52,7 +52,7 @@ def raised(
     pressing = pressing_problem(scene, part)
     count = indentation_increments(scene, pressing)
     state = indent(pressing, scene.model.contact, count, scene.model.finger.pad_thickness, solve)
-    return switch_friction(state) if pressing.friction < part.friction else state
+    return once_pressed(state, pressing, part)
 
 
 def follow_condition(

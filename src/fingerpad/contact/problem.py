@@ -11,7 +11,7 @@ from ..scene.contact_law import FrictionFrom, Interface
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..tissue.compliance import CondensedBody, CondensedSection
-from .formulation import ContactProblem
+from .formulation import ContactProblem, ContactState, switch_friction
 
 FRICTIONLESS_SHARE = 2  # without friction one increment in so many [1] is enough; source: fewest seconds (measured)
 
@@ -52,6 +52,14 @@ def pressing_problem(scene: Scene, problem: ContactProblem) -> ContactProblem:
     # ASSUME: contact.friction_from: whether skin also rubs while the device is pressed
     from_touch = scene.model.contact.friction_from is FrictionFrom.TOUCH
     return problem if from_touch or problem.friction == 0.0 else replace(problem, friction=0.0)
+
+
+def once_pressed(state: ContactState, pressing: ContactProblem, acting: ContactProblem) -> ContactState:
+    """The state in which pre-indentation ends, with the friction that acts from the stimulus on.
+
+    pressing: what pre-indentation posed. acting: what the stimulus poses.
+    """
+    return switch_friction(state) if pressing.friction < acting.friction else state
 
 
 def indentation_increments(scene: Scene, problem: ContactProblem) -> int:

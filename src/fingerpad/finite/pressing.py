@@ -18,10 +18,10 @@ from ..arrays import FloatArray
 from ..contact.advice import named_pressing
 from ..contact.certificate import require_within_reach
 from ..contact.force_curve import curve_of
-from ..contact.formulation import ContactProblem, ContactState, rest, switch_friction, touching_height
+from ..contact.formulation import ContactProblem, ContactState, rest, touching_height
 from ..contact.indentation import raise_until
 from ..contact.path import SolveIncrement, advance, recording
-from ..contact.problem import contact_problem, indentation_increments, pressing_problem
+from ..contact.problem import contact_problem, indentation_increments, once_pressed, pressing_problem
 from ..contact.symmetry import half_of, mirrors, unfolded
 from ..scene.contact_law import Interface
 from ..scene.scene import Scene
@@ -76,8 +76,8 @@ class _Start:
 
     tractions, undeformed: of all contact nodes; the section has no maps, as nobody asks for them. parts: of the section
     that are solved. tissues: of each kind of loads. problem: of the parts' contact nodes, whatever its compliance;
-    whole: of all. switches: whether friction acts from the stimulus on alone. state: at first touch. increments: of the
-    tissue, and of contact in each.
+    whole: of all; acting: of all, from the stimulus on. state: at first touch. increments: of the tissue, and of
+    contact in each.
     """
 
     tractions: Tractions
@@ -86,7 +86,7 @@ class _Start:
     tissues: tuple[TissuePart, ...]
     problem: ContactProblem
     whole: ContactProblem
-    switches: bool
+    acting: ContactProblem
     state: DeformedState
     increments: tuple[int, int]
 
@@ -144,7 +144,7 @@ def _start(scene: Scene, section: SectionMesh, body: CondensedBody | None, inter
         tissues=tuple(_part(scene, section, parts, which) for which in range(len(parts.held))),
         problem=solved,
         whole=problem,
-        switches=problem.friction < acting.friction,
+        acting=acting,
         state=deformed_state(rest(solved, touching_height(solved)), np.zeros(parts.dofs.size)),
         increments=increments_of(indentation_increments(scene, problem)),
     )
@@ -195,7 +195,7 @@ def _pressed(section: SectionMesh, start: _Start, states: Sequence[ContactState]
         curve = curve * [1.0, start.problem.images]
         columns = unfolding(start.tractions.position.shape[0], MIRROR)
         compliance = unfold(compliance, tangents[1].compliance, columns, columns)
-    state = switch_friction(state) if start.switches else state
+    state = once_pressed(state, start.whole, start.acting)
     moved = start.tractions.loads.T @ displacement[:, start.tractions.nodes].T
     free = moved - displaced(compliance, state.force)
     residual = max(reached.change, *(tangent.residual for tangent in tangents))
