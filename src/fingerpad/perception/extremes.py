@@ -20,8 +20,8 @@ DECIMALS = 12  # of r and R²; source: there floating point ends
 class RatingRange:
     """How a score correlates with all ratings that agree with a stated order.
 
-    r, r2: lowest and highest [1]. ratings: (2, n), >= 0, with which r is lowest and highest. generators: (k, n) of all
-    ratings: each is a constant and a sum of these, none of them negative.
+    r, r2: lowest and highest [1]. ratings: (2, n), >= 0, with which r is lowest and highest: the witness that the range
+    is attained. generators: (k, n) of all ratings: each is a constant and a sum of these, none of them negative.
     """
 
     r: tuple[float, float]
