@@ -51,8 +51,9 @@ FRONT_POWER = 2.0 / 3.0
 
 @dataclass(frozen=True)
 class ContactProblem:
-    """Skin, actuators and the laws of their contact: what a path of states is followed on. It stays as it is along the
-    path, but for `given`, which follows the states (`ownership.given_as`).
+    """Skin, actuators and the laws of their contact: what a path of states is followed on. Along the path it
+    differs in `given`, which follows the states (`ownership.given_as`), in `most_iterations` on the last try
+    (`path.advance`), and in `free` and `compliance` where tissue creeps or deforms (`path.drifting_to`, `deformed`).
 
     position: (n, 2) undeformed contact nodes [mm]. compliance: (2n, 2n) [mm per N/mm], ordered x0, y0, ...
     row: the actuators. body: condensed body of a deformable actuator, or None. friction: coefficient [1].

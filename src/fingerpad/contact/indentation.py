@@ -49,9 +49,9 @@ def raise_until(
 
     FULL: contact reaches both ends of every flat face, or the middle of a round one. TOUCH: every actuator carries some
     skin. DEPTH: that of the row from first touch. FORCE: that all press with. increments: number for the way to that
-    depth, or from first touch to where the undeformed skin over the outermost face, or its middle, would lie. limit:
-    largest indentation [mm]. state: at first touch.
-    solve: an increment.
+    depth, or from first touch to where the undeformed skin over the outermost face, or its middle, would lie; to a
+    force, for SHALLOW of the limit if that is farther. limit: largest indentation [mm]. state: at first touch. solve:
+    an increment.
 
     Raises CriterionError if the criterion is not met within the limit, and what `path.advance` raises, unless that is
     lost beyond the end.
