@@ -30,7 +30,8 @@ class Job(Protocol):
 
 def run(main: Callable[..., None], job: Job) -> None:
     """Call a script's main function with what its job has under the names of the parameters, and say in the job's logs
-    why it fails. Matrix libraries take one thread, whatever the job has: results depend on their number.
+    why it fails. Matrix libraries take one thread, whatever the job has: two threads take longer (decision 14), and
+    results depend on their number.
 
     Ends with status 1: at a FingerpadError with its message alone, there and on standard error; at any other error with
     the traceback.

@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> None:
         stimulus_increments=options.stimulus_increments,
         rest_increments=options.rest_increments,
     )
-    # how deep the deck goes does not depend on the number of threads
+    # two threads take longer (decision 14), and results depend on their number
     with progress(STEPS, scene.device.name) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()

@@ -49,6 +49,7 @@ def run(options: argparse.Namespace) -> None:
         if folder.exists() and not folder.is_dir():
             raise UsageError(f"{folder}: found a file; allowed: a folder, or nothing, where states on the way go")
     scene, condition, interface = checked_case(options)
+    # two threads take longer (decision 14), and results depend on their number
     with progress(STEPS, scene.device.name) as bar, threadpool_limits(1):
         section = mesh_device(scene)
         bar.update()

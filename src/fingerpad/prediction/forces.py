@@ -34,7 +34,7 @@ def force_rows(scene: Scene, error: bool = True, step: Callable[[], object] = la
     The error of a force F is |F_2 - F| / DIFFERENCE, with F_2 that of the coarser solution. As a difference may vanish
     by chance, the largest of all actuators and both directions at a time is taken, for all of them.
     """
-    with threadpool_limits(1):  # as `forecast`
+    with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         edges = edge_intervals(scene)
         solved = list(_solved(scene, edges, step))
         coarser = {each.case: each for each in _solved(scene.coarsened(COARSENING), edges, step)} if error else {}

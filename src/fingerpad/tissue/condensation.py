@@ -164,7 +164,7 @@ def condense_ordered(
     """
     count = loads.shape[1]
     factors = factorise(permuted, csr_matrix(vstack([loads.T, strain])))
-    with threadpool_limits(1):  # the factors' blocks are small: more threads take longer, and round otherwise
+    with threadpool_limits(1):  # two threads take longer (decision 14), and results depend on their number
         read = factors.read(count)
     compliance = (read[:count] + read[:count].T) / 2.0  # Betti, but for rounding
     mix = np.random.default_rng(0).standard_normal(count)
