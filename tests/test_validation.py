@@ -20,11 +20,12 @@ from jsonschema import Draft202012Validator
 from fingerpad.errors import SceneError
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device_names import LONGEST_NAME, known_devices, require_device, require_new_name
-from fingerpad.scene.meant import _meant_unit
+from fingerpad.scene.meant import RESERVED, _meant_unit
 from fingerpad.scene.problems import MOST_REPORTED
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.validation import check_config, check_device
 from fingerpad.scene.yamlfile import read_values
+from fingerpad.vibration.forecast import HIGHEST, LOWEST
 from scenes import scene
 
 ROOT = Path(__file__).parents[1]
@@ -716,3 +717,16 @@ def test_laws_refuse_what_is_out_of_range_and_take_no_friction() -> None:
             replace(given.contact, force=wrong)
     with pytest.raises(SceneError, match="ogden_exponent must be a number other than 0"):
         replace(given.tissue, ogden_exponent=0.0)
+
+
+def test_limits_in_code_are_those_of_the_schemas() -> None:
+    """A device's name is that of its file and a frequency may be an option: these no schema sees."""
+    config, device = (
+        yaml.safe_load((SCHEMAS / f"{name}.schema.yaml").read_text(encoding="utf-8"))["$defs"]
+        for name in ("config", "device")
+    )
+    name, frequency = config["name"], device["frequencies"]["properties"]["value"]["items"]
+    assert name["maxLength"] == LONGEST_NAME
+    names = re.search(r"\?!\(([a-z|]+)\)", name["pattern"])
+    assert names and set(names[1].split("|")) == RESERVED | {"value", "source"}  # which a quantity has
+    assert (frequency["minimum"], frequency["maximum"]) == (LOWEST, HIGHEST)
