@@ -561,12 +561,24 @@ def test_a_forecast_is_the_table_on_a_mesh_of_its_own_and_says_how_far_it_has_co
     assert done == [1] * steps_of(asked)
 
 
-def test_other_assumptions_on_relaxation_keep_to_the_limit_of_inertia() -> None:
+def test_other_assumptions_on_relaxation_keep_to_the_limit_of_inertia(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Creep, which does not know the limit, is condensed once of each."""
     given = coarse()
     device = replace(given.device, cycles=given.device.cycles[:1])
     careful = replace(given.model, vibration=replace(given.model.vibration, inertia_limit=1e-6))
     section = mesh(("device2", False))
     condensed = condense_mesh(given, section)
+
+    @cache
+    def crept(relaxation: Relaxation) -> Creep:
+        return condense_creep(
+            section, given.with_model(vibration=replace(given.model.vibration, relaxation=relaxation))
+        )
+
+    monkeypatch.setattr(
+        "fingerpad.vibration.frequency_variants.condense_creep",
+        lambda _, variant: crept(variant.model.vibration.relaxation),
+    )
     for model, predicted in ((given.model, True), (careful, False)):
         rows = relaxation_rows(Scene(model, device), section, condensed, 5.0)
         assert len({row["assumption"] for row in rows}) == len(rows) / len(Readout) == 5
