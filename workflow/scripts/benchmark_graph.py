@@ -1,7 +1,6 @@
 """Time `snakemake all` from nothing, and the same graph of jobs with empty scripts, one after the other."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -10,7 +9,11 @@ import time
 from itertools import product
 from pathlib import Path
 
+import yaml
+
 from fingerpad.jobs import run
+from fingerpad.scene.variation import with_value
+from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.store import write_rows
 
 EMPTY_SCRIPT = '''"""An empty job: it makes its outputs and does nothing."""
@@ -41,12 +44,8 @@ def copied(base: Path, files: list[Path], folder: str, kinematics: str, empty: b
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(file, copy)
     config = project / "config" / "config.yaml"
-    text, count = re.subn(
-        r"(?m)^(  kinematics: {value: )\w+", rf"\g<1>{kinematics}", config.read_text(encoding="utf-8")
-    )
-    if count != 1:
-        raise ValueError(f"{config}: found {count} lines that say which kinematics are computed, expected 1")
-    config.write_text(text, encoding="utf-8")
+    model = with_value(read_yaml(config), "tissue.kinematics", kinematics, "varied")
+    config.write_text(yaml.safe_dump(model, sort_keys=False), encoding="utf-8")
     if empty:
         for script in (project / "workflow" / "scripts").glob("*.py"):
             script.write_text(EMPTY_SCRIPT, encoding="utf-8")
