@@ -183,7 +183,7 @@ def targets(condition: Condition, settings: DeckSettings) -> list[FloatArray]:
 def softness(section: CondensedSection, settings: DeckSettings) -> FloatArray:
     """Compliance (2n,) [mm per N/mm] that the penalties add to each node: 1 / (slope times its length of skin)."""
     slopes = np.array([settings.stick_slope, settings.pressure_slope])
-    return np.asarray(1.0 / (section.weight[:, None] * slopes).ravel())
+    return 1.0 / (section.weight[:, None] * slopes).ravel()
 
 
 def _own_states(

@@ -211,7 +211,7 @@ def boundary_facets(mesh: MeshTri2, nodes: np.ndarray) -> np.ndarray:
     """Boundary facets (k,) whose three nodes are all among `nodes`."""
     facets = mesh.boundary_facets()
     whole = np.isin(mesh.facets[:, facets], nodes).all(axis=0) & np.isin(mesh.nvertices + facets, nodes)
-    return np.asarray(facets[whole])
+    return facets[whole]
 
 
 def _sides_of(mesh: MeshTri2, facets: np.ndarray) -> list[tuple[int, int]]:

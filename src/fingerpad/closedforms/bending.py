@@ -55,7 +55,7 @@ class Sector:
         linear = lam * hoop - lam - 2.0 * mu
         energy = 2.0 * mu * (lam + mu) / (lam + 2.0 * mu) * self.strain**2
         rest = square * hoop**2 - lam * hoop - energy
-        return np.asarray(2.0 * rest / (np.sqrt(linear**2 - 4.0 * square * rest) - linear))
+        return 2.0 * rest / (np.sqrt(linear**2 - 4.0 * square * rest) - linear)
 
     @cached_property
     def _way(self) -> Chebyshev:
@@ -73,7 +73,7 @@ class Sector:
         found = self.strain * (2.0 * x / HEIGHT - 1.0)
         for _ in range(ITERATIONS):
             found = found - (self._way(found) - self.curvature * x) / np.exp(found - self.radial(found))
-        return np.asarray(found)
+        return found
 
     def displacement(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Displacement (2, ...) [mm]; the middle of the end Y = 0 stays."""

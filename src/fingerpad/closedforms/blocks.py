@@ -56,7 +56,7 @@ def _half_plane_mesh(spacing: float, edge_spacing: float) -> MeshTri2:
     def size(x: FloatArray, y: FloatArray) -> FloatArray:
         to_face = np.hypot(np.maximum(x - HALF_WIDTH, 0.0), y)
         to_edge = np.hypot(x - HALF_WIDTH, y)
-        return np.asarray(np.minimum(spacing + GROWTH * to_face, edge_spacing + GROWTH * to_edge))
+        return np.minimum(spacing + GROWTH * to_face, edge_spacing + GROWTH * to_edge)
 
     return refined_block(np.array([0.0, FAR]), np.array([0.0, FAR]), size)
 

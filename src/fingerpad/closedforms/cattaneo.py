@@ -32,7 +32,7 @@ def stick_half_width(width: float, ratio: float) -> float:
 def traction(load: float, width: float, stick: float, x: FloatArray) -> FloatArray:
     """Exact shear traction (n,) [MPa] at x (n,) [mm]; load [N/mm], half-widths of contact and stick zone [mm]."""
     inside = stick / width * pressure(load, width, x * width / stick)  # Hertz's ellipse, shrunk to the stick zone
-    return np.asarray(FRICTION * (pressure(load, width, x) - inside))
+    return FRICTION * (pressure(load, width, x) - inside)
 
 
 def root_front(x: FloatArray, reserve: FloatArray) -> float:

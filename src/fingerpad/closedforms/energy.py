@@ -28,16 +28,16 @@ def stored_energy(tissue: Tissue, gradient: NDArray[np.complex128]) -> NDArray[n
     lam, mu = tissue.lam, tissue.mu
     if tissue.law is Law.GREEN:
         e11, e22, e12 = (c11 - 1.0) / 2.0, (c22 - 1.0) / 2.0, c12 / 2.0
-        return np.asarray(lam / 2.0 * (e11 + e22) ** 2 + mu * (e11**2 + e22**2 + 2.0 * e12**2))
+        return lam / 2.0 * (e11 + e22) ** 2 + mu * (e11**2 + e22**2 + 2.0 * e12**2)
     jacobian = f11 * f22 - b * c
     apart = np.arctanh(np.sqrt(((c11 - c22) / 2.0) ** 2 + c12**2) / ((c11 + c22) / 2.0))
     volume = np.log(jacobian)
     if tissue.law is Law.HENCKY:
-        return np.asarray(lam / 2.0 * volume**2 + mu / 2.0 * (volume**2 + apart**2))
+        return lam / 2.0 * volume**2 + mu / 2.0 * (volume**2 + apart**2)
     alpha = tissue.exponent if tissue.law is Law.OGDEN else 2.0
     powers = jacobian ** (alpha / 2.0) * 2.0 * np.cosh(alpha / 2.0 * apart) + 1.0  # the last: no stretch out of plane
     shape = 2.0 * mu / alpha**2 * (jacobian ** (-alpha / 3.0) * powers - 3.0)
-    return np.asarray(shape + (lam + 2.0 * mu / 3.0) / 2.0 * (jacobian - 1.0) ** 2)
+    return shape + (lam + 2.0 * mu / 3.0) / 2.0 * (jacobian - 1.0) ** 2
 
 
 def first_stress(tissue: Tissue, gradient: FloatArray) -> FloatArray:

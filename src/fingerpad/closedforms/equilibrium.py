@@ -34,7 +34,7 @@ class Equilibrium:
 def linear_equilibrium(matrix: csc_matrix, held: np.ndarray, start: FloatArray, load: FloatArray) -> FloatArray:
     """Displacement (size,) [mm] of a stiffness under a load (size,) [N/mm]; unknowns `held` (k,) stay as they start."""
     solver = solver_direct_scipy(permc_spec="MMD_AT_PLUS_A")
-    return np.asarray(solve(*condense(matrix, load, x=start, D=held), solver=solver))
+    return solve(*condense(matrix, load, x=start, D=held), solver=solver)
 
 
 def equilibrium(basis: Basis, tissue: Tissue, held: np.ndarray, start: FloatArray, load: FloatArray) -> Equilibrium:

@@ -26,7 +26,7 @@ def half_width(load: float, poisson: float) -> float:
 
 def pressure(load: float, width: float, x: FloatArray) -> FloatArray:
     """Exact pressure (n,) [MPa] at x (n,) [mm] under a load [N/mm] on a half-width [mm]."""
-    return np.asarray(2.0 * load / (np.pi * width) * np.sqrt(np.maximum(1.0 - (x / width) ** 2, 0.0)))
+    return 2.0 * load / (np.pi * width) * np.sqrt(np.maximum(1.0 - (x / width) ** 2, 0.0))
 
 
 def rows() -> list[Comparison]:

@@ -114,16 +114,16 @@ def layer_stiffness(layer: Layer, k: float) -> FloatArray:
     mirror = np.diag([1.0, -1.0])
 
     def moved(s: float) -> FloatArray:
-        return np.asarray(np.exp(-s) * np.array([[1.0, s], [1.0, s + kappa]]))
+        return np.exp(-s) * np.array([[1.0, s], [1.0, s + kappa]])
 
     def stress(s: float) -> FloatArray:  # sigma_xy, sigma_yy
         shape = np.array([[-2.0, 1.0 - kappa - 2.0 * s], [-2.0, -1.0 - kappa - 2.0 * s]])
-        return np.asarray(mu * k * np.exp(-s) * shape)
+        return mu * k * np.exp(-s) * shape
 
     thick = k * layer.thickness
     displacement = np.block([[moved(0.0), mirror @ moved(thick)], [moved(thick), mirror @ moved(0.0)]])
     traction = np.block([[-stress(0.0), mirror @ stress(thick)], [stress(thick), -mirror @ stress(0.0)]])
-    return np.asarray(np.linalg.solve(displacement.T, traction.T).T)
+    return np.linalg.solve(displacement.T, traction.T).T
 
 
 def rows(model: Model) -> list[Comparison]:
@@ -176,7 +176,7 @@ def _strip_mesh(layers: Sequence[Layer], above: int, spacing: float) -> MeshTri2
 
     def size(x: FloatArray, y: FloatArray) -> FloatArray:
         away = np.hypot(np.maximum(x - 2.0 * HALF_LOAD, 0.0), np.maximum(y - depth, 0.0))
-        return np.asarray(np.minimum(spacing + GROWTH * away, COARSEST * spacing))
+        return np.minimum(spacing + GROWTH * away, COARSEST * spacing)
 
     return refined_block(np.arange(0.0, HALF_LENGTH + HALF_LOAD, HALF_LOAD), lines, size)
 
@@ -191,6 +191,4 @@ def _nodal_load(mesh: MeshTri2, load: Load) -> FloatArray:
     loaded = np.flatnonzero(
         np.all(mesh.p[1, mesh.facets] == 0.0, axis=0) & (np.abs(mesh.p[0, mesh.facets].mean(axis=0)) < HALF_LOAD)
     )
-    return np.asarray(
-        work.assemble(FacetBasis(mesh, ElementVector(ElementTriP2()), facets=loaded, intorder=LOAD_ORDER))
-    )
+    return work.assemble(FacetBasis(mesh, ElementVector(ElementTriP2()), facets=loaded, intorder=LOAD_ORDER))

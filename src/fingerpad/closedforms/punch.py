@@ -19,7 +19,7 @@ INNER = 0.8 * HALF_WIDTH  # mm; source: beyond, the singular pressure changes wi
 
 def pressure(load: float, x: FloatArray) -> FloatArray:
     """Exact pressure (n,) [MPa] under a load [N/mm] at |x| < HALF_WIDTH (n,) [mm]."""
-    return np.asarray(load / (np.pi * np.sqrt(HALF_WIDTH**2 - x**2)))
+    return load / (np.pi * np.sqrt(HALF_WIDTH**2 - x**2))
 
 
 def punched(spacing: float, poisson: float, friction: float) -> Block:

@@ -77,7 +77,7 @@ def _graded(length: float, fine: float) -> FloatArray:
     """Coordinates from 0 to `length`; the first step is at most `fine`, each further one wider by PANEL_GROWTH."""
     count = int(np.ceil(np.log1p(PANEL_GROWTH * length / fine) / np.log1p(PANEL_GROWTH)))
     distance = np.expm1(np.arange(count + 1) * np.log1p(PANEL_GROWTH))
-    return np.asarray(length * distance / distance[-1])
+    return length * distance / distance[-1]
 
 
 def _imbalance(panels: _Panels, gamma: float, friction: float, lift: bool) -> float:
@@ -113,7 +113,7 @@ def _imbalance(panels: _Panels, gamma: float, friction: float, lift: bool) -> fl
 
 def _log_integral(distance: FloatArray) -> FloatArray:
     """Antiderivative of ln |d|, shape kept."""
-    return np.asarray(distance * np.log(np.abs(distance)) - distance)
+    return distance * np.log(np.abs(distance)) - distance
 
 
 def rows() -> list[Comparison]:

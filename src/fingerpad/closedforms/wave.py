@@ -53,7 +53,7 @@ def wave(poisson: float, divisions: int) -> list[Comparison]:
 
 def mean_stress(place: FloatArray) -> FloatArray:
     """(sigma_xx + sigma_yy) / 2 over P (...) [1] at (2, ...) [mm]."""
-    return np.asarray(-np.exp(-NUMBER * place[1]) * np.cos(NUMBER * place[0]))
+    return -np.exp(-NUMBER * place[1]) * np.cos(NUMBER * place[0])
 
 
 def displacement(material: Material, place: FloatArray) -> FloatArray:
@@ -62,7 +62,7 @@ def displacement(material: Material, place: FloatArray) -> FloatArray:
     kappa, second = 3.0 - 4.0 * material.poisson, 1.0 / (2.0 * mu * NUMBER)
     first, depth, along = (1.0 - kappa) / 2.0 * second, NUMBER * place[1], NUMBER * place[0]
     across = (first + second * depth) * np.sin(along)
-    return np.asarray(np.exp(-depth) * np.array([across, (first + second * (depth + kappa)) * np.cos(along)]))
+    return np.exp(-depth) * np.array([across, (first + second * (depth + kappa)) * np.cos(along)])
 
 
 def computed_displacement(basis: Basis, material: Material) -> FloatArray:

@@ -32,4 +32,4 @@ def accelerated(
     else:
         energy = changes @ np.diff(np.array(loads[-MEMORY:]), axis=0).T
         weights = np.linalg.lstsq((energy + energy.T) / 2.0, changes @ loads[-1], rcond=None)[0]
-    return np.asarray(ends[-1] - weights @ np.diff(end, axis=0))
+    return ends[-1] - weights @ np.diff(end, axis=0)

@@ -356,7 +356,7 @@ def newly_touching(overlapping: np.ndarray, gap: FloatArray, status: np.ndarray,
     touched = np.zeros(int(actuator_of.max()) + 1, dtype=bool)
     touched[actuator_of[status != OPEN]] = True
     alone = overlapping & ~touched[actuator_of]
-    touching = np.asarray(overlapping & ~alone)
+    touching = overlapping & ~alone
     for actuator in np.unique(actuator_of[alone]):
         depth = np.where(alone & (actuator_of == actuator), -gap, -np.inf)
         touching[np.argmax(depth)] = True
@@ -398,7 +398,7 @@ def _worst(
     actuator = increment.problem.actuator_of[increment.patch.nodes[changed]]
     order = np.lexsort((beyond, actuator))
     last = np.append(np.diff(actuator[order]) != 0, True)
-    return np.asarray(changed[order[last]])
+    return changed[order[last]]
 
 
 def _violation(increment: PatchProblem, trial: Trial, slip: FloatArray, status: np.ndarray) -> FloatArray:

@@ -143,4 +143,4 @@ def reevaluated_gap(problem: ContactProblem, state: ContactState) -> FloatArray:
     problem = given_as(problem, state)
     there = touch(problem, state.place)
     x, y = (unloaded(problem, state.actuator) + displacement(problem, state.force, there)).T
-    return np.asarray(y + profile(problem.row, x)[0])
+    return y + profile(problem.row, x)[0]

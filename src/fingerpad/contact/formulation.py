@@ -186,13 +186,13 @@ def rest(problem: ContactProblem, height: float) -> ContactState:
 def unloaded(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     """Undeformed nodes (n, 2) [mm] in the frame of their actuator, which stands at `actuator` (n_actuators, 2)."""
     position = problem.position if problem.free is None else problem.position + problem.free
-    return np.asarray(position - centres(problem, actuator)[problem.actuator_of])
+    return position - centres(problem, actuator)[problem.actuator_of]
 
 
 def centres(problem: ContactProblem, actuator: FloatArray) -> FloatArray:
     """Middles of the faces (n_actuators, 2) [mm] of actuators at `actuator` (n_actuators, 2)."""
     resting = np.stack([problem.row.positions, np.zeros(len(problem.row.positions))], axis=1)
-    return np.asarray(resting + actuator)
+    return resting + actuator
 
 
 def resolved(problem: ContactProblem, force: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -79,7 +79,7 @@ def nearest_now(problem: ContactProblem, state: ContactState) -> np.ndarray:
 def overlapped(problem: ContactProblem, state: ContactState, allowed: float) -> np.ndarray:
     """Nodes (n,) that overlap, by more than is allowed [mm], the actuator that they are nearest to but not given to."""
     closest = nearest_now(problem, state)
-    astray = np.asarray(closest != state.given)
+    astray = closest != state.given
     if astray.any():
         astray &= given_to(problem, state, closest)[1].gap < -allowed
     return astray
@@ -94,4 +94,4 @@ def handed_over(problem: ContactProblem, state: ContactState, allowed: float) ->
         return own
     wanted = np.where(astray, nearest_now(problem, state), own)
     rightwards = np.maximum.accumulate(np.maximum(wanted, own))
-    return np.asarray(np.minimum.accumulate(np.where(wanted < own, wanted, rightwards)[::-1])[::-1])
+    return np.minimum.accumulate(np.where(wanted < own, wanted, rightwards)[::-1])[::-1]

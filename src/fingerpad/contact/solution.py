@@ -77,7 +77,7 @@ class Solution:
     def skin_x(self, row: ActuatorRow, condition: Condition) -> FloatArray:
         """Where the skin nodes are (n,) [mm] along the row at the time that is read, of a row and its condition."""
         centre = np.asarray(row.positions) + condition.tangential[self.reading.time]
-        return np.asarray(centre[self.actuator] + self.place)
+        return centre[self.actuator] + self.place
 
 
 def solution(

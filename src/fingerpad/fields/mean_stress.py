@@ -19,8 +19,8 @@ COLLINEAR = 1e-8  # of a patch's moments [1], below which it has no gradient tha
 
 def element_means(basis: Basis, values: FloatArray) -> FloatArray:
     """Means (n_elements,) over undeformed elements of values (n_elements, n_points) at a basis's quadrature points."""
-    weight = np.asarray(basis.dx)
-    return np.asarray((values * weight).sum(axis=1) / weight.sum(axis=1))
+    weight = basis.dx
+    return (values * weight).sum(axis=1) / weight.sum(axis=1)
 
 
 def recover_linear(basis: Basis, layer: np.ndarray, means: FloatArray, place: FloatArray) -> FloatArray:
@@ -33,7 +33,7 @@ def recover_linear(basis: Basis, layer: np.ndarray, means: FloatArray, place: Fl
     own, other = _patches(basis.mesh, layer)
     count = means.size
     centre = np.array([element_means(basis, each) for each in np.asarray(basis.global_coordinates())])
-    size = np.sqrt(np.asarray(basis.dx).sum(axis=1))
+    size = np.sqrt(basis.dx.sum(axis=1))
     apart = (centre[:, other] - centre[:, own]) / size[own]
     terms = np.stack([np.ones(own.size), *apart])
     weighted = terms / (1.0 + (apart**2).sum(axis=0))
@@ -42,7 +42,7 @@ def recover_linear(basis: Basis, layer: np.ndarray, means: FloatArray, place: Fl
     inverse = np.linalg.pinv(np.moveaxis(np.array(moments), -1, 0), rcond=COLLINEAR, hermitian=True)
     middle, *slope = np.moveaxis((inverse @ right[..., None])[..., 0], -1, 0)[..., None]
     away = (place - centre[..., None]) / size[:, None]
-    return np.asarray(middle + slope[0] * away[0] + slope[1] * away[1])
+    return middle + slope[0] * away[0] + slope[1] * away[1]
 
 
 def _patches(mesh: MeshTri2, layer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -28,7 +28,7 @@ def recover_displacement(section: SectionMesh, scene: Scene, forces: FloatArray)
     right[dofs[:, tractions.nodes].T.ravel()] = tractions.by_component() @ forces.reshape(forces.shape[0], -1).T
     displacement = np.zeros_like(right)
     displacement[order] = factorise(csc_matrix(matrix[order][:, order])).solve(right[order])
-    return np.asarray(displacement.T[:, dofs])
+    return displacement.T[:, dofs]
 
 
 def gradient_at(mesh: MeshTri2, displacement: FloatArray, points: FloatArray) -> FloatArray:

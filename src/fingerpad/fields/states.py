@@ -100,7 +100,7 @@ def stress_at(scene: Scene, section: SectionMesh, displacement: FloatArray, poin
 
 def _mean(stresses: FloatArray) -> FloatArray:
     """Mean stress (n,) [MPa] of stresses (n, 4)."""
-    return np.asarray(stresses[:, :3].mean(axis=1))
+    return stresses[:, :3].mean(axis=1)
 
 
 def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points: FloatArray) -> FloatArray:
@@ -108,7 +108,7 @@ def _stress(scene: Scene, section: SectionMesh, displacement: FloatArray, points
     gradient = gradient_at(section.mesh, displacement, points)
     layer = np.repeat(section.layer, points.shape[1])
     if scene.kinematics is Kinematics.FINITE:
-        return np.asarray(cauchy_stress(scene_tissue(scene, layer), gradient).T)
+        return cauchy_stress(scene_tissue(scene, layer), gradient).T
     found = np.empty((layer.size, 4))
     for number, material in enumerate(scene.model.finger.materials):
         inside = layer == number

@@ -59,7 +59,7 @@ def elements_of(basis: Basis, tissue: Tissue, free: np.ndarray) -> Elements:
         centre=basis.global_coordinates().mean(axis=-1).T,
         shape_gradient=shape_gradient,
         gradient=_displacement_gradient(shape_gradient, unknowns, basis.N),
-        weight=np.asarray(basis.dx),
+        weight=basis.dx,
         tissue=tissue,
         free=free,
         rows=rows,
@@ -105,7 +105,7 @@ def displacement_gradient(elements: Elements, displacement: FloatArray) -> Float
 
     Raises InvertedError, with the first place, where elements are turned inside out.
     """
-    gradient = np.asarray(elements.gradient @ displacement).reshape(2, 2, *elements.weight.shape)
+    gradient = (elements.gradient @ displacement).reshape(2, 2, *elements.weight.shape)
     inverted = ~is_upright(gradient).all(axis=-1)
     if inverted.any():
         x, y = elements.centre[np.flatnonzero(inverted)[0]]
@@ -120,7 +120,7 @@ def internal_force(elements: Elements, displacement: FloatArray) -> FloatArray:
     """Forces (size,) [N/mm] that hold the tissue at a displacement (size,) [mm]. Raises InvertedError."""
     gradient = displacement_gradient(elements, displacement)
     stress = stress_of(elements.tissue, gradient)
-    return np.asarray(elements.gradient.T @ (elements.weight * _first_stress(gradient, stress)).ravel())
+    return elements.gradient.T @ (elements.weight * _first_stress(gradient, stress)).ravel()
 
 
 def tangent_stiffness(elements: Elements, displacement: FloatArray) -> csc_matrix:

@@ -68,12 +68,12 @@ class DeformedTissue:
     @cached_property
     def held(self) -> FloatArray:
         """R(u_0) (n_free,) [N/mm], with which all moves from there begin. Raises InvertedError."""
-        return np.asarray(internal_force(self.part.elements, self.displacement)[self.part.elements.free])
+        return internal_force(self.part.elements, self.displacement)[self.part.elements.free]
 
     @cached_property
     def back(self) -> FloatArray:
         """-K^-1 R(u_0) (n_free,) [mm]: how far tissue that nothing holds there goes back."""
-        return -np.asarray(self.factors.solve(self.held))
+        return -self.factors.solve(self.held)
 
 
 @dataclass(frozen=True)
@@ -232,7 +232,7 @@ def _not_inverted(
     tissue turned inside out, half as far from the one before. Raises InvertedError after so many halvings.
     """
     try:
-        return displacement, np.asarray(internal_force(part.elements, displacement)[part.elements.free])
+        return displacement, internal_force(part.elements, displacement)[part.elements.free]
     except InvertedError:
         if halvings == 0:
             raise

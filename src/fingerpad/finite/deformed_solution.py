@@ -128,4 +128,4 @@ def receptor_logarithmic_strain(gradient: csr_matrix, displacement: FloatArray) 
     [mm] is given.
     """
     of_points = (gradient @ displacement).reshape(-1, 2, 2).transpose(1, 2, 0)
-    return np.asarray(logarithmic_strain(of_points).T.ravel())
+    return logarithmic_strain(of_points).T.ravel()

@@ -59,4 +59,4 @@ def is_upright(gradient: FloatArray) -> NDArray[np.bool_]:
     """
     (a, b), (c, d) = gradient
     first, last = 1.0 + a, 1.0 + d
-    return np.asarray(first * last - b * c > FLAT * (1.0 + first * first + b * b + c * c + last * last))
+    return first * last - b * c > FLAT * (1.0 + first * first + b * b + c * c + last * last)

@@ -105,22 +105,22 @@ def cauchy_stress(tissue: Tissue, gradient: FloatArray) -> FloatArray:
         _out_of_plane(tissue, principal_strain(gradient).values),
         f11 * c * s11 + b * f22 * s22 + (f11 * f22 + b * c) * s12,
     ]
-    return np.asarray(np.stack(kirchhoff) / (f11 * f22 - b * c))
+    return np.stack(kirchhoff) / (f11 * f22 - b * c)
 
 
 def _out_of_plane(tissue: Tissue, strain: FloatArray) -> FloatArray:
     """Kirchhoff stress (...) along the axis that is not strained [MPa], at principal Green's strains (2, ...)."""
     if tissue.law is Law.GREEN:
-        return np.asarray(tissue.lam * (strain[0] + strain[1]))
+        return tissue.lam * (strain[0] + strain[1])
     log = np.log1p(2.0 * strain) / 2.0
     volume = log[0] + log[1]
     if tissue.law is Law.HENCKY:
-        return np.asarray(tissue.lam * volume)
+        return tissue.lam * volume
     alpha = tissue.exponent if tissue.law is Law.OGDEN else 2.0
     growth = np.expm1(volume)
     mean = (np.expm1(alpha * log[0]) + np.expm1(alpha * log[1])) / 3.0
     bulk = tissue.lam + 2.0 * tissue.mu / 3.0
-    return np.asarray(bulk * growth * (1.0 + growth) - 2.0 * tissue.mu / alpha * np.exp(-alpha / 3.0 * volume) * mean)
+    return bulk * growth * (1.0 + growth) - 2.0 * tissue.mu / alpha * np.exp(-alpha / 3.0 * volume) * mean
 
 
 def _kirchhoff(tissue: Tissue, strain: FloatArray) -> tuple[FloatArray, tuple[FloatArray, FloatArray, FloatArray]]:
@@ -158,4 +158,4 @@ def _turned(axes: Principal, d11: FloatArray, d22: FloatArray, d12: FloatArray, 
     tangent = first[:, None] * (d11 * first + d12 * second)
     tangent += second[:, None] * (d12 * first + d22 * second)
     tangent += shear[:, None] * (turning * shear)
-    return np.asarray(tangent)
+    return tangent

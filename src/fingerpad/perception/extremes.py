@@ -68,7 +68,7 @@ def rating_range(score: FloatArray, at_most: BoolArray) -> RatingRange:
 def unit(values: FloatArray) -> FloatArray:
     """Centred and scaled to norm 1 along the last axis."""
     centred = values - values.mean(axis=-1, keepdims=True)
-    return np.asarray(centred / np.linalg.norm(centred, axis=-1, keepdims=True))
+    return centred / np.linalg.norm(centred, axis=-1, keepdims=True)
 
 
 def _closest(x: FloatArray, generators: FloatArray, at_most: BoolArray) -> FloatArray:
@@ -76,7 +76,7 @@ def _closest(x: FloatArray, generators: FloatArray, at_most: BoolArray) -> Float
     projection = _projection(x, at_most)
     if np.linalg.norm(projection) > CONSTANT:
         return projection
-    return np.asarray(generators[np.argmax(unit(generators) @ x)])
+    return generators[np.argmax(unit(generators) @ x)]
 
 
 def _projection(x: FloatArray, at_most: BoolArray) -> FloatArray:
@@ -97,4 +97,4 @@ def _projection(x: FloatArray, at_most: BoolArray) -> FloatArray:
     astray = np.append(polar.T @ found, abs(found @ (target - found)))
     if astray.max() > ASTRAY:
         raise RatingError("the range of R² over ratings with the stated order could not be computed")
-    return np.asarray((found / root)[which])
+    return (found / root)[which]

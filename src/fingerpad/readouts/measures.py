@@ -54,7 +54,7 @@ def maximum_shear(components: FloatArray) -> FloatArray:
     """
     exx, eyy, gxy = components.reshape(-1, VOIGT).T
     middle, radius = (exx + eyy) / 2.0, np.hypot((exx - eyy) / 2.0, gxy / 2.0)
-    return np.asarray(np.maximum(middle + radius, 0.0) - np.minimum(middle - radius, 0.0))
+    return np.maximum(middle + radius, 0.0) - np.minimum(middle - radius, 0.0)
 
 
 def stress(components: FloatArray, material: Material) -> FloatArray:
@@ -73,7 +73,7 @@ def strain_energy_density(components: FloatArray, material: Material) -> FloatAr
     """Elastic energy (m,) of unit volume [N mm per mm³ = MPa]: sigma : eps / 2 = (sxx exx + syy eyy + sxy gxy) / 2."""
     exx, eyy, gxy = components.reshape(-1, VOIGT).T
     sxx, syy, _, sxy = stress(components, material).T
-    return np.asarray((sxx * exx + syy * eyy + sxy * gxy) / 2.0)
+    return (sxx * exx + syy * eyy + sxy * gxy) / 2.0
 
 
 def von_mises_stress(components: FloatArray, material: Material) -> FloatArray:
@@ -82,4 +82,4 @@ def von_mises_stress(components: FloatArray, material: Material) -> FloatArray:
     sqrt(((sxx - syy)² + (syy - szz)² + (szz - sxx)²) / 2 + 3 sxy²)
     """
     sxx, syy, szz, sxy = stress(components, material).T
-    return np.asarray(np.sqrt(((sxx - syy) ** 2 + (syy - szz) ** 2 + (szz - sxx) ** 2) / 2.0 + 3.0 * sxy**2))
+    return np.sqrt(((sxx - syy) ** 2 + (syy - szz) ** 2 + (szz - sxx) ** 2) / 2.0 + 3.0 * sxy**2)

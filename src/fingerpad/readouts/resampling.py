@@ -18,7 +18,7 @@ def resampling_to_grid(arc: FloatArray, spacing: float) -> Resampling:
     A spline is linear in the values it goes through, so its weights are the splines through unit values.
     """
     grid = _uniform_grid(arc, spacing)
-    return Resampling(grid, np.asarray(make_interp_spline(arc, np.eye(arc.size), k=3)(grid)))
+    return Resampling(grid, make_interp_spline(arc, np.eye(arc.size), k=3)(grid))
 
 
 def section_resampling(section: SectionMesh, scene: Scene) -> Resampling:

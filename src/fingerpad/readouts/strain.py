@@ -113,7 +113,7 @@ def _rival(changes: FloatArray, size: FloatArray, time: int, arc: FloatArray, mi
 
 def _size(changes: FloatArray, arc: FloatArray) -> FloatArray:
     """Norms (n_times,) of changes (n_times, m) over arc length (m,) [mm]."""
-    return np.asarray(np.sqrt(np.trapezoid(changes**2, arc, axis=1)))
+    return np.sqrt(np.trapezoid(changes**2, arc, axis=1))
 
 
 @dataclass(frozen=True)

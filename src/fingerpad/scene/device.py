@@ -140,7 +140,7 @@ def nearest(centres: FloatArray, x: FloatArray) -> np.ndarray:
     >>> nearest(np.array([-1.0, 1.0]), np.array([-3.0, 0.5]))
     array([0, 1])
     """
-    return np.asarray(np.searchsorted((centres[1:] + centres[:-1]) / 2.0, x))
+    return np.searchsorted((centres[1:] + centres[:-1]) / 2.0, x)
 
 
 @dataclass(frozen=True)

@@ -131,7 +131,7 @@ def alternating_cycles(stimulus: Mapping[str, Any], count: int) -> list[Cycle]:
 
 def _alternating(row: Mapping[str, Any], relative_to: str, count: int) -> FloatArray:
     """Displacements (count,) [mm] of a row of actuators whose neighbours differ."""
-    return np.asarray(row["absolute"] + np.resize(SHARES[relative_to], count) * row["relative"])
+    return row["absolute"] + np.resize(SHARES[relative_to], count) * row["relative"]
 
 
 def history(stimulus: Mapping[str, Any], count: int, folder: Path) -> list[Condition]:

@@ -37,7 +37,7 @@ class CondensedSection:
 
     def receptor_strain(self, forces: FloatArray) -> FloatArray:
         """Strain (k, 3m) [1] at the receptors under contact forces (k, n, 2) [N/mm]."""
-        return np.asarray(forces.reshape(forces.shape[0], -1) @ self.strain.T)
+        return forces.reshape(forces.shape[0], -1) @ self.strain.T
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def displaced(compliance: FloatArray, force: FloatArray) -> FloatArray:
     """Displacement (n, 2) [mm] of nodes under forces (n, 2) [N/mm], by their compliance (2n, 2n) [mm per N/mm], ordered
     x0, y0, x1, y1, ...
     """
-    return np.asarray((compliance @ force.ravel()).reshape(-1, 2))
+    return (compliance @ force.ravel()).reshape(-1, 2)
 
 
 def load_body(path: Path | None) -> CondensedBody | None:

@@ -40,7 +40,7 @@ def fill_reducing_order(matrix: csc_matrix, dofs: np.ndarray, held: np.ndarray) 
     order = np.empty_like(permutation)
     order[permutation] = np.arange(permutation.size)
     ordered = dofs[:, nodes[order]].T.ravel()
-    return np.asarray(ordered[free[ordered]])
+    return ordered[free[ordered]]
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Factors:
         """K^-1 of a load (size,) or of some (size, k)."""
         padded = np.zeros((self.lu.shape[0], *load.shape[1:]), order="F")
         padded[: self.size] = load
-        return np.asarray(self.lu.solve(padded)[: self.size])
+        return self.lu.solve(padded)[: self.size]
 
     def read(self, count: int) -> FloatArray:
         """R K^-1 R_c^T (n_rows, count): what all rows read of the answers to the first `count` of them as loads."""

@@ -83,11 +83,11 @@ class Unfolding:
     def unknowns(self) -> np.ndarray:
         """Row or column of the half's map for every component (n c,)."""
         count = self.mirror.size
-        return np.asarray((count * self.place[:, None] + np.arange(count)).ravel())
+        return (count * self.place[:, None] + np.arange(count)).ravel()
 
     def signs(self) -> FloatArray:
         """Sign (n c,) of every component: 1 on the right, the mirror's on the left."""
-        return np.asarray(np.where(self.side[:, None] > 0, 1.0, self.mirror).ravel())
+        return np.where(self.side[:, None] > 0, 1.0, self.mirror).ravel()
 
 
 def unfolding(count: int, mirror: FloatArray) -> Unfolding:
@@ -103,4 +103,4 @@ def unfold(symmetric: FloatArray, antisymmetric: FloatArray, rows: Unfolding, co
     block = np.ix_(rows.unknowns(), columns.unknowns())
     together = np.outer(np.repeat(rows.side, rows.mirror.size), np.repeat(columns.side, columns.mirror.size))
     signs = np.outer(rows.signs(), columns.signs())
-    return np.asarray(signs * (symmetric[block] + together * antisymmetric[block]) / 2.0)
+    return signs * (symmetric[block] + together * antisymmetric[block]) / 2.0

@@ -110,7 +110,7 @@ class _Outline:
         bone = np.array(
             [self.finger.bone_width / 2.0 * sin, centre - self.finger.bone_height / 2.0 * cos],
         )
-        return np.asarray(offset + np.maximum(logical[1] - depth, 0.0) * (bone - offset))
+        return offset + np.maximum(logical[1] - depth, 0.0) * (bone - offset)
 
 
 def mesh_section(scene: Scene, edges: FloatArray) -> SectionMesh:
@@ -258,12 +258,12 @@ def _coarser_on_mid_line(half: MeshTri, other: MeshTri) -> np.ndarray:
     beside = np.flatnonzero(on_line.sum(axis=0) == 2)
     middle = np.mean(half.p[:, half.t[:, beside]], axis=1, where=on_line[:, beside])
     nodes = other.p[:, _on_mid_line(other)]
-    return np.asarray(beside[(middle[:, :, None] == nodes[:, None]).all(axis=0).any(axis=1)])
+    return beside[(middle[:, :, None] == nodes[:, None]).all(axis=0).any(axis=1)]
 
 
 def _on_mid_line(half: MeshTri) -> np.ndarray:
     """Which nodes of a logical half lie on the mid-line, at the pad or at the back."""
-    return np.asarray((half.p[0] == 0.0) | (half.p[0] == half.p[0].max()))
+    return (half.p[0] == 0.0) | (half.p[0] == half.p[0].max())
 
 
 def _size(scene: Scene, outline: _Outline, side: _Graded, centre: FloatArray, zeta: FloatArray) -> FloatArray:

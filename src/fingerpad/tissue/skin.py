@@ -74,4 +74,4 @@ def _on_both_sides(start: FloatArray, end: FloatArray, one: np.ndarray, two: np.
     """Whether segments `two` (k,) end on different sides of the lines through segments `one` (k,)."""
     along = (end - start)[one]
     sides = [along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0] for to in (start[two] - start[one], end[two] - start[one])]
-    return np.asarray(sides[0] * sides[1] < 0.0)
+    return sides[0] * sides[1] < 0.0

@@ -94,7 +94,7 @@ def creep_times(relaxation: Relaxation, in_band: int) -> FloatArray:
 
 def answer(rate: FloatArray, time: float) -> FloatArray:
     """What has crept (k,) [1] of all that will, at rates (k,) [1/s]: 1 / (1 + s t)."""
-    return np.asarray(1.0 / (1.0 + rate * time))
+    return 1.0 / (1.0 + rate * time)
 
 
 def stiffened(scene: Scene, rate: complex) -> Scene:

@@ -120,7 +120,7 @@ def _repeated(now: FloatArray, then: FloatArray, noise: float) -> bool:
 def displacement(cycle: Cycle, phase: float) -> FloatArray:
     """Displacement (n_actuators, 2) [mm] at a phase [rad] of the cycle."""
     turned = np.exp(1j * phase) * np.stack([cycle.tangential, cycle.normal], axis=1)
-    return np.asarray(np.round(turned.real, CROSSING))
+    return np.round(turned.real, CROSSING)
 
 
 def _stepping(problem: ContactProblem, creep: Creep, step: float) -> Stepping:
@@ -149,7 +149,7 @@ def _stepped(stepping: Stepping, creep: Creep, before: ContactState, start: Mome
 def _left(stepping: Stepping, creep: Creep, before: ContactState, kept: FloatArray) -> FloatArray:
     """Displacement (n, 2) [mm] of contact nodes besides C_h f, from what is kept of w (k, n, 2) [N/mm]."""
     forces = kept + (1.0 - stepping.following) * before.force
-    return np.asarray(np.matmul(creep.compliance, forces.reshape(*creep.time.shape, -1, 1)).sum(axis=0).reshape(-1, 2))
+    return np.matmul(creep.compliance, forces.reshape(*creep.time.shape, -1, 1)).sum(axis=0).reshape(-1, 2)
 
 
 def _strain(section: CondensedSection, creep: Creep, before: ContactState, moments: Sequence[Moment]) -> FloatArray:
@@ -157,4 +157,4 @@ def _strain(section: CondensedSection, creep: Creep, before: ContactState, momen
     forces = np.array([each.state.force for each in moments])
     left = np.array([each.state.force - before.force - each.memory for each in moments])
     crept = np.matmul(creep.strain, left.reshape(*left.shape[:2], -1).transpose(1, 2, 0)).sum(axis=0)
-    return np.asarray(section.receptor_strain(forces) - crept.T)
+    return section.receptor_strain(forces) - crept.T

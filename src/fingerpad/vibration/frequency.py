@@ -147,7 +147,7 @@ def _vibration_scores(scene: Scene, resampling: Resampling, vibration: Vibration
 def _highest(indented: Indented, cycle: Cycle) -> FloatArray:
     """Where actuators (1, n_actuators, 2) [mm] stand highest in a cycle, each at its own time."""
     amplitude = np.stack([np.zeros(cycle.normal.size), np.abs(cycle.normal)], axis=1)
-    return np.asarray(indented.state.actuator + amplitude)[None]
+    return (indented.state.actuator + amplitude)[None]
 
 
 def cyclic_readouts(strain: FloatArray) -> dict[Readout, FloatArray]:

@@ -84,7 +84,7 @@ def _first_harmonic(values: FloatArray) -> ComplexArray:
     """Amplitude (...) of values (n_times, ...) over a cycle that ends at phase zero."""
     count = len(values)
     turned: ComplexArray = np.exp(-2j * np.pi * np.arange(1, count + 1) / count)
-    return np.asarray(np.tensordot(turned, values, 1) * (2.0 / count))
+    return np.tensordot(turned, values, 1) * (2.0 / count)
 
 
 def inertia_effect(scene: Scene, driven: Driven, still: CondensedSection, moving: CondensedSection) -> float:

@@ -46,4 +46,4 @@ def retardation_times(relaxation: Relaxation) -> FloatArray:
 def _ratios(relaxation: Relaxation) -> FloatArray:
     """Shares of the terms over that which stays, r_i [1]."""
     shares = np.asarray(relaxation.shares)
-    return np.asarray(shares / (1.0 - shares.sum()))
+    return shares / (1.0 - shares.sum())
