@@ -125,7 +125,7 @@ CONFIG_MISTAKES: dict[str, tuple[Edits, str, list[str]]] = {
     ),
     "key that is a number": (
         {"readout": {1: 2}},
-        "readout[1]",
+        "readout.1",
         ["an unknown key", "the keys layer_above, side, span_margin"],
     ),
     "missing key": (
@@ -502,6 +502,28 @@ def test_mistake_in_config(tmp_path: Path, edits: Edits, key: str, parts: list[s
     assert f"{path}: {key}: " in message
     assert [part for part in parts if part not in message] == []
     assert all(line.startswith(f"{path}: ") for line in message.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("stimulus", "parts"),
+    [
+        ({"dispersions": {1: [0, 1, 0, 1]}}, ["dispersions: found the name 1", "dispersions.1: found [0, 1, 0, 1]"]),
+        (
+            {"kind": "measured", "recordings": {90: "tap.csv"}},
+            ["recordings: found the name 90", "recordings.90: found tap.csv"],
+        ),
+        (
+            {"kind": "history", "histories": {1: {"phase": 0}}},
+            ["histories: found the name 1", "histories.1.time: found nothing"],
+        ),
+    ],
+)
+def test_a_mistake_under_a_name_that_is_a_number(tmp_path: Path, stimulus: dict[str, Any], parts: list[str]) -> None:
+    """Both are told: YAML's numbers are no places in a list."""
+    document = yaml.safe_load((DEVICES / "device1.yaml").read_text(encoding="utf-8"))
+    document["stimulus"] = stimulus if "kind" in stimulus else document["stimulus"] | stimulus
+    message = message_of(write(tmp_path, "mine.yaml", document))
+    assert [part for part in parts if f"stimulus.{part}" not in message] == [], message
 
 
 @pytest.mark.parametrize(("edits", "key", "parts"), DEVICE_MISTAKES.values(), ids=DEVICE_MISTAKES)

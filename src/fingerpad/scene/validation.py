@@ -205,7 +205,8 @@ def _explain(error: ValidationError, schema: Schema, document: dict[str, Any]) -
         yield problem(rank, _dotted(key[:-1]), shown(around), "a list of lists", meant=shown([around]), about=about)
         return
     text = f"{len(found)} entries" if error.validator in ("minItems", "maxItems") else shown(found)
-    text = f"the name {text}" if "propertyNames" in error.absolute_schema_path else text
+    if "propertyNames" in error.absolute_schema_path:
+        rank, text = 0, f"the name {shown_name(found)}"
     meant = meant_by(error.schema, found, around)
     yield problem(rank, _dotted(key), text, allowed_values(error.schema), meant=meant, about=about)
 

@@ -63,8 +63,7 @@ class _Loader(yaml.SafeLoader):
                 problem = f"found the key {key.value!r} twice (first in line {seen[key.value]}), allowed once"
                 raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
             seen[key.value] = key.start_mark.line + 1
-            if key.value.startswith("0") and key.value.isdecimal():
-                key.tag = TEXT  # {value: 0,025} has the key 025, which is 25 to YAML
+            key.tag = TEXT  # {value: 0,025} has the key 025, which is 25 to YAML; and 90 is no place in a list
         return node
 
     def construct_integer(self, node: yaml.ScalarNode) -> int:
