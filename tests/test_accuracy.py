@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from fingerpad.arrays import FloatArray
+from fingerpad.errors import ResultError
 from fingerpad.prediction.edges import edge_intervals
 from fingerpad.prediction.forecast import forecast
 from fingerpad.prediction.scoring import ReadSolution, error_rows, prepared, read_out, rows_at, solve_scene
-from fingerpad.readouts.accuracy import LEAST, score_errors, true_errors, with_errors
+from fingerpad.readouts.accuracy import LEAST, read_cases, score_errors, true_errors, with_errors
 from fingerpad.readouts.gabor import FilteredReadouts
-from fingerpad.readouts.roughness import SCORE_COLUMNS, roughness_scores, scene_span, unpredicted_rows
+from fingerpad.readouts.roughness import SCORE_COLUMNS, roughness_scores, scene_span, unpredicted_rows, unscored_rows
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.device import Condition
 from fingerpad.scene.readout import Readout
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.store import write_rows
 from scenes import scene
 
 GRID = np.linspace(-12.0, 12.0, 2401)  # mm
@@ -36,6 +39,19 @@ def row(condition: str, score: float | str | None, interface: str = "shear", rea
         "score": score,
         "unit": "mm2",
     }
+
+
+def test_a_table_without_a_case_is_refused(tmp_path: Path) -> None:
+    """Rows that are lost are no scores that nobody asked for."""
+    own, path = scene("device2"), tmp_path / "score.csv"
+    condition = own.device.conditions[0]
+    rows = unscored_rows(own, condition, Interface.SHEAR, "")
+    write_rows(path, rows)
+    assert len(read_cases(path, own, [(condition.name, Interface.SHEAR)])) == len(rows)
+    for left, case in ((rows[:1], "shear"), (rows[:0], "shear"), (rows, "frictionless"), (rows * 2, "shear")):
+        write_rows(path, left)
+        with pytest.raises(ResultError, match=r"score\.csv: is not what fingerpad writes there \(cases are missing"):
+            read_cases(path, own, [(condition.name, case)])
 
 
 def check(condition: str, error: float | str | None, note: str = "", readout: str = "strain") -> dict[str, Any]:

@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fingerpad.errors import ResultError
 from fingerpad.files import replacing, require_folder, write_text
 from fingerpad.scene.numerics import Numerics
-from fingerpad.store import load, read_rows, save, save_arrays, write_rows
+from fingerpad.store import load, read_rows, read_table, save, save_arrays, write_rows
 from scenes import scene
 
 
@@ -66,7 +67,39 @@ def test_a_row_that_does_not_fit_leaves_no_table(tmp_path: Path) -> None:
 
 def test_no_rows_are_an_empty_table(tmp_path: Path) -> None:
     write_rows(tmp_path / "table.csv", [])
-    assert read_rows(tmp_path / "table.csv") == []
+    assert read_rows(tmp_path / "table.csv", "case") == []
+    assert read_table(tmp_path / "table.csv").empty
+
+
+def test_a_table_comes_back(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    write_rows(
+        path, [{"case": "a", "note": 'two\nlines, "quoted"', "score": 0.5}, {"case": "b", "note": "", "score": 1}]
+    )
+    assert [row["note"] for row in read_rows(path, "case", "score")] == ['two\nlines, "quoted"', ""]
+    assert read_table(path)["score"].tolist() == [0.5, 1.0]
+
+
+def test_a_table_cut_short_is_refused(tmp_path: Path) -> None:
+    """Wherever it is cut, but between rows: as after a power cut, or on a disk that is full."""
+    path = tmp_path / "table.csv"
+    write_rows(path, [{"case": "a", "note": "x, y", "score": 0.5}])
+    whole = path.read_bytes()
+    for size in range(len(whole)):
+        path.write_bytes(whole[:size])
+        for read in (read_rows, read_table):
+            if whole[:size] == b"case,note,score\n":
+                continue
+            with pytest.raises(
+                ResultError, match=r"table\.csv: is not what fingerpad writes there.*; remove it, and run"
+            ):
+                read(path)
+    path.write_bytes(whole)
+    with pytest.raises(ResultError, match="no column unit"):
+        read_rows(path, "case", "unit")
+    path.write_bytes(whole + b"b,z\n")
+    with pytest.raises(ResultError):
+        read_rows(path)
 
 
 def test_an_archive_holds_no_pickles(tmp_path: Path) -> None:

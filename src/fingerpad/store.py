@@ -40,7 +40,7 @@ def load(path: Path, kind: type[Record]) -> Record:
     try:
         return _built(kind, archive, "")
     except (KeyError, TypeError) as error:
-        raise _foreign(path, error) from error
+        raise foreign(path, error) from error
 
 
 def load_arrays(path: Path, *names: str) -> dict[str, Any]:
@@ -52,11 +52,11 @@ def load_arrays(path: Path, *names: str) -> dict[str, Any]:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             return {name: archive[name] for name in names or archive.files}
     except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile) as error:
-        raise _foreign(path, error) from error
+        raise foreign(path, error) from error
 
 
-def _foreign(path: Path, error: Exception) -> ResultError:
-    """The error of a file that is not what it should be."""
+def foreign(path: Path, error: object) -> ResultError:
+    """The error of a file that is not what it should be, and why."""
     return ResultError(f"{path}: is not what fingerpad writes there ({error}); remove it, and run again")
 
 
@@ -76,8 +76,8 @@ def csv_text(rows: Sequence[Mapping[str, Any]], header: bool = True) -> str:
 
 
 def write_rows(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows that share their keys as a CSV table; no rows as an empty file."""
-    write_text(path, csv_text(rows))
+    """Write rows that share their keys as a CSV table; no rows as an empty line, as an empty file is one cut short."""
+    write_text(path, csv_text(rows) or "\n")
 
 
 def write_table(path: Path, table: pd.DataFrame) -> None:
@@ -95,10 +95,32 @@ def alike(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     return [{key: row.get(key, "") for key in keys} for row in rows]
 
 
-def read_rows(path: Path) -> list[dict[str, str]]:
-    """Rows of a CSV table that `write_rows` wrote, as text."""
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+def read_rows(path: Path, *columns: str) -> list[dict[str, str]]:
+    """Rows of a CSV table that `write_rows` or `write_table` wrote, as text. Raises ResultError if it is none, as after
+    a power cut, or has rows and lacks a column.
+    """
+    try:
+        text = path.read_bytes().decode()
+        header, *lines = csv.reader(io.StringIO(text, newline=""), strict=True)
+        rows = [dict(zip(header, cells, strict=True)) for cells in lines]
+    except (ValueError, csv.Error) as error:
+        raise foreign(path, error) from error
+    if not text.endswith("\n"):
+        raise foreign(path, "its last line does not end")
+    if missing := [name for name in columns if rows and name not in header]:
+        raise foreign(path, f"no column {', '.join(missing)}")
+    return rows
+
+
+def read_table(path: Path) -> pd.DataFrame:
+    """The same as a table, with numbers as such; of an empty line, one without columns. Raises ResultError."""
+    import pandas as pd  # noqa: PLC0415 - jobs that read no tables do without
+
+    read_rows(path)
+    try:
+        return pd.read_csv(path)
+    except pd.errors.EmptyDataError:
+        return pd.DataFrame()
 
 
 def _flattened(record: Any, prefix: str) -> dict[str, Any]:

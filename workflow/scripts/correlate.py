@@ -2,12 +2,10 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.jobs import run
 from fingerpad.perception.correlation import correlation_table
 from fingerpad.perception.ratings import read_literature
-from fingerpad.store import write_table
+from fingerpad.store import read_table, write_table
 
 
 def main(
@@ -15,7 +13,7 @@ def main(
 ) -> None:
     """Read scores and literature data, correlate, write the table. conditions: of every known device."""
     literature = read_literature(ratings, order, published, conditions)
-    write_table(correlations, correlation_table(pd.read_csv(scores), literature))
+    write_table(correlations, correlation_table(read_table(scores), literature))
 
 
 if __name__ == "__main__":

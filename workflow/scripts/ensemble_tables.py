@@ -7,7 +7,7 @@ import pandas as pd
 from fingerpad.ensemble.members import ensemble_tables
 from fingerpad.jobs import run
 from fingerpad.perception.ratings import read_literature
-from fingerpad.store import write_table
+from fingerpad.store import read_table, write_table
 
 
 def main(
@@ -22,11 +22,11 @@ def main(
     table: Path,
 ) -> None:
     """Read all members' scores and literature data, check the statements, write the tables. A member that varies no
-    device with its kinematics has an empty file.
+    device with its kinematics has no rows.
     """
     found = ensemble_tables(
-        pd.concat([pd.read_csv(path) for path in members if path.stat().st_size], ignore_index=True),
-        pd.read_csv(scores),
+        pd.concat([table for table in map(read_table, members) if len(table)], ignore_index=True),
+        read_table(scores),
         read_literature(ratings, order, published, conditions),
     )
     write_table(claims, found.claims)

@@ -2,16 +2,15 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.figures.ensemble import ensemble_figure
 from fingerpad.figures.style import rows_with, save
 from fingerpad.jobs import run
+from fingerpad.store import read_table
 
 
 def main(kinematics: str, claims: Path, png: Path) -> None:
     """Read the table, draw, write PNG and PDF."""
-    save(ensemble_figure(rows_with(pd.read_csv(claims), kinematics)), png)
+    save(ensemble_figure(rows_with(read_table(claims), kinematics)), png)
 
 
 if __name__ == "__main__":

@@ -2,13 +2,12 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.figures.shear import shear_figure
 from fingerpad.figures.style import rows_with, save
 from fingerpad.jobs import run
 from fingerpad.perception.ratings import read_ratings
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.store import read_table
 
 
 def main(
@@ -24,7 +23,7 @@ def main(
 ) -> None:
     """Read the tables, draw the device's rows, write PNG and PDF. conditions: of every known device."""
     rated = read_ratings(ratings, conditions)
-    scored, correlated = (rows_with(pd.read_csv(table), kinematics) for table in (scores, correlations))
+    scored, correlated = (rows_with(read_table(table), kinematics) for table in (scores, correlations))
     save(shear_figure(device, title, scored, rated, correlated, kinematics, turning), png)
 
 

@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.contact.solution import Solution
 from fingerpad.figures.receptors import DeviceReadouts, face_arcs
 from fingerpad.figures.style import rows_with, save
@@ -13,7 +11,7 @@ from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.scene.contact_law import Interface
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.tissue_law import Kinematics
-from fingerpad.store import load
+from fingerpad.store import load, read_table
 from fingerpad.tissue.compliance import CondensedSection
 
 
@@ -26,7 +24,7 @@ def main(
     readouts = {name: load(path, FilteredReadouts) for name, path in zip(names, filtered, strict=True)}
     faces = face_arcs(scene.device, load(condensed, CondensedSection), load(solution, Solution))
     entry = DeviceReadouts(scene.device, readouts, faces)
-    table = rows_with(pd.read_csv(scores), Kinematics.SMALL)
+    table = rows_with(read_table(scores), Kinematics.SMALL)
     own = table[(table["device"] == scene.device.name) & (table["interface"] == Interface.SHEAR)]
     save(workflow_figure(scene, entry, own), png)
 

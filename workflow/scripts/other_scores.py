@@ -12,7 +12,7 @@ from fingerpad.readouts.gabor import FilteredReadouts
 from fingerpad.readouts.scorings import response_rows, scoring_rows
 from fingerpad.scene.scene import with_all_kinematics
 from fingerpad.scene.scenefile import load_scene
-from fingerpad.store import load, read_rows, write_rows, write_table
+from fingerpad.store import load, read_rows, read_table, write_rows, write_table
 
 
 def main(
@@ -46,7 +46,7 @@ def main(
     ]
     write_rows(scorings, rows)
     literature = read_literature(ratings, order, published, conditions)
-    found = scoring_tables(pd.DataFrame(rows), pd.read_csv(scores), literature)
+    found = scoring_tables(pd.DataFrame(rows), read_table(scores), literature)
     write_table(correlations, found.correlations)
     write_table(claims, found.claims)
     write_rows(response, [row for scene in scenes for row in response_rows(scene)])

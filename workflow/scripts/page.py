@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import pandas as pd
-
 from fingerpad.files import write_text
 from fingerpad.jobs import run
 from fingerpad.pages.accuracy import accuracy_values
@@ -14,6 +12,7 @@ from fingerpad.pages.robustness import robustness_values
 from fingerpad.pages.run_time import run_time_values
 from fingerpad.pages.scorings import scorings_values
 from fingerpad.pages.skipping import skipping_values
+from fingerpad.store import read_table
 
 VALUES = {
     "accuracy": accuracy_values,
@@ -28,10 +27,7 @@ VALUES = {
 
 def main(page: str, template: Path, names: list[str], tables: list[Path], written: Path) -> None:
     """Read template and tables, some of which may be empty, write the page."""
-    read = {
-        name: pd.read_csv(path) if path.stat().st_size else pd.DataFrame()
-        for name, path in zip(names, tables, strict=True)
-    }
+    read = {name: read_table(path) for name, path in zip(names, tables, strict=True)}
     values = VALUES[page](read)
     write_text(written, filled(template.read_text(encoding="utf-8"), values))
 

@@ -3,19 +3,24 @@
 from pathlib import Path
 
 from fingerpad.jobs import run
-from fingerpad.readouts.accuracy import with_errors
+from fingerpad.readouts.accuracy import read_cases, with_errors
 from fingerpad.readouts.roughness import unpredicted_rows
 from fingerpad.scene.scene import with_all_kinematics
 from fingerpad.scene.scenefile import load_scene
-from fingerpad.store import read_rows, write_rows
+from fingerpad.store import write_rows
 
 
 def main(config: Path, devices: list[Path], scores: list[Path], checks: list[Path], table: Path) -> None:
-    """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table."""
-    found = [row for path in scores for row in read_rows(path)]
-    coarser = [row for path in checks for row in read_rows(path)]
-    scenes = [load_scene(config, device) for device in devices]
-    missing = [row for scene in with_all_kinematics(scenes) for row in unpredicted_rows(scene)]
+    """Read every score, add the rows for which there is no prediction, and errors from the checks; write the table.
+    scores: of every condition and interface of each scene with all kinematics. checks: of each.
+    """
+    scenes, files = [*with_all_kinematics([load_scene(config, device) for device in devices])], iter(scores)
+    found, coarser, missing = [], [], []
+    for scene, check in zip(scenes, checks, strict=True):
+        cases = [(each.name, interface) for each in scene.device.conditions for interface in scene.device.interfaces()]
+        found += [row for case in cases for row in read_cases(next(files), scene, [case])]
+        coarser += read_cases(check, scene, cases)
+        missing += unpredicted_rows(scene)
     write_rows(table, with_errors([*found, *missing], coarser))
 
 

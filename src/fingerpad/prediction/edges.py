@@ -45,7 +45,7 @@ def save_edges(path: Path, intervals: FloatArray) -> None:
 
 def load_edges(path: Path) -> FloatArray:
     """Intervals (k, 2) [mm] that `save_edges` wrote."""
-    return np.array([[float(row[column]) for column in COLUMNS] for row in read_rows(path)])
+    return np.array([[float(row[column]) for column in COLUMNS] for row in read_rows(path, *COLUMNS)])
 
 
 def edge_intervals(scene: Scene) -> FloatArray:

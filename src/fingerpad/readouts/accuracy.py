@@ -11,12 +11,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..scene.readout import Readout
 from ..scene.scene import Scene
+from ..store import foreign, read_rows
 from .gabor import FilteredReadouts
 from .roughness import SCORE_KEY, roughness_score, scene_span
 
@@ -40,6 +42,17 @@ def score_errors(scene: Scene, read: FilteredReadouts, coarser: FilteredReadouts
         estimated = roughness_score(read.arc, off, span) / DIFFERENCE
         errors[each] = max(estimated, LEAST * roughness_score(read.arc, filtered, span))
     return errors
+
+
+def read_cases(path: Path, scene: Scene, cases: Iterable[tuple[str, str]]) -> list[dict[str, str]]:
+    """Rows of a table that has one of both read-outs of some conditions and interfaces, by name, of a scene. Raises
+    ResultError as `read_rows`, and if it has others.
+    """
+    rows = read_rows(path, *CASE)
+    wanted = [(scene.kinematics, scene.device.name, *case, each) for case in cases for each in Readout]
+    if sorted(map(case_of, rows)) != sorted(wanted):
+        raise foreign(path, "cases are missing, or are others")
+    return rows
 
 
 def with_errors(scores: Sequence[Mapping[str, Any]], checks: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
