@@ -921,6 +921,17 @@ def test_maps_of_names_that_run_together_have_files_of_their_own(
             assert drawn[f"results/figures/map_{kinematics}_{name}-{dispersion}.png"] == name
 
 
+def test_braces_in_a_title_are_no_wildcards(project: Project, both_scenes: Path, tmp_path: Path) -> None:
+    scenes, there = tmp_path / "scenes", tmp_path / "there"
+    shutil.copytree(both_scenes, scenes)
+    Project(scenes).edit("devices/device2.yaml", lambda text: text.replace('"Device 2: lateral', '"{short} {} lateral'))
+    targets = ("all", "frequency", "scorings", "results/rule_graph.csv")
+    planned = project.snakemake("-n", *targets, *into(there, scenes))
+    assert planned.status == 0, planned.text
+    drawn = project.snakemake("results/figures/stimuli.png", *into(there, scenes))
+    assert drawn.status == 0, drawn.text
+
+
 @pytest.mark.parametrize("name", ["draft", "My-Draft"])
 def test_a_draft_beside_the_shipped_devices_blocks_no_other_folder(
     project: Project, both_scenes: Path, name: str

@@ -30,6 +30,9 @@ if not isinstance(config.get("scenes", ""), str):
         f"--config scenes: found {config['scenes']!r}; allowed: a folder; write scenes=./NAME for such a name"
     )
 SCENES = Path(config.get("scenes", BASE / "config"))
+for folder in (SCENES, BASE):
+    if set("{}") & set(str(folder)):  # in names of inputs they are a wildcard's
+        raise WorkflowError(f"{folder}: found braces; allowed: a folder without them, here and above")
 CONFIG = SCENES / "config.yaml"
 RULES = BASE / "workflow" / "rules"
 CUSTOM_RULES = sorted((RULES / "custom").glob("[!.]*.smk"))  # of devices that need their own (docs/extending.md)
@@ -153,7 +156,9 @@ def files_with(kinematics):
 
 
 def titles_of(names):
-    """The titles of some devices by name."""
+    """The titles of some devices by name. As a parameter it stands behind `lambda w:`, as do devices: Snakemake would take
+    braces in a title for a wildcard's.
+    """
     return {name: SCENE[name].device.title for name in names}
 
 

@@ -147,7 +147,7 @@ rule figure_kinematics:
         ENVIRONMENT
     params:
         code=code("figure_kinematics.py"),
-        titles=titles_of(DEVICES),
+        titles=lambda w: titles_of(DEVICES),
     script:
         "../scripts/figure_kinematics.py"
 
@@ -165,7 +165,7 @@ rule figure_section:
         ENVIRONMENT
     params:
         code=code("figure_section.py"),
-        scene=support.fingerprint(
+        scene=lambda w: support.fingerprint(
             SCENE[DEVICES[0]].model.finger,
             SCENE[DEVICES[0]].model.readout,
             [SCENE[name].device for name in DEVICES],
@@ -186,7 +186,7 @@ rule figure_stimuli:
         ENVIRONMENT
     params:
         code=code("figure_stimuli.py"),
-        scene=support.fingerprint([SCENE[name].device for name in DEVICES]),
+        scene=lambda w: support.fingerprint([SCENE[name].device for name in DEVICES]),
     script:
         "../scripts/figure_stimuli.py"
 
@@ -233,7 +233,9 @@ rule figure_workflow:
         ENVIRONMENT
     params:
         code=code("figure_workflow.py"),
-        scene=support.fingerprint(SCENE[EXAMPLE].device, SCENE[EXAMPLE].model.gabor, SCENE[EXAMPLE].model.readout),
+        scene=lambda w: support.fingerprint(
+            SCENE[EXAMPLE].device, SCENE[EXAMPLE].model.gabor, SCENE[EXAMPLE].model.readout
+        ),
     script:
         "../scripts/figure_workflow.py"
 
@@ -257,7 +259,7 @@ if SLIDING:
             kinematics=mode_of,
             turning=lambda w: turns(EXAMPLE, mode_of(w)),
             device=EXAMPLE,
-            title=SCENE[EXAMPLE].device.title,
+            title=lambda w: SCENE[EXAMPLE].device.title,
             conditions=KNOWN,
         script:
             "../scripts/figure_shear.py"

@@ -101,6 +101,6 @@ rule figure_frequency:
         ENVIRONMENT
     params:
         code=code("figure_frequency.py"),
-        titles=titles_of(VIBRATING),
+        titles=lambda w: titles_of(VIBRATING),
     script:
         "../scripts/figure_frequency.py"

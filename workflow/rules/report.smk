@@ -46,7 +46,7 @@ rule rule_graph:
         ENVIRONMENT
     params:
         code=code("rule_graph.py"),
-        scene=support.fingerprint([SCENE[name].device for name in DEVICES], DEVICES_WITH),
+        scene=lambda w: support.fingerprint([SCENE[name].device for name in DEVICES], DEVICES_WITH),
     script:
         "../scripts/rule_graph.py"
 

@@ -107,6 +107,6 @@ rule figure_phases:
         ENVIRONMENT
     params:
         code=code("figure_phases.py"),
-        scene=support.fingerprint([SCENE[name].device for name in PHASED]),
+        scene=lambda w: support.fingerprint([SCENE[name].device for name in PHASED]),
     script:
         "../scripts/figure_phases.py"
