@@ -16,6 +16,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from fingerpad.errors import CriterionError, SceneError
 from fingerpad.jobs import Job, run
 from fingerpad.scene.tissue_law import Kinematics
+from fingerpad.unchanged import VARIABLE, begun, remember
 
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
 RULES = SCRIPTS.parent / "rules"
@@ -51,6 +52,34 @@ def test_an_expected_error_is_its_message_alone(tmp_path: Path) -> None:
     said = log.read_text(encoding="utf-8")
     assert said.startswith("too wide\nTraceback ")
     assert said.endswith("ZeroDivisionError: by nothing\n")
+
+
+@pytest.mark.parametrize("when", ["before", "meanwhile"])
+def test_a_job_ends_where_scene_files_have_changed_since_its_run_began(
+    when: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In their values, that is, and not in comments."""
+    device, table = tmp_path / "pins.yaml", tmp_path / "tap.csv"
+    device.write_text("count: {value: 2}\n", encoding="utf-8")
+    table.write_text("time\n", encoding="utf-8")
+    monkeypatch.setenv(VARIABLE, "")
+    remember(begun([device, table]))
+    job = job_of(tmp_path, input={"device": str(device), "recordings": [str(table)], "mesh": "mesh.npz"})
+    run(lambda: None, job)
+    device.write_text("count: {value: 2}  # two\n", encoding="utf-8")
+    run(lambda: None, job)
+
+    def edit() -> None:
+        table.write_text("time\n1\n", encoding="utf-8")
+
+    if when == "before":
+        edit()
+    with pytest.raises(SystemExit, match=r"tap\.csv: has changed since this run began; run again"):
+        run(edit, job)
+    table.write_text("time\n", encoding="utf-8")
+    device.write_text("count: {value: 3}\n", encoding="utf-8")
+    with pytest.raises(SystemExit, match=r"pins\.yaml: has changed since this run began"):
+        run(lambda: None, job)
 
 
 def test_a_script_gets_what_its_rule_names(tmp_path: Path) -> None:

@@ -90,6 +90,25 @@ rule two:
     shell:
         "echo $OPENBLAS_NUM_THREADS > {output}"
 """
+EDIT = """
+rule edit:
+    input:
+        device=ancient(DEVICE_FILES),
+    output:
+        "results/edited.txt",
+    shell:
+        "sed -i 's/amplitude: .value: /&1/' {input.device} && touch {output}"
+
+rule edited:
+    input:
+        **ALL_SCENE_FILES,
+        edited="results/edited.txt",
+    output:
+        png="results/edited.png",
+        pdf="results/edited.pdf",
+    script:
+        "../../scripts/figure_stimuli.py"
+"""
 
 
 # What is written
@@ -310,6 +329,21 @@ def test_jobs_have_as_many_threads_as_their_rule_says(fresh: Project, monkeypatc
     assert run.status == 0, run.text
     for name, threads in (("one", "1"), ("two", "2")):
         assert (fresh.folder / f"results/{name}.txt").read_text(encoding="utf-8").strip() == threads
+
+
+def test_a_scene_file_that_changes_during_a_run_ends_the_jobs_that_read_it(
+    project: Project, coarse_scenes: Path, tmp_path: Path
+) -> None:
+    """Its values are those that the run began with, or nothing is made."""
+    copy, scenes = Project(tmp_path / "copy"), tmp_path / "scenes"
+    shutil.copytree(project.folder, copy.folder)
+    shutil.copytree(coarse_scenes, scenes)
+    (copy.folder / "workflow/rules/custom").mkdir()
+    (copy.folder / "workflow/rules/custom/edit.smk").write_text(EDIT, encoding="utf-8")
+    run = copy.snakemake("results/edited.png", *into(tmp_path / "there", scenes))
+    assert run.status == 1
+    assert f"{scenes}/devices/device2.yaml: has changed since this run began; run again" in run.text
+    assert not (tmp_path / "there/results/edited.png").exists()
 
 
 # What reruns

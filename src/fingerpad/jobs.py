@@ -15,6 +15,7 @@ from typing import Any, Protocol, get_args, get_origin
 from threadpoolctl import threadpool_limits
 
 from .errors import FingerpadError
+from .unchanged import require_unchanged
 
 
 class Job(Protocol):
@@ -34,10 +35,13 @@ def run(main: Callable[..., None], job: Job) -> None:
     results depend on their number.
 
     Ends with status 1: at a FingerpadError with its message alone, there and on standard error; at any other error with
-    the traceback.
+    the traceback. So it ends where scene files have other values than when the run began.
     """
+    read = [str(each) for _, files in job.input.items() for each in ([files] if isinstance(files, str) else files)]
     with _logged(job.log), threadpool_limits(1):
+        require_unchanged(read)
         main(**_given(main, job))
+        require_unchanged(read)
 
 
 def _given(main: Callable[..., None], job: Job) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from fingerpad.scene.yamlfile import read_yaml
 from fingerpad.scene.tissue_law import Kinematics
 from fingerpad.scene.device_names import known_devices
 from fingerpad.scene.validation import check_config, check_device
+from fingerpad.unchanged import begun, remember
 from fingerpad.words import MODE_ENDING
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
@@ -58,6 +59,7 @@ try:
             f"{SCENES / 'devices'}: found no device file; `fingerpad new NAME --from device2` begins one"
         )
     DEVICE_FILES = [file_of(name) for name in DEVICES]
+    as_begun = begun([CONFIG, *DEVICE_FILES])
     SCENE = {path.stem: check_device(path, SCHEMAS, CONFIG) for path in DEVICE_FILES}
     RECORDINGS = {path.stem: recordings(path) for path in DEVICE_FILES}  # measured displacements, by device
     # what may be rated: the devices that are computed, and the shipped ones, whose ratings are in data/
@@ -76,6 +78,8 @@ except FingerpadError as error:
 
 
 ALL_RECORDINGS = [path for name in DEVICES for path in RECORDINGS[name]]
+if workflow.is_main_process:  # jobs on other machines read these rules anew
+    remember({**as_begun, **begun(ALL_RECORDINGS)})
 DEVICES_WITH = {
     str(each): [name for name in DEVICES if each in SCENE[name].computed] for each in Kinematics
 }  # names of the devices that are predicted with those kinematics
