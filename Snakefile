@@ -17,6 +17,7 @@ import support
 # jobs find the library, whose `fingerpad.jobs.run` gives each one thread, whatever its rule says: so results do not depend
 # on the machine's cores, and jobs run beside each other
 os.environ |= {"PYTHONPATH": str(PROJECT / "src")}
+os.environ.pop("MPLBACKEND", None)  # they show no windows, and matplotlib ends at a name that it does not know
 
 
 # priorities: 3 for the longest, 2 for what the tables wait for, 1 for what is long or what long jobs wait for; so that no

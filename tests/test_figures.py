@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 import subprocess
 import sys
@@ -1230,3 +1231,22 @@ def test_neither_figures_nor_solver_load_what_they_do_not_need() -> None:
         "import fingerpad.figures.workflow; assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": str(ROOT / "src"), "PATH": ""})
+
+
+def test_what_a_user_has_set_for_matplotlib_changes_no_figure(tmp_path: Path) -> None:
+    """Neither a file matplotlibrc, which matplotlib finds where it is called, nor a window that there is not."""
+    device = ROOT / "config" / "devices" / "device2.yaml"
+    check = [sys.executable, "-m", "fingerpad.cli", "check", str(device), "-o", "drawn.svg"]
+    drawn = []
+    for name, settings, given in (
+        ("plain", "", {}),
+        ("set", "font.family: nothing\ntext.usetex: True\naxes.grid: True\n", {"MPLBACKEND": "nonsense"}),
+    ):
+        folder = tmp_path / name
+        folder.mkdir()
+        (folder / "matplotlibrc").write_text(settings, encoding="utf-8")
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "src")} | given
+        done = subprocess.run(check, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        drawn.append((folder / "drawn.svg").read_bytes())
+    assert drawn[0] == drawn[1]

@@ -38,6 +38,7 @@ valid, but could not be solved to a certified solution; 130 interrupted.
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; its exit code. A FingerpadError is printed without a traceback."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    os.environ.pop("MPLBACKEND", None)  # no window is shown, and matplotlib ends at a name that it does not know
     if sys.stdout is None:  # closed, as `>&-` does: nobody reads what is printed
         sys.stdout = StringIO()
     if isinstance(sys.stdout, TextIOWrapper):

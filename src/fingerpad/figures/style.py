@@ -58,7 +58,8 @@ WRITTEN: dict[str, dict[str, Any]] = {
     "svg": {"metadata": {"Creator": None, "Date": None}},
 }  # how files are written, by ending
 
-RC: dict[Any, Any] = {
+# where nothing is said, as matplotlib comes, and not as a matplotlibrc of whoever draws has it
+RC: dict[Any, Any] = {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"} | {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib: the same letters on every machine
     "font.size": TEXT,
     "axes.titlesize": TITLE,
