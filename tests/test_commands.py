@@ -308,13 +308,48 @@ def test_forces_and_vibrations_in_python_are_those_that_commands_print(
     assert set(swung["frequency_hz"]) == {0.0, 20.0}
     for wrong, told in (
         ([0.01], r"frequency: found 0\.01; allowed: 0\.1 to 1000 \[Hz\]"),
-        (["fast"], "frequency: found fast; allowed: "),
+        (["fast"], "frequency: found 'fast'; allowed: "),
+        ([10**5000], "frequency: found .*; allowed: "),
         (20.0, r"frequencies: found 20\.0; allowed: a list of numbers \[Hz\]"),
+        (b"AB", r"frequencies: found b'AB'; allowed: a list of numbers \[Hz\]"),
+        (np.array(20.0), r"frequencies: found array\(20\.\); allowed: a list of numbers \[Hz\]"),
     ):
         with pytest.raises(UsageError, match=told):
             vibrate(device, wrong)  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="conditions: found 'alternate_000'; allowed: a list of names"):
         forces(device, conditions=name)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"error": "no"}, "error: found 'no'; allowed: True or False"),
+        ({"cores": 0}, "cores: found 0; allowed: a whole number, at least 1"),
+        ({"cores": "2"}, "cores: found '2'; allowed: a whole number, at least 1"),
+        ({"config": 3}, "config: found 3; allowed: a path, or None"),
+        ({"schemas": {"a": 1}}, r"schemas: found \{'a': 1\}; allowed: a path, or None"),
+        ({"kinematics": ["small"]}, r"kinematics: found \['small'\]; allowed: 'small', 'finite'"),
+        ({"kinematics": np.array(["small", "finite"])}, "kinematics: found array"),
+        ({"conditions": None}, "conditions: found None; allowed: a list of names"),
+        ({"conditions": [5]}, r"conditions: found \[5\]; allowed: a list of names"),
+    ],
+)
+def test_parameters_of_another_kind_are_refused(given: dict[str, Any], told: str) -> None:
+    with pytest.raises(UsageError, match=told):
+        predict(DEVICES / "device2.yaml", **given)
+
+
+def test_conditions_that_can_be_read_once_are_those_of_all_variants() -> None:
+    names = (name for name in ["alternate_090"])
+    table = predict(
+        DEVICES / "device2.yaml",
+        error=False,
+        conditions=names,
+        vary={"actuators.pitch": [2.4, 2.5]},
+        kinematics="small",
+    )
+    assert set(table["condition"]) == {"alternate_090"}
+    assert len(table) == 2 * len(table.query("`actuators.pitch` == 2.4"))
 
 
 def test_one_device_is_predicted_at_a_time() -> None:

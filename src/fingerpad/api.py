@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from numbers import Integral
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from .checkout import model_for, schemas_for
@@ -17,6 +19,7 @@ from .guess import hint
 from .prediction.forces import ERROR, NORMAL, TANGENTIAL, force_rows
 from .prediction.ranking import RANKS
 from .prediction.side_by_side import forecasts
+from .scene.problems import as_python
 from .scene.scene import Scene
 from .scene.tissue_law import Kinematics
 from .scene.validation import check_device, possible
@@ -36,7 +39,7 @@ def predict(
     config: str | PathLike[str] | None = None,
     schemas: str | PathLike[str] | None = None,
     vary: Mapping[str, Sequence[Any]] = NO_VALUES,
-    conditions: Sequence[str] = (),
+    conditions: Iterable[str] = (),
     cores: int = 1,
 ) -> pd.DataFrame:
     """Scores of a device file: the columns of results/scores.csv, then `rank`, `first_rank`, `last_rank`,
@@ -50,17 +53,19 @@ def predict(
     (default: all). config: the config.yaml beside the device file's folder if not given, or else that of the checkout
     around the working folder, as are schemas. cores: how many combinations are solved at once, each by a process of its
     own; a script then needs `if __name__ == "__main__":`. Numbers that are not known are NaN, and such ranks NA. Raises
-    SceneError, and UsageError if there is no such checkout or there are no such kinematics, if what is varied has no
-    effect (`require_effect`), if conditions are a text, and if the device is no path; and ProcessError if a process
-    ends early.
+    SceneError, and UsageError if there is no such checkout, if what is varied has no effect (`require_effect`), and for
+    a parameter that is of another kind; and ProcessError if a process ends early.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3
     """
+    names = _names(conditions)
+    _require("error", error, isinstance(error, bool | np.bool_), "True or False")
+    _require("cores", cores, isinstance(cores, Integral) and cores > 0, "a whole number, at least 1")
     cases, refused = possible(variants(vary), lambda values: _checked(device, config, schemas, kinematics, values))
     for why in refused:
         warnings.warn(f"left out: {why}", stacklevel=2)
-    tasks = [(scene.with_asked(_names(conditions)), error) for _, scene in cases]
+    tasks = [(scene.with_asked(names), bool(error)) for _, scene in cases]
     tables = zip(cases, forecasts(tasks, cores), strict=True)
     rows = [_hashable(values) | row for (values, _), table in tables for row in table]
     return _table(rows, PREDICTED).astype(dict.fromkeys(RANKS, "Int64"))
@@ -72,7 +77,7 @@ def forces(
     kinematics: str = "small",
     config: str | PathLike[str] | None = None,
     schemas: str | PathLike[str] | None = None,
-    conditions: Sequence[str] = (),
+    conditions: Iterable[str] = (),
 ) -> pd.DataFrame:
     """Forces with which every actuator acts on the skin [N per mm of finger], at every time of every condition of a
     device file: the columns that `force_rows` names. Parameters and errors are those of `predict`.
@@ -81,8 +86,10 @@ def forces(
     >>> bool(pressed["normal_N_per_mm"].min() > 0.0)
     True
     """
+    names = _names(conditions)
+    _require("error", error, isinstance(error, bool | np.bool_), "True or False")
     scene = _checked(device, config, schemas, kinematics, NO_VALUES)
-    return _table(force_rows(scene.with_asked(_names(conditions)), error), FORCES)
+    return _table(force_rows(scene.with_asked(names), bool(error)), FORCES)
 
 
 def vibrate(
@@ -90,14 +97,14 @@ def vibrate(
     frequencies: Iterable[float] = (),
     config: str | PathLike[str] | None = None,
     schemas: str | PathLike[str] | None = None,
-    conditions: Sequence[str] = (),
+    conditions: Iterable[str] = (),
 ) -> pd.DataFrame:
     """Scores of a device file's conditions as vibrations, slow and at some frequencies [Hz], or those in the file: the
     columns of results/frequency.csv, then `caveats`. Other parameters and errors are those of `predict`; UsageError
     also if displacements are given in time, if there is no frequency, and if one is out of range.
     """
-    if isinstance(frequencies, str) or not isinstance(frequencies, Iterable):
-        raise UsageError(f"frequencies: found {frequencies!r}; allowed: a list of numbers [Hz]")
+    listing = isinstance(frequencies, Iterable) and not isinstance(frequencies, str | bytes | Mapping)
+    _require("frequencies", frequencies, listing and getattr(frequencies, "ndim", 1) == 1, "a list of numbers [Hz]")
     scene = _checked(device, config, schemas, Kinematics.SMALL, NO_VALUES).with_asked(_names(conditions))
     wanted = [each.item() if hasattr(each, "item") else each for each in frequencies]  # numpy's numbers as Python's
     return _table(vibration_forecast(at_frequencies(scene, wanted)), VIBRATED)
@@ -111,20 +118,31 @@ def _checked(
     values: Mapping[str, Any],
 ) -> Scene:
     """The scene of a device file with some values in place of those in files. Raises SceneError, UsageError."""
-    if not isinstance(device, str | PathLike):
-        raise UsageError(f"device: found {device!r}; allowed: the path of one device file")
-    if kinematics not in list(Kinematics):
-        raise UsageError(f"kinematics: found {kinematics!r}; allowed: {listed(Kinematics)}")
+    _require("device", device, isinstance(device, str | PathLike), "the path of one device file")
+    for name, path in (("config", config), ("schemas", schemas)):
+        _require(name, path, path is None or isinstance(path, str | PathLike), "a path, or None")
+    known = isinstance(kinematics, str) and kinematics in list(Kinematics)
+    _require("kinematics", kinematics, known, listed(Kinematics))
     model = model_for(Path(device), Path(config) if config else None)
     scene = check_device(Path(device), schemas_for(Path(schemas) if schemas else None), model, values)
     return scene.with_kinematics(Kinematics(kinematics))
 
 
-def _names(conditions: Sequence[str]) -> Sequence[str]:
-    """Names of conditions. Raises UsageError if they are a text."""
-    if isinstance(conditions, str):
-        raise UsageError(f"conditions: found {conditions!r}; allowed: a list of names{hint(f'[{conditions!r}]')}")
-    return conditions
+def _names(conditions: Iterable[str]) -> tuple[str, ...]:
+    """Names of conditions. Raises UsageError if they are no list of texts."""
+    meant = hint(f"[{conditions!r}]") if isinstance(conditions, str) else ""
+    listing = isinstance(conditions, Iterable) and not isinstance(conditions, str | bytes)
+    names = tuple(conditions) if listing else ()
+    _require(
+        "conditions", conditions, listing and all(isinstance(each, str) for each in names), f"a list of names{meant}"
+    )
+    return names
+
+
+def _require(name: str, found: object, fits: bool, allowed: str) -> None:
+    """Raise UsageError, with the name of a parameter, unless what was given fits."""
+    if not fits:
+        raise UsageError(f"{name}: found {as_python(found)}; allowed: {allowed}")
 
 
 def _hashable(values: Mapping[str, Any]) -> dict[str, Any]:

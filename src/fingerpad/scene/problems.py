@@ -43,6 +43,19 @@ def written(value: object) -> str:
     return " ".join(text.removesuffix("...\n").split())
 
 
+def as_python(value: object) -> str:
+    """A value in a message as Python writes it, on one line, cut if it is long.
+
+    >>> as_python("10"), as_python(10**5000)
+    ("'10'", 'a number of thousands of digits')
+    """
+    try:
+        text = " ".join(repr(value).split())
+    except ValueError:  # more digits than Python writes
+        text = "a number of thousands of digits"
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."
+
+
 def shown(value: object) -> str:
     """A value in a message: as YAML would write it, cut if it is long."""
     text = written(value)

@@ -11,6 +11,7 @@ from ..errors import UsageError
 from ..prediction.edges import mesh_device
 from ..prediction.scoring import condense_mesh
 from ..requirements import is_number
+from ..scene.problems import as_python
 from ..scene.scene import Scene
 from .frequency import vibration_rows
 
@@ -32,7 +33,7 @@ def at_frequencies(scene: Scene, frequencies: Sequence[float]) -> Scene:
         raise UsageError(f"{device.name}: found no frequency; give one, or stimulus.frequency_hz in the device file")
     for frequency in frequencies:
         if not (is_number(frequency) and LOWEST <= frequency <= HIGHEST):
-            raise UsageError(f"frequency: found {frequency}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
+            raise UsageError(f"frequency: found {as_python(frequency)}; allowed: {LOWEST:g} to {HIGHEST:g} [Hz]")
     wanted = tuple(sorted(set(frequencies))) or device.frequencies
     return scene.with_device(frequencies=wanted)
 
