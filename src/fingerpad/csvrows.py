@@ -12,7 +12,7 @@ from pathlib import Path
 
 from .errors import FingerpadError
 from .files import require_readable
-from .guess import closest, hint
+from .guess import TYPED, closest, hint
 
 LARGEST_FILE = 50_000_000  # bytes; source: assumption: the longest recording, ten thousand times of 64 actuators
 
@@ -79,15 +79,16 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
 
 def told(path: Path, line: int, column: str, found: str, allowed: Sequence[str], meant: str = "") -> str:
     """What is wrong with a cell. allowed: a phrase, or the names among which the one that was meant is guessed; of a
-    number with a decimal comma it is that with a point.
+    number with a decimal comma or a typeset minus it is that as programs write it.
     """
     close = [] if isinstance(allowed, str) else get_close_matches(found, allowed, n=len(allowed) or 1)
     guess = sorted(close, key=lambda name: not name.startswith(found))  # of equally close ones that which goes on
     names = allowed if isinstance(allowed, str) else listed(allowed)
-    comma = re.fullmatch(r"[+-]?\d+,\d+", found) if isinstance(allowed, str) else None
-    meant = found.replace(",", ".") if comma else next(iter(guess), meant)
-    guessed = hint(meant, "'")
-    return f"{path}, line {line}, column {column}: found '{found}'; allowed: {names}{guessed}"
+    typed = found.translate(TYPED)
+    is_typeset = isinstance(allowed, str) and typed != found and math.isfinite(number(typed))
+    guessed = hint(typed if is_typeset else next(iter(guess), meant), "'")
+    said = f"'{found}'" if found.isprintable() else ascii(found)
+    return f"{path}, line {line}, column {column}: found {said}; allowed: {names}{guessed}"
 
 
 def listed(names: Iterable[str]) -> str:

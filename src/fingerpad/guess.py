@@ -7,6 +7,7 @@ from difflib import get_close_matches
 
 SIMILAR = 0.7  # likeness of words [1] above which one is taken for the other (difflib's); source: chosen
 SHORT = 3  # letters of a word [1] that says too little for another that contains it to be meant; source: chosen
+TYPED = str.maketrans({",": ".", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-"})  # of numbers, as they are typeset
 
 
 def closest(found: object, known: Iterable[str]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -22,6 +21,7 @@ ORDER_COLUMNS = ("device", "lower", "relation", "higher", "source")
 OF_DEVICES = " (a device with a file, in config/devices or among the scenes asked for)"
 NO_RATINGS = "no ratings"  # note of a device that nobody has rated
 PUBLISHED_COLUMNS = ("device", "interface", "readout", "r2", "slope", "words", "source")
+SMALLEST, LARGEST = 1e-100, 1e100  # of a rating, in its unit; source: sums of squares of these are numbers, too
 SLOPES = {"": None, "-1": -1, "1": 1}  # of rating on score, as published
 
 
@@ -87,8 +87,9 @@ def read_ratings(path: Path, conditions_by_device: Mapping[str, Sequence[str]]) 
         _check_name(path, line, "condition", condition, conditions_by_device[device], _conditions_of(device))
         _check_name(path, line, "kind", kind, [*RatingKind])
         rating = number(row["rating"])
-        if not math.isfinite(rating):
-            raise _error(path, line, "rating", row["rating"], "a finite number")
+        if rating != 0.0 and not SMALLEST <= abs(rating) <= LARGEST:
+            allowed = f"0, or a number of size {SMALLEST:g} to {LARGEST:g}"
+            raise _error(path, line, "rating", row["rating"], allowed)
         if (device, condition) in lines:
             first = lines[device, condition]
             raise _error(path, line, "condition", condition, f"one row per condition; {device} has it on line {first}")

@@ -10,12 +10,13 @@ from contextlib import suppress
 from decimal import Decimal
 from typing import Any
 
-from ..guess import closest
+from ..guess import TYPED, closest
 from ..requirements import is_number
 from .problems import shown
 
 # source: tables that are read with pandas take them for missing, and columns of nothing else for numbers and truths
 RESERVED = {"false", "inf", "infinity", "nan", "null", "true"}
+QUOTES = "\"'\N{LEFT DOUBLE QUOTATION MARK}\N{RIGHT DOUBLE QUOTATION MARK}\N{DOUBLE LOW-9 QUOTATION MARK}"
 FACTORS: Mapping[tuple[str, str], float] = {
     **{("mm", unit): 1e-3 for unit in ("um", "\N{GREEK SMALL LETTER MU}m", "\N{MICRO SIGN}m")},
     **{("mm", "nm"): 1e-6, ("mm", "cm"): 10.0, ("mm", "m"): 1e3},
@@ -45,8 +46,8 @@ def _meant_unit(unit: str, found: Any, quantity: Any) -> str:
     """The unit in its own letters, or as the text that it is, or the quantity in that unit; or nothing."""
     if type(found) is int and str(found) == unit:
         return f'"{unit}" in quotes'
-    if isinstance(found, str) and found.lower() == unit.lower():
-        return unit
+    if isinstance(found, str) and (plain := found.strip(QUOTES).lower()) == unit.lower():
+        return f'"{unit}" in quotes' if plain.isdecimal() else unit
     value = _scaled(quantity.get("value"), FACTORS.get((unit, str(found)), math.nan))
     return "" if value is None else f"{{value: {shown(value)}, unit: {unit}}}"
 
@@ -57,7 +58,7 @@ def _meant_number(schema: Mapping[str, Any], found: Any, unit: Any) -> str:
     """
     if isinstance(found, str):
         with suppress(ValueError):
-            value = float(found.removesuffix(str(unit)).replace(",", "."))
+            value = float(found.removesuffix(str(unit)).translate(TYPED))
             return shown(value) if math.isfinite(value) else ""
     if unit != "mm" or not is_number(found):
         return ""

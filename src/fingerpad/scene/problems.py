@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterable
 
@@ -38,9 +39,12 @@ def shown_name(name: object) -> str:
 
 
 def written(value: object) -> str:
-    """A value as YAML would write it, on one line."""
+    """A value as YAML would write it, on one line, with codes of its letters if some cannot be seen, as blanks that are
+    no blank.
+    """
     text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=True, width=sys.maxsize)
-    return " ".join(text.removesuffix("...\n").split())
+    line = re.sub("[ \n]+", " ", text.removesuffix("...\n").strip(" \n"))
+    return line if line.isprintable() else ascii(line)
 
 
 def as_python(value: object) -> str:

@@ -49,6 +49,9 @@ class _Loader(yaml.SafeLoader):
         if (tag := getattr(event, "tag", None)) is not None:
             tag = tag.replace("tag:yaml.org,2002:", "!!")
             raise yaml.MarkedYAMLError(problem=f"found the tag {tag}, allowed: none", problem_mark=event.start_mark)
+        if half := HALVES.search(getattr(event, "value", "")):
+            problem = f"found {half[0]!a}, which is half of a letter, allowed: whole letters, as they are"
+            raise yaml.MarkedYAMLError(problem=problem, problem_mark=event.start_mark)
         return super().compose_node(parent, index)
 
     def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
@@ -96,7 +99,8 @@ def read_yaml(path: Path) -> dict[str, Any]:
         begun = error.context_mark
         context = f" ({error.context} that began in line {begun.line + 1})" if begun else ""
         hint = QUOTES if "flow mapping" in str(error.context) else TABS if r"\t" in str(error.problem) else ""
-        raise SceneError(f"{path}: is not valid YAML: {where}{error.problem}{context}{hint}") from error
+        told = f"{where}{error.problem}{context}{hint}{_odd_blank(text)}"
+        raise SceneError(f"{path}: is not valid YAML: {told}") from error
     except RecursionError as error:
         raise SceneError(f"{path}: is nested too deeply; allowed: the few levels of the shipped files") from error
     except (yaml.YAMLError, ValueError) as error:
@@ -105,6 +109,14 @@ def read_yaml(path: Path) -> dict[str, Any]:
         found = "an empty file" if document is None else f"the {type(document).__name__} {document!r:.40}"
         raise SceneError(f"{path}: must hold a mapping of keys to values, found {found}")
     return document
+
+
+def _odd_blank(text: str) -> str:
+    """The end of a message that names the first blank of a text that is none to YAML, as editors and web pages have."""
+    if not (found := re.search(ODD_BLANKS, text)):
+        return ""
+    line, name = 1 + text.count("\n", 0, found.start()), unicodedata.name(found[0], ascii(found[0])).lower()
+    return f"; line {line} has a {name}, which is no blank to YAML"
 
 
 def read_values(text: str) -> list[Any]:
