@@ -352,6 +352,17 @@ def test_conditions_that_can_be_read_once_are_those_of_all_variants() -> None:
     assert len(table) == 2 * len(table.query("`actuators.pitch` == 2.4"))
 
 
+def test_schemas_are_those_of_the_code_that_runs(checkout: Path) -> None:
+    """And not those of an older checkout in which somebody works: what they let pass, this code could not read."""
+    Project(checkout).edit("workflow/schemas/config.schema.yaml", lambda text: text.replace(", skips]", "]", 1))
+    Project(checkout).edit("config/config.yaml", lambda text: text.partition("\nskips:")[0])
+    device = "config/devices/device2.yaml"
+    for command in (["check", device], ["new", "mine", "--from", device]):
+        assert main(command) == FAILED
+    with pytest.raises(SceneError, match="skips: found nothing"):
+        predict(device)
+
+
 def test_one_device_is_predicted_at_a_time() -> None:
     with pytest.raises(UsageError, match=r"device: found \['a\.yaml'\]; allowed: the path of one device file"):
         predict(["a.yaml"])  # type: ignore[arg-type]

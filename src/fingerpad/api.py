@@ -51,10 +51,11 @@ def predict(
     their values is possible in another one. error: whether to solve a coarser scene as well, for `score_error`.
     kinematics: "small" or "finite". conditions: names of those that are predicted alone, on a mesh made for them
     (default: all). config: the config.yaml beside the device file's folder if not given, or else that of the checkout
-    around the working folder, as are schemas. cores: how many combinations are solved at once, each by a process of its
-    own; a script then needs `if __name__ == "__main__":`. Numbers that are not known are NaN, and such ranks NA. Raises
-    SceneError, and UsageError if there is no such checkout, if what is varied has no effect (`require_effect`), and for
-    a parameter that is of another kind; and ProcessError if a process ends early.
+    around the working folder. schemas: those that fingerpad comes with if not given. cores: how many combinations are
+    solved at once, each by a process of its own; a script then needs `if __name__ == "__main__":`. Numbers that are not
+    known are NaN, and such ranks NA. Raises SceneError, and UsageError if there is no such checkout, if what is varied
+    has no effect (`require_effect`), and for a parameter that is of another kind; and ProcessError if a process ends
+    early.
 
     >>> int(predict("config/devices/device2.yaml", error=False)["rank"].max())
     3

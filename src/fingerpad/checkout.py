@@ -67,5 +67,8 @@ def model_for(device: Path, config: Path | None = None) -> Path:
 
 
 def schemas_for(folder: Path | None) -> Path:
-    """The folder of schemas that is given, or that of the checkout. Raises UsageError if there is none."""
-    return folder or find_checkout(Path.cwd()).schemas
+    """The folder of schemas that is given; or that which this code goes with; or, of code that was installed without,
+    that of the checkout in which somebody works. Raises UsageError if there is none.
+    """
+    own = Checkout(OWN).schemas
+    return folder or (own if own.is_dir() else find_checkout(Path.cwd()).schemas)

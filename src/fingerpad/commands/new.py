@@ -8,7 +8,7 @@ import shlex
 import shutil
 from pathlib import Path
 
-from ..checkout import find_checkout, model_for
+from ..checkout import find_checkout, model_for, schemas_for
 from ..errors import UsageError
 from ..files import replacing, write_text
 from ..scene.device_names import require_device, require_new_name
@@ -55,8 +55,9 @@ def run(options: argparse.Namespace) -> None:
     is_file = options.source.endswith(".yaml")
     source = existing_file(Path(options.source)) if is_file else require_device(options.source, checkout.devices)
     model = model_for(source)
-    check_device(source, checkout.schemas, model)
-    text = device_text(options.name, source.stem, *checked_document(source, checkout.schemas / "device.schema.yaml"))
+    schemas = schemas_for(None)
+    check_device(source, schemas, model)
+    text = device_text(options.name, source.stem, *checked_document(source, schemas / "device.schema.yaml"))
     copies = {path: target.parent / path.relative_to(source.parent) for path in recordings(source)}
     copies = {path: copy for path, copy in copies.items() if path.resolve() != copy.resolve()}
     for path in (target, *copies.values()):

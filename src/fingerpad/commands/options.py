@@ -40,7 +40,7 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         "--schemas",
         type=Path,
         metavar="FOLDER",
-        help="schemas that both files must fit (default: workflow/schemas of the checkout)",
+        help="schemas that both files must fit (default: those of fingerpad's own checkout)",
     )
 
 
