@@ -19,8 +19,8 @@ from ..scene.device import Condition
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import check_device
-from ..scene.variation import NO_VALUES, variants
-from ..scene.yamlfile import read_values
+from ..scene.variation import NO_VALUES, quantity_at, variants
+from ..scene.yamlfile import read_values, read_yaml
 from .blanks import hint_of_blanks
 
 PICTURES = (".png", ".pdf", ".svg")
@@ -186,6 +186,24 @@ def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
             raise UsageError(f"--vary: found '{entry}'; allowed: {VARIATION}")
         vary.setdefault(key.strip(), []).extend(values)
     return variants(vary)
+
+
+def require_lists(device: Path, options: argparse.Namespace) -> None:
+    """Raise UsageError where --vary has no brackets about the values of a list, or has them about those of a number."""
+    if options.vary:
+        checked_scene(device, options)  # files are right as they stand before anything in them is varied
+    for entry in options.vary:
+        key, _, text = entry.partition("=")
+        values, bare = read_values(text), text.strip().removeprefix("[").removesuffix("]")
+        documents = {file: read_yaml(file) for file in (device, model_for(device, options.config))}
+        is_list = isinstance(quantity_at(key.strip(), documents)["value"], list)
+        if is_list and not any(isinstance(each, list) for each in values):
+            allowed, meant = "a list in brackets, as the file has it", f"{key}=[{bare}]"
+        elif not is_list and len(values) == 1 and isinstance(values[0], list):
+            allowed, meant = "values without brackets", f"{key}={bare}"
+        else:
+            continue
+        raise UsageError(f"--vary: found '{entry}'; allowed: {allowed}{hint(meant)}")
 
 
 def existing_file(device: Path) -> Path:

@@ -18,7 +18,7 @@ from ..prediction.side_by_side import forecasts
 from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..scene.validation import possible
-from ..scene.variation import unit_of
+from ..scene.variation import quantity_at
 from ..scene.yamlfile import read_yaml
 from .options import (
     add_conditions,
@@ -31,6 +31,7 @@ from .options import (
     add_variation,
     checked_scene,
     picture_of,
+    require_lists,
     variations,
 )
 from .printing import as_csv, require_scores
@@ -114,7 +115,7 @@ def run(options: argparse.Namespace) -> None:
     require_scores(rows)
     if picture:
         files = options.devices[0], model_for(options.devices[0], options.config)
-        unit = unit_of(key, {file: read_yaml(file) for file in files})
+        unit = str(quantity_at(key, {file: read_yaml(file) for file in files})["unit"])
         cases, _ = devices[0]
         _draw(picture, key, unit, [values[key] for values, _ in cases], [scene for _, scene in cases], predictions)
         if is_text:
@@ -124,7 +125,10 @@ def run(options: argparse.Namespace) -> None:
 def _scenes(
     device: Path, options: argparse.Namespace, kinematics: Kinematics, varied: Sequence[dict[str, Any]]
 ) -> tuple[list[tuple[dict[str, Any], Scene]], list[str]]:
-    """The scenes of a device's combinations of values, and why others are left out. Raises as `possible`."""
+    """The scenes of a device's combinations of values, and why others are left out. Raises as `require_lists` and
+    `possible`.
+    """
+    require_lists(device, options)
     return possible(
         varied,
         lambda values: (

@@ -58,8 +58,9 @@ def _is_plain(value: Any) -> bool:
     return value is None or isinstance(value, bool | int | float | str)
 
 
-def quantities_of(node: Any, key: str = "") -> Iterator[tuple[str, Document]]:
-    """Keys and quantities (mappings with a value, a unit and a source) of a document.
+def quantities_of(node: Any, key: str = "", by_names: bool = False) -> Iterator[tuple[str, Document]]:
+    """Keys and quantities (mappings with a value, a unit and a source) of a document. by_names: call a list's entries
+    that have a name by it.
 
     >>> [key for key, _ in quantities_of({"pad": [{"modulus": {"value": 2.0}}], "width": {"value": 16.0}})]
     ['pad[0].modulus', 'width']
@@ -68,10 +69,11 @@ def quantities_of(node: Any, key: str = "") -> Iterator[tuple[str, Document]]:
         yield key, node
     elif isinstance(node, dict):
         for name, child in node.items():
-            yield from quantities_of(child, f"{key}.{name}" if key else str(name))
+            yield from quantities_of(child, f"{key}.{name}" if key else str(name), by_names)
     elif isinstance(node, list):
         for number, child in enumerate(node):
-            yield from quantities_of(child, f"{key}[{number}]")
+            is_named = by_names and isinstance(child, dict) and "name" in child
+            yield from quantities_of(child, f"{key}.{child['name']}" if is_named else f"{key}[{number}]", by_names)
 
 
 def with_value(document: Document, key: str, value: Any, source: str) -> Document:
@@ -101,14 +103,14 @@ def shared_out(values: Mapping[str, Any], documents: Mapping[Path, Document]) ->
     return found
 
 
-def unit_of(key: str, documents: Mapping[Path, Document]) -> str:
-    """The unit of the quantity at a key of the first of the files that has one. Raises SceneError as `shared_out`.
+def quantity_at(key: str, documents: Mapping[Path, Document]) -> Document:
+    """The quantity at a key of the first of the files that has one. Raises SceneError as `shared_out`.
 
-    >>> unit_of("actuators.pitch", {Path("a.yaml"): {"actuators": {"pitch": {"value": 2.0, "unit": "mm"}}}})
-    'mm'
+    >>> quantity_at("actuators.pitch", {Path("a.yaml"): {"actuators": {"pitch": {"value": 2.0, "unit": "mm"}}}})
+    {'value': 2.0, 'unit': 'mm'}
     """
     owner, there = _located(key, documents)
-    return str(dict(quantities_of(documents[owner]))[there]["unit"])
+    return dict(quantities_of(documents[owner]))[there]
 
 
 def _located(asked: str, documents: Mapping[Path, Document]) -> tuple[Path, str]:
@@ -118,7 +120,12 @@ def _located(asked: str, documents: Mapping[Path, Document]) -> tuple[Path, str]
     for path, quantities in known.items():
         if key in quantities:
             return path, key
-    raise no_such_value(key, " and ".join(map(str, known)), [each for keys in known.values() for each in keys])
+    if asked.rpartition(".")[2] == "kind":
+        raise UsageError(f"vary: found {asked}; allowed: other keys, as each kind has keys of its own; write two files")
+    named = [each for document in documents.values() for each, _ in quantities_of(document, by_names=True)]
+    raise no_such_value(
+        asked, " and ".join(map(str, known)), [*(each for keys in known.values() for each in keys), *named]
+    )
 
 
 def by_number(key: str, documents: Iterable[Document]) -> str:
@@ -144,6 +151,11 @@ def by_number(key: str, documents: Iterable[Document]) -> str:
 
 
 def no_such_value(key: str, where: str, known: Sequence[str]) -> SceneError:
-    """The error that a key is none of the known ones of some files, with the one that was probably meant."""
-    meant = next((each for each in known if each.endswith(f".{key}")), "") or closest(key, known)
+    """The error that a key is none of the known ones of some files, with the one that was probably meant: one that ends
+    alike, or of which it is a part.
+    """
+    whole, _, last = key.rpartition(".")
+    alike = [each for each in known if closest(last, [each.rpartition(".")[2]])]
+    above = whole if whole in known else closest(key, alike)
+    meant = next((each for each in known if each.endswith(f".{key}")), "") or above
     return SceneError(f"{key}: found no such value in {where}; allowed: a value that is written there{hint(meant)}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
+import unicodedata
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,9 @@ PLAIN = {
     INTEGER: r"[-+]?[0-9]+$",
     FLOAT: r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$|[-+]?\.(inf|Inf|INF)$|\.(nan|NaN|NAN)$",
 }
+HALVES = re.compile("[\ud800-\udfff]")  # of letters beyond U+FFFF, which no file can hold
 MOST_REPEATED = 100_000  # values [1] that aliases may repeat; source: assumption: rows of a history that are alike
+ODD_BLANKS = r"[^\S \t\r\n]|[\u200b\u2060]"
 TABS = "; indent with spaces"
 QUOTES = "; text with a colon or a comma needs quotes"  # what is wrong most often where a flow mapping is not one
 REMEMBERED = 16  # texts of files [1]; source: config, two schemas and some devices
@@ -83,9 +86,11 @@ def read_yaml(path: Path) -> dict[str, Any]:
 
     Raises SceneError if the file is missing, empty, too large, not YAML, or has a key twice, a tag or many aliases.
     """
+    text = ""
     try:
         require_readable(path, LARGEST_FILE, "YAML", SceneError)
-        node = _composed(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        node = _composed(text)
         document = None if node is None else _Loader("").construct_document(node)
     except OSError as error:
         raise SceneError(f"{path}: cannot be read as a YAML file: {error.strerror}") from error
