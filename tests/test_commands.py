@@ -69,6 +69,7 @@ from fingerpad.readouts.roughness import SERIES, roughness_scores
 from fingerpad.scene.contact_law import Criterion, Interface
 from fingerpad.scene.device import ActuatorRow, Condition, Control, Device, evenly
 from fingerpad.scene.readout import Readout
+from fingerpad.scene.recording import read_recording
 from fingerpad.scene.scene import Scene
 from fingerpad.scene.scenefile import load_scene
 from fingerpad.scene.sources import Origin, quantities
@@ -350,6 +351,28 @@ def test_conditions_that_can_be_read_once_are_those_of_all_variants() -> None:
     )
     assert set(table["condition"]) == {"alternate_090"}
     assert len(table) == 2 * len(table.query("`actuators.pitch` == 2.4"))
+
+
+def test_a_link_to_nothing_is_said_and_not_guessed(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    devices = checkout / "config" / "devices"
+    (devices / "link.yaml").symlink_to("nowhere.yaml")
+    assert main(["check", "config/devices/link.yaml"]) == FAILED
+    said = capsys.readouterr().err
+    assert "config/devices/link.yaml: found a link to nothing; allowed: a device file" in said
+    assert "did you mean" not in said
+    (devices / "tap.csv").symlink_to("nowhere.csv")
+    with pytest.raises(SceneError, match=r"tap\.csv: cannot be read: it is a link to nothing$"):
+        read_recording(devices / "tap.csv", 4)
+
+
+def test_a_working_folder_that_is_gone_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    assert main(["check", str(DEVICES / "device2.yaml")]) == FAILED
+    assert capsys.readouterr().err == "fingerpad: the working folder is gone; go to one that is there\n"
 
 
 def test_schemas_are_those_of_the_code_that_runs(checkout: Path) -> None:
@@ -1234,8 +1257,9 @@ def test_robustness_leaves_out_what_has_no_condition_in_common(
     document["actuators"]["edge_radius"]["source"] = "our drawing"
     path.write_text(yaml.safe_dump(document), encoding="utf-8")
     assert main(["robustness", str(path), "--assumptions", str(assumptions)]) == 0
-    said = capsys.readouterr().out
+    said, early = capsys.readouterr()
     assert "\nleft out: stimulus.phases [30, 60]: " in said
+    assert early.startswith("left out: stimulus.phases [30, 60]: ")
     assert "\nkept, as the file does not call them assumptions: actuators.edge_radius (" in said
 
 
@@ -1309,6 +1333,8 @@ def test_words_of_the_library_are_those_of_files_and_keys_are_texts() -> None:
     assert found == {"contact.criterion": "touch"}
     varied = check_device(DEVICES / "device2.yaml", SCHEMAS, CONFIG, found)
     assert varied.model.contact.criterion is Criterion.TOUCH
+    with pytest.raises(UsageError, match=r"vary: found \{'': \[1\]\}; allowed: keys as text"):
+        variants({"": [1]})
     with pytest.raises(UsageError, match=r"vary: found \{3: \[1\]\}; allowed: keys as text"):
         variants({3: [1]})  # type: ignore[dict-item]
 

@@ -120,7 +120,10 @@ def test_sizes_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(fingerpad.csvrows, "LARGEST_FILE", 1000)
     with pytest.raises(RatingError, match="bytes; allowed: at most 1000"):
         read_published(table)
-    for text, part in (("title: " + "[" * 2000, "nested too deeply"), ("title: " + "9" * 5000, "4300 digits")):
+    for text, part in (
+        ("title: " + "[" * 2000, "nested too deeply"),
+        ("title: " + "9" * 5000, "line 1, column 8: found a number of 5000 digits"),
+    ):
         device.write_text(text, encoding="utf-8")
         with pytest.raises(SceneError, match=part):
             read_yaml(device)

@@ -9,9 +9,10 @@ from collections.abc import Mapping, Sequence
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from io import StringIO, TextIOWrapper
+from pathlib import Path
 
 from .commands.blanks import hint_of_blanks
-from .errors import FingerpadError, UnsolvedError
+from .errors import FingerpadError, UnsolvedError, UsageError
 
 FAILED = 2  # exit code [1] of anything that a user can mend; argparse has the same
 INTERRUPTED = 130  # exit code [1] after Ctrl-C, as shells have it
@@ -47,6 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         options, left = _parser(given[:1]).parse_known_args(given)
         if left:
             options.parser.error(f"unrecognized arguments: {' '.join(left)}{hint_of_blanks(left)}")
+        _require_working_folder()
         options.run(options)
         sys.stdout.flush()
     except BrokenPipeError:  # whoever reads what is printed has read enough, as `head` has
@@ -79,6 +81,14 @@ def _parser(first: Sequence[str]) -> argparse.ArgumentParser:
             command.set_defaults(run=module.run, parser=command)
             module.add(command)
     return parser
+
+
+def _require_working_folder() -> None:
+    """Raise UsageError if the folder in which the command is called has been removed."""
+    try:
+        Path.cwd()
+    except FileNotFoundError as error:
+        raise UsageError("the working folder is gone; go to one that is there") from error
 
 
 def _version() -> str:

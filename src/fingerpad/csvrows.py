@@ -66,8 +66,9 @@ def _cells(path: Path, error: type[FingerpadError]) -> list[tuple[int, list[str]
                 lines.append((line, [cell.strip() for cell in row]))
     except OSError as failure:
         others = [] if path.exists() else sorted(path.parent.glob("*.csv"))
-        meant = hint(closest(path.name, [other.name for other in others]))
-        raise error(f"{path}: cannot be read: {failure.strerror}{meant}") from failure
+        meant = hint(closest(path.name, [other.name for other in others if other.is_file()]))
+        why = "it is a link to nothing" if path.is_symlink() and not path.exists() else failure.strerror
+        raise error(f"{path}: cannot be read: {why}{meant}") from failure
     except UnicodeDecodeError as failure:
         line = 1 + failure.object.count(b"\n", 0, failure.start)
         found = f"a byte {failure.object[failure.start]:#x} that is not UTF-8"

@@ -51,6 +51,9 @@ def run(options: argparse.Namespace) -> None:
     checkout = find_checkout(Path.cwd())
     require_new_name(options.name)
     scenes = options.scenes or checkout.config.parent
+    for folder in (scenes, scenes / "devices"):
+        if folder.exists() and not folder.is_dir():
+            raise UsageError(f"{folder}: found a file; allowed: a folder, or nothing")
     target = scenes / "devices" / f"{options.name}.yaml"
     is_file = options.source.endswith(".yaml")
     source = existing_file(Path(options.source)) if is_file else require_device(options.source, checkout.devices)

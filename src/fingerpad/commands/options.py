@@ -210,10 +210,12 @@ def existing_file(device: Path) -> Path:
     """That file. Raises UsageError that names the device file that was probably meant if there is none."""
     if device.is_file():
         return device
-    found, folders = "a folder" if device.is_dir() else "no such file", [device.parent]
+    found, folders = "no such file", [device.parent]
+    if device.is_dir() or device.is_symlink():
+        found = "a folder" if device.is_dir() else "a link to nothing"
     with suppress(UsageError):
         folders.insert(0, find_checkout(Path.cwd()).devices)  # of two of one name that beside it is meant
-    known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
+    known = {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml")) if path.is_file()}
     stem = "" if device.is_dir() else closest(device.stem, known)
     meant = hint(os.path.relpath(known[stem]) if stem else "")
     meant = meant or hint_of_blanks([str(device)])

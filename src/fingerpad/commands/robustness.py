@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby, product
 from pathlib import Path
@@ -63,9 +64,14 @@ def run(options: argparse.Namespace) -> None:
     scene = _distinct(asked_scene(options))
     if len(scene.device.conditions) < 2:
         raise UsageError(f"{scene.device.name}: found one stimulus; allowed: two or more, so that scores have an order")
-    alternatives = read_ensemble(options.assumptions or find_checkout(Path.cwd()).ensemble)
-    device = read_yaml(options.device)
-    varied, refused = _varied(scene, options, device, alternatives)
+    assumptions = options.assumptions or find_checkout(Path.cwd()).ensemble
+    alternatives, device = read_ensemble(assumptions), read_yaml(options.device)
+    try:
+        varied, refused = _varied(scene, options, device, alternatives)
+    except SceneError as error:
+        raise SceneError(f"{assumptions}: {str(error).removeprefix('ensemble: ')}") from error
+    for name, why in refused.items():  # once before all is solved, and at the end
+        print(f"left out: {name}: {why}", file=sys.stderr)
     total = steps(scene) + sum(steps(each, error=False) for each in varied.values())
     with progress(total, scene.device.name) as bar:
         predicted = forecasts([(scene, True), *((each, False) for each in varied.values())], options.cores, bar.update)

@@ -30,7 +30,7 @@ def variants(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
     >>> variants({"contact.friction": [0.3, 0.6, 0.6], "actuators.pitch": [2.0]})
     [{'contact.friction': 0.3, 'actuators.pitch': 2.0}, {'contact.friction': 0.6, 'actuators.pitch': 2.0}]
     """
-    if not isinstance(vary, Mapping) or not all(isinstance(key, str) for key in vary):
+    if not isinstance(vary, Mapping) or not all(isinstance(key, str) and key.strip() for key in vary):
         raise UsageError(f"vary: found {vary!r}; allowed: keys as text, with a list of values for each")
     chosen: list[list[Any]] = []
     for key, values in vary.items():

@@ -73,7 +73,11 @@ class _Loader(yaml.SafeLoader):
         return node
 
     def construct_integer(self, node: yaml.ScalarNode) -> int:
-        return int(node.value)
+        try:
+            return int(node.value)
+        except ValueError as error:  # more digits than Python reads
+            problem = f"found a number of {len(node.value)} digits, allowed: numbers that people write"
+            raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark) from error
 
 
 for _tag, _pattern in PLAIN.items():
