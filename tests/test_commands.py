@@ -1790,6 +1790,36 @@ def test_forces_of_what_cannot_be_pressed_are_an_error(coarse: Path, capsys: pyt
     assert "did not reach a depth of 6 mm" in captured.err
 
 
+def test_fields_are_not_written_among_other_files(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """But in place of states, also those of a killed writer."""
+    (checkout / "own").mkdir()
+    for name in ("0000.vtu", "0001.vtu.0123456789abcdef.part", "notes.txt"):
+        (checkout / "own" / name).touch()
+    case = ["--condition", "alternate_180", "--interface", "shear", "-o", "own.pvd"]
+    assert main(["fields", "config/devices/device2.yaml", *case]) == FAILED
+    assert "own: found notes.txt in it; allowed: states alone" in capsys.readouterr().err
+
+
+def test_a_device_that_is_given_twice_is_predicted_once(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(
+        side_by_side, "forecast", lambda *given: [ROW | {"score": 1.0, "score_error": None, "caveats": []}]
+    )
+    path = "config/devices/device2.yaml"
+    assert main(["predict", "--csv", "--no-error", path, "config/devices/device3.yaml", f"./{path}"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 1 + 2
+
+
+def test_phases_that_do_not_ascend_are_doubted(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As with a decimal comma in the middle of a list."""
+    Project(checkout).edit("config/devices/device2.yaml", lambda text: text.replace("[0, 90, 180]", "[0, 22,5]"))
+    assert main(["check", "config/devices/device2.yaml"]) == 0
+    assert "\nphases do not ascend: 0, 22, 5; numbers have a decimal point, and no comma" in capsys.readouterr().out
+    assert main(["check", "config/devices/device1.yaml"]) == 0
+    assert "ascend" not in capsys.readouterr().out
+
+
 def test_a_single_file_holds_the_end_of_the_stimulus(coarse: Path) -> None:
     """As the last state of the path does; the first differs."""
     case = ["fields", "config/devices/device2.yaml", "--condition", "alternate_180", "--interface", "shear", "-o"]

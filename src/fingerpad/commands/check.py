@@ -10,6 +10,7 @@ import numpy as np
 from ..checkout import model_for
 from ..prediction.caveats import device_caveats, skin_rises, stimulus_caveats
 from ..scene.contact_law import Criterion
+from ..scene.device import Device
 from ..scene.scene import Scene
 from ..tissue.mesh import nominal_mesh
 from ..words import several
@@ -67,6 +68,16 @@ def run(options: argparse.Namespace) -> None:
             print(f"figures have no letters for {boxes} in the title: they show boxes")
 
 
+def _unordered_phases(device: Device) -> list[str]:
+    """What to doubt of phases that do not ascend, as those of [0, 22,5] with a decimal comma do not."""
+    for dispersion in dict.fromkeys(cycle.dispersion for cycle in device.cycles):
+        phases = [cycle.phase_deg for cycle in device.cycles if cycle.dispersion == dispersion]
+        if phases != sorted(phases):
+            listed = ", ".join(f"{phase:g}" for phase in phases)
+            return [f"phases do not ascend: {listed}; numbers have a decimal point, and no comma"]
+    return []
+
+
 def described(scene: Scene) -> str:
     """Title, actuators, conditions and contact in words."""
     device, row = scene.device, scene.device.actuators
@@ -90,7 +101,11 @@ def described(scene: Scene) -> str:
         for doubt in stimulus_caveats(condition):
             doubted.setdefault(doubt, []).append(condition.name)
     every = [condition.name for condition in device.conditions]
-    doubts = device_caveats(scene) + [f"{whose(names, every)}: {doubt}" for doubt, names in doubted.items()]
+    doubts = [
+        *device_caveats(scene),
+        *_unordered_phases(device),
+        *(f"{whose(names, every)}: {doubt}" for doubt, names in doubted.items()),
+    ]
     return (
         f"{device.title} ({device.name})\n"
         f"{actuators}, {row.width:g} mm wide, edge radius {row.edge_radius:g} mm,"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
@@ -17,6 +18,7 @@ from .progress import progress
 
 STEPS = 3  # of the progress: mesh, solution, fields
 ENDINGS = (".vtu", ".pvd")
+STATE = re.compile(r"\d+\.vtu(\.\w+\.part)?")  # or what a killed writer left of one
 DESCRIPTION = """\
 Write the fields of one condition of a device for ParaView: displacement, strain, stress, layer and contact tractions,
 in mm and MPa. A file that ends in .vtu holds the end of the stimulus. With the ending .pvd, say path.pvd, the path to
@@ -40,7 +42,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Solve the condition, and write what it does to the section. Raises UsageError for an output of another kind than
-    ENDINGS or a path whose folder is a file, and what `checked_case`, `mesh_device` and `solved_states` raise.
+    ENDINGS or a path whose folder is a file or holds others than states, and what `checked_case`, `mesh_device` and
+    `solved_states` raise.
     """
     output = writable(options.output, ENDINGS)
     folder, last = output.with_suffix(""), output.with_suffix(".vtu")
@@ -48,6 +51,10 @@ def run(options: argparse.Namespace) -> None:
         require_folder(last)
         if folder.exists() and not folder.is_dir():
             raise UsageError(f"{folder}: found a file; allowed: a folder, or nothing, where states on the way go")
+        others = [each.name for each in folder.iterdir() if not STATE.fullmatch(each.name)] if folder.exists() else []
+        if others:
+            allowed = "states alone, as these on the way go there; choose another name for -o"
+            raise UsageError(f"{folder}: found {min(others)} in it; allowed: {allowed}")
     scene, condition, interface = checked_case(options)
     # two threads take longer (decision 14), and results depend on their number
     with progress(STEPS, scene.device.name) as bar, threadpool_limits(1):

@@ -79,6 +79,7 @@ def run(options: argparse.Namespace) -> None:
     """
     kinematics, varied, error = Kinematics(options.kinematics), variations(options), not options.no_error
     picture = picture_of(options)
+    options.devices = [*{device.resolve(): device for device in reversed(options.devices)}.values()][::-1]  # each once
     key = _drawn_key(options.devices, varied) if picture else ""
     is_text = not (options.json or options.csv)
     devices = [_scenes(device, options, kinematics, varied) for device in options.devices]

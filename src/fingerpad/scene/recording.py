@@ -47,13 +47,13 @@ def read_recording(path: Path, count: int) -> Recording:
             raise SceneError(told(path, line, "actuator", row["actuator"], allowed))
         lines[at] = line
         first.setdefault(time, (row["time"], line))
+        if len(first) > MOST_TIMES:
+            raise SceneError(f"{path}, column time: found more than {MOST_TIMES} times; allowed: at most {MOST_TIMES}")
         normal, tangential = (
             _within(path, line, name, row[name], (-FARTHEST, FARTHEST), "mm") for name in ("normal", "tangential")
         )
         found[at] = normal, tangential
     times = sorted(first)
-    if len(times) > MOST_TIMES:
-        raise SceneError(f"{path}, column time: found {len(times)} times; allowed: at most {MOST_TIMES}")
     for time in times:
         for actuator in range(1, count + 1):
             if (time, actuator) not in found:
