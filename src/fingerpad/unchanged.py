@@ -53,8 +53,8 @@ def _of_values(path: Path) -> str:
     if path.suffix != ".yaml":
         return _of_bytes(path)
     # by name, as no job need run again for what it says (decision 26), and only where a file has changed
-    scenefile = import_module(".scene.scenefile", __package__)
-    values = scenefile.plain_values(scenefile.read_yaml(path))
+    scenefile, yamlfile = (import_module(f".scene.{each}", __package__) for each in ("scenefile", "yamlfile"))
+    values = scenefile.plain_values(yamlfile.read_yaml(path))
     return _checksum(json.dumps(values, sort_keys=True, default=str).encode())
 
 

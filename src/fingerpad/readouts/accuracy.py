@@ -48,9 +48,9 @@ def read_cases(path: Path, scene: Scene, cases: Iterable[tuple[str, str]]) -> li
     """Rows of a table that has one of both read-outs of some conditions and interfaces, by name, of a scene. Raises
     ResultError as `read_rows`, and if it has others.
     """
-    rows = read_rows(path, *CASE)
+    rows = read_rows(path, *SCORE_KEY)
     wanted = [(scene.kinematics, scene.device.name, *case, each) for case in cases for each in Readout]
-    if sorted(map(case_of, rows)) != sorted(wanted):
+    if sorted(map(score_key, rows)) != sorted(wanted):
         raise foreign(path, "cases are missing, or are others")
     return rows
 
