@@ -1,5 +1,5 @@
 # Which statements depend on which assumption: each varied alone, in either half-cycle of the stimuli, with all kinematics.
-# Not part of `all`: ask for it with `snakemake ensemble` (some ten minutes of one core with small kinematics, an hour with finite ones).
+# Not part of `all`: ask for it with `snakemake ensemble` (a quarter of an hour of one core with small kinematics, one and a half with finite ones).
 # REQUIRED INPUTS: config/ensemble.yaml, results/scores.csv, data/.
 # OUTPUTS: results/ensemble/{kinematics}/{member}/{half_cycle}/ with scene files and scores,
 # results/ensemble_{claims,correlations,scores}.csv, results/figures/ensemble*.{png,pdf}
