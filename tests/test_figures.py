@@ -805,7 +805,7 @@ def test_maps_show_every_condition_of_a_dispersion(device: Device, section: Sect
     side = np.array([[0, 1]])
     contact = make_contact(device.actuators)
     still = np.zeros((len(distinct), *corner.shape))
-    fields = Fields(corner, side, side, still, np.full(shape, 0.2), np.full(shape, -0.003))
+    fields = Fields(corner, side, side[:0], side, still, np.full(shape, 0.2), np.full(shape, -0.003))
     pressed = np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0)
     solution = make_solution(contact, device.actuators, np.tile(pressed, len(device.actuators.positions)))
     shown = [c.name for c in device.conditions if c.dispersion == dispersion]
@@ -837,7 +837,9 @@ def test_maps_show_a_history_when_it_is_read(section: SectionMesh) -> None:
     device = replace(PHASED, conditions=(history,))
     corner = section.mesh.doflocs[:, section.mesh.t.T.ravel()]
     side, shape = np.array([[0, 1]]), (1, corner.shape[1])
-    fields = Fields(corner, side, side, np.zeros((1, *corner.shape)), np.full(shape, 0.2), np.full(shape, 0.001))
+    fields = Fields(
+        corner, side, side[:0], side, np.zeros((1, *corner.shape)), np.full(shape, 0.2), np.full(shape, 0.001)
+    )
     pressed = np.tile(np.where(np.abs(np.linspace(-1.0, 1.0, 25)) < 0.8, 0.03, 0.0), 3)
     found = make_solution(make_contact(device.actuators), device.actuators, pressed)
     middle = {}
@@ -920,7 +922,7 @@ def test_maps_draw_each_condition_under_its_own_stimulus(section: SectionMesh) -
     places = np.stack([0.1 * times, [1.5, 1.5]], axis=1)  # the skin comes up to the faces
     moved = np.repeat(places[:, :, None], corner.shape[1], axis=2)
     each = np.tile(times[:, None], corner.shape[1])
-    fields = Fields(corner, side, side, moved, 0.02 * each, -0.01 * each)
+    fields = Fields(corner, side, side, side, moved, 0.02 * each, -0.01 * each)
     found = make_solution(make_contact(PINS), PINS, np.tile(np.linspace(0.01, 0.03, 25), 3))
     found = replace(found, shear=-0.5 * found.pressure)
     shown = device.by_dispersion["high"]
@@ -958,12 +960,14 @@ def test_maps_mark_the_receptors_among_the_lines_between_layers(section: Section
     vertices = section.mesh.t.T.ravel()
     one_of = np.empty(section.mesh.nvertices, dtype=np.int64)
     one_of[vertices] = np.arange(vertices.size)
-    between, outside = (
-        one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
+    layers = np.setdiff1d(section.interfaces(), section.receptor_facets)
+    lines = (
+        one_of[section.mesh.facets[:, facets].T]
+        for facets in (layers, section.receptor_facets, section.mesh.boundary_facets())
     )
     corner = section.mesh.doflocs[:, vertices]
     shape = (1, corner.shape[1])
-    fields = Fields(corner, between, outside, np.zeros((1, *corner.shape)), np.full(shape, 0.1), np.full(shape, 0.01))
+    fields = Fields(corner, *lines, np.zeros((1, *corner.shape)), np.full(shape, 0.1), np.full(shape, 0.01))
     found = make_solution(make_contact(PIN), PIN, np.full(25, 0.03))
     figure = strain_map_figure(Scene(MODEL, SINGLE), "lone", fields, {"lone_000": found})
     receptors = section.mesh.p[:, section.mesh.facets[:, section.receptor_facets].ravel()]
@@ -990,7 +994,7 @@ def test_colours_of_maps_end_by_area_not_by_the_number_of_elements(section: Sect
     strain[:, smallest] = 0.4
     drawn, side = section.mesh.doflocs[:, section.mesh.t.T.ravel()], np.array([[0, 1]])
     still = np.zeros((1, *drawn.shape))
-    fields = Fields(drawn, side, side, still, strain.T.reshape(1, -1), np.full((1, drawn.shape[1]), 0.001))
+    fields = Fields(drawn, side, side[:0], side, still, strain.T.reshape(1, -1), np.full((1, drawn.shape[1]), 0.001))
     found = make_solution(make_contact(PIN), PIN, np.full(25, 0.03))
     figure = strain_map_figure(Scene(MODEL, SINGLE), "lone", fields, {"lone_000": found})
     assert figure.axes[-2].get_ylim() == pytest.approx((0.0, 5.0))  # per cent

@@ -121,8 +121,10 @@ def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) 
     corners = section.mesh.t.T.ravel()
     one_of = np.empty(section.mesh.nvertices, dtype=np.int64)  # of the corners at a vertex, which move together
     one_of[corners] = np.arange(corners.size)
-    interface, boundary = (
-        one_of[section.mesh.facets[:, facets].T] for facets in (section.interfaces(), section.mesh.boundary_facets())
+    between = np.setdiff1d(section.interfaces(), section.receptor_facets)
+    interface, receptors, boundary = (
+        one_of[section.mesh.facets[:, facets].T]
+        for facets in (between, section.receptor_facets, section.mesh.boundary_facets())
     )
     before, *strains = (
         maximum_principal(strain_at(scene, section.mesh, each, CORNERS).ravel()) for each in displacement
@@ -131,6 +133,7 @@ def states_fields(scene: Scene, section: SectionMesh, displacement: FloatArray) 
     return Fields(
         corner=section.mesh.doflocs[:, corners],
         interface=interface,
+        receptors=receptors,
         boundary=boundary,
         displacement=displacement[1:, :, corners],
         strain=strain,

@@ -26,7 +26,7 @@ from ..contact.solution import Solution
 from ..fields.section_fields import Fields
 from ..scene.device import ActuatorRow, Condition, Device
 from ..scene.readout import Readout
-from ..scene.scene import Model, Scene
+from ..scene.scene import Scene
 from ..scene.tissue_law import Kinematics
 from ..words import CHANGE_COVERED, COVERED, KILO, KINEMATICS_NAME, PERCENT, counted, plain
 from .actuators import draw_actuators
@@ -67,7 +67,6 @@ HEADROOM = 1.08  # of the tractions' axis beyond the largest [1]
 STRAIN_NAME = {Kinematics.SMALL: "strain", Kinematics.FINITE: "log. strain"}
 COLOURS = "viridis"  # perceptually uniform, and monotonic in grey
 SHEAR_LINE = 0.6  # pt
-OUTLINE_POINTS = 4001  # of the skin, from which depths are measured [1]: 4 um apart
 EDGE = 0.3  # pt, on either side of white lines, so that they are seen on bright colours
 LAYERS: dict[str, Any] = {
     "color": "white",
@@ -106,7 +105,7 @@ def strain_map_figure(
     )
     for row, mapped in ((panels.strain, _strain(scene, shown)), (panels.change, _change(scene, shown, read))):
         for axes, column in zip(row, columns, strict=True):
-            drawn = _draw_map(axes, scene.model, shown, mapped, column.loading)
+            drawn = _draw_map(axes, shown, mapped, column.loading)
             _draw_surroundings(axes, device.actuators, column, window)
         _label_first(row, panels.columns, "y (mm)")
         panels.figure.colorbar(
@@ -283,7 +282,7 @@ def _colour_end(shown: _Shown, values: FloatArray, covered: float, step: float) 
     return step * max(math.ceil(PERCENT * float(value) / step), 1)
 
 
-def _draw_map(axes: Axes, model: Model, shown: _Shown, mapped: _Mapped, loading: int) -> TriMesh:
+def _draw_map(axes: Axes, shown: _Shown, mapped: _Mapped, loading: int) -> TriMesh:
     """Values on the deformed elements, rasterised; the layers' interfaces, receptors and the boundary as lines."""
     fields = shown.fields
     moved = fields.corner + fields.displacement[loading]
@@ -292,31 +291,19 @@ def _draw_map(axes: Axes, model: Model, shown: _Shown, mapped: _Mapped, loading:
         Triangulation(at[0], at[1], np.arange(at.shape[1]).reshape(-1, 3)), PERCENT * mapped.values[loading],
         shading="gouraud", cmap=mapped.colours, norm=mapped.norm, rasterized=True,
     )  # fmt: skip
-    seen = [facets[np.isin(facets, shown.elements).any(axis=1)] for facets in (fields.interface, fields.boundary)]
-    receptors = _are_at_receptors(model, fields.corner[:, seen[0]])
-    for facets, look in ((seen[0][~receptors], LAYERS), (seen[1], OUTSIDE)):
+    interface, receptors, boundary = (
+        facets[np.isin(facets, shown.elements).any(axis=1)]
+        for facets in (fields.interface, fields.receptors, fields.boundary)
+    )
+    for facets, look in ((interface, LAYERS), (boundary, OUTSIDE)):
         # a gap after each facet
         x, y = np.pad(moved[:, facets], ((0, 0), (0, 0), (0, 1)), constant_values=np.nan).reshape(2, -1)
         axes.plot(x, y, **look)
-    if receptors.any():
-        x, y = moved[:, seen[0][receptors].ravel()]
-        order = np.argsort(x, kind="stable")  # one line from left to right, along which dashes run on
-        for look in (BENEATH, RECEPTORS):
-            axes.plot(x[order], y[order], **look)
+    x, y = moved[:, receptors.ravel()]
+    order = np.argsort(x, kind="stable")  # one line from left to right, along which dashes run on
+    for look in (BENEATH, RECEPTORS):
+        axes.plot(x[order], y[order], **look)
     return drawn
-
-
-def _are_at_receptors(model: Model, ends: FloatArray) -> np.ndarray:
-    """Which facets between layers are of the receptor line, as they are as deep below the skin. ends: (2, k, 2) [mm] in
-    the undeformed section.
-    """
-    half = model.finger.width / 2.0
-    x = np.linspace(-half, half, OUTLINE_POINTS)
-    skin = np.stack([x, model.finger.skin_height(x)])
-    middle = ends.mean(axis=2)
-    depth = np.array([np.hypot(*(skin - point[:, None])).min() for point in middle.T])
-    thinner = min(layer.thickness for layer in model.finger.pad[model.layers_above - 1 : model.layers_above + 1])
-    return np.abs(depth - model.receptor_depth) < thinner / 2.0
 
 
 def _draw_surroundings(axes: Axes, row: ActuatorRow, column: _Column, window: Window) -> None:
