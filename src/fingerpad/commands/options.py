@@ -190,12 +190,13 @@ def variations(options: argparse.Namespace) -> list[dict[str, Any]]:
 
 def require_lists(device: Path, options: argparse.Namespace) -> None:
     """Raise UsageError where --vary has no brackets about the values of a list, or has them about those of a number."""
-    if options.vary:
-        checked_scene(device, options)  # files are right as they stand before anything in them is varied
+    if not options.vary:
+        return
+    checked_scene(device, options)  # files are right as they stand before anything in them is varied
+    documents = {file: read_yaml(file) for file in (device, model_for(device, options.config))}
     for entry in options.vary:
         key, _, text = entry.partition("=")
         values, bare = read_values(text), text.strip().removeprefix("[").removesuffix("]")
-        documents = {file: read_yaml(file) for file in (device, model_for(device, options.config))}
         is_list = isinstance(quantity_at(key.strip(), documents)["value"], list)
         if is_list and not any(isinstance(each, list) for each in values):
             allowed, meant = "a list in brackets, as the file has it", f"{key}=[{bare}]"

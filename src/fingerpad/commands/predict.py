@@ -79,10 +79,10 @@ def run(options: argparse.Namespace) -> None:
     """
     kinematics, varied, error = Kinematics(options.kinematics), variations(options), not options.no_error
     picture = picture_of(options)
-    options.devices = [*{device.resolve(): device for device in reversed(options.devices)}.values()][::-1]  # each once
-    key = _drawn_key(options.devices, varied) if picture else ""
+    files = list({file.resolve(): file for file in options.devices}.values())  # each once
+    key = _drawn_key(files, varied) if picture else ""
     is_text = not (options.json or options.csv)
-    devices = [_scenes(device, options, kinematics, varied) for device in options.devices]
+    devices = [_scenes(file, options, kinematics, varied) for file in files]
     rows: list[dict[str, Any]] = []
     predictions: list[list[dict[str, Any]]] = []
     tasks = [(scene, error) for cases, _ in devices for _, scene in cases]
@@ -115,8 +115,8 @@ def run(options: argparse.Namespace) -> None:
             print(json.dumps(rows, indent=2))
     require_scores(rows)
     if picture:
-        files = options.devices[0], model_for(options.devices[0], options.config)
-        unit = str(quantity_at(key, {file: read_yaml(file) for file in files})["unit"])
+        documents = {file: read_yaml(file) for file in (files[0], model_for(files[0], options.config))}
+        unit = str(quantity_at(key, documents)["unit"])
         cases, _ = devices[0]
         _draw(picture, key, unit, [values[key] for values, _ in cases], [scene for _, scene in cases], predictions)
         if is_text:
